@@ -1,0 +1,13 @@
+# The Emscripten toolchain of whoever is on the PATH: Debian's package or the user's own SDK.
+if(NOT DEFINED ENV{NODE_PATH} AND EXISTS /usr/share/nodejs)
+  set(ENV{NODE_PATH} /usr/share/nodejs) # Debian's emcc needs acorn from there at -O2 and above
+endif()
+find_program(EMCC emcc REQUIRED)
+file(REAL_PATH ${EMCC} EMCC_REAL)
+get_filename_component(EMSCRIPTEN_ROOT ${EMCC_REAL} DIRECTORY)
+set(EMSCRIPTEN_TOOLCHAIN ${EMSCRIPTEN_ROOT}/cmake/Modules/Platform/Emscripten.cmake)
+if(NOT EXISTS ${EMSCRIPTEN_TOOLCHAIN})
+  message(FATAL_ERROR "emcc is at ${EMCC_REAL}, but ${EMSCRIPTEN_TOOLCHAIN} does not exist; "
+                      "install it with: apt-get install emscripten")
+endif()
+include(${EMSCRIPTEN_TOOLCHAIN})

@@ -1,0 +1,29 @@
+// frame/display.frag: from summed light to what is shown, or to the linear values of an output file.
+//
+// in    uSum     see relief/light.frag, views/geometry.frag
+// out   oColor   LINEAR: values | coverage; else exposure, clamp and sRGB curve, premultiplied by the coverage
+#include "views/surface_pixel.glsl"
+#include "lib/shading.glsl"
+layout(std140) uniform DisplayBlock {
+    vec4 scale;  // the value is scale * sum + shift, before the exposure
+    vec4 shift;
+    int isScalar; // show the sum's alpha channel as grey
+    int encode;   // apply the sRGB curve: for light, not for normals or counts
+} display;
+uniform sampler2D uSum;
+layout(location = 0) out vec4 oColor;
+
+void main() {
+    SurfacePixel pixel = readSurface();
+    vec4 sum = texelFetch(uSum, ivec2(gl_FragCoord.xy), 0);
+    vec3 value = display.isScalar != 0 ? vec3(sum.a) : sum.rgb;
+    value = value * display.scale.rgb + display.shift.rgb;
+    float coverage = pixel.object < 0 ? 0.0 : pixel.coverage;
+#ifdef LINEAR
+    oColor = coverage > 0.0 ? vec4(value, coverage) : vec4(0.0);
+#else
+    vec3 clamped = clamp(value, 0.0, 1.0);
+    vec3 encoded = vec3(srgbFromLinear(clamped.r), srgbFromLinear(clamped.g), srgbFromLinear(clamped.b));
+    oColor = vec4((display.encode != 0 ? encoded : clamped) * coverage, coverage);
+#endif
+}

@@ -1,0 +1,59 @@
+// views/surface.frag: the first point of a height field that an eye ray meets.
+//
+// in    vPosition [m]  where the ray leaves the box (its back faces are drawn, so the eye may stand inside)
+// out   oSurface       see surface_pixel.glsl
+// model the bilinear field itself, met exactly; side walls down to field.bottom; open below
+#include "views/surface_block.glsl"
+#include "views/surface_pixel.glsl"
+uniform sampler2D uAlpha;
+in vec3 vPosition;
+layout(location = 0) out vec4 oSurface;
+
+// Coverage at g: the alpha image stretched over the footprint, bilinear between its texel centres.
+float coverageAt(vec2 g) {
+    ivec2 size = textureSize(uAlpha, 0);
+    vec2 at = (g - 0.5) / surface.field.texels * vec2(size) - 0.5;
+    vec2 cell = floor(at);
+    vec2 f = at - cell;
+    ivec2 low = clamp(ivec2(cell), ivec2(0), size - 1);
+    ivec2 high = clamp(ivec2(cell) + 1, ivec2(0), size - 1);
+    return mix(mix(texelFetch(uAlpha, low, 0).r, texelFetch(uAlpha, ivec2(high.x, low.y), 0).r, f.x),
+               mix(texelFetch(uAlpha, ivec2(low.x, high.y), 0).r, texelFetch(uAlpha, high, 0).r, f.x), f.y);
+}
+
+// The wall through which a ray enters the footprint.
+int wallFace(vec2 g, vec3 direction) {
+    vec2 fromLow = abs(g - 0.5);
+    vec2 fromHigh = abs(g - 0.5 - surface.field.texels);
+    // g.y grows towards -y; only sides that face the ray can be entered
+    float left = direction.x > 0.0 ? fromLow.x : 1e30;
+    float right = direction.x < 0.0 ? fromHigh.x : 1e30;
+    float bottom = direction.y > 0.0 ? fromHigh.y : 1e30;
+    float top = direction.y < 0.0 ? fromLow.y : 1e30;
+    float nearest = min(min(left, right), min(bottom, top));
+    return nearest == left ? 2 : nearest == right ? 3 : nearest == bottom ? 4 : 5;
+}
+
+void main() {
+    vec3 direction = surface.eye.w == 0.0 ? surface.eye.xyz : normalize(vPosition - surface.eye.xyz);
+    float reach = surface.eye.w == 0.0 ? 1e6 * (1.0 + length(vPosition)) : distance(vPosition, surface.eye.xyz);
+    vec2 g = gridFromObject(vPosition.xy, surface.field);
+    float reference = 0.5 * (surface.field.lowest + surface.field.highest);
+    float z0 = vPosition.z - reference * surface.field.heightScale;
+    Ray ray = rayFrom(g, z0, direction, reference, 0.0, surface.field);
+    Crossing hit = walk(ray, surface.field, -reach, reach, 0.0);
+    if (hit.entry > reach) discard;
+
+    vec2 hitG = vec2(ray.base) + ray.origin + hit.entry * ray.step;
+    hitG = clamp(hitG, vec2(0.5), surface.field.texels + 0.5);
+    bool isWall = hit.entry <= clipToFootprint(ray, surface.field, -reach, reach).x;
+    float z = isWall ? vPosition.z + hit.entry * direction.z
+                     : heightAt(hitG, surface.field) * surface.field.heightScale;
+    if (isWall && (z < surface.field.bottom || direction.xy == vec2(0.0))) discard;
+    float coverage = surface.hasAlpha != 0 ? clamp(coverageAt(hitG), 0.0, 1.0) : 1.0;
+    if (coverage == 0.0) discard;
+    int face = isWall ? wallFace(hitG, direction) : 1;
+    oSurface = vec4(hitG, z, packSurface(surface.object, face, coverage));
+    vec4 clip = surface.clipFromObject * vec4(objectFromGrid(hitG, surface.field), z, 1.0);
+    gl_FragDepth = clamp(0.5 + 0.5 * clip.z / clip.w, 0.0, 1.0);
+}

@@ -1,0 +1,26 @@
+// views/surface_pixel.glsl: what views/surface.frag leaves in a pixel of the surface image, and its reading.
+//
+// xy: g of field.glsl; z: object-space height in metres; w: object * 8 + face + coverage / 2. 0: nothing there.
+// Faces: 1 the field itself; 2..5 the walls towards -x, +x, -y, +y of object space.
+uniform sampler2D uSurface;
+
+struct SurfacePixel {
+    vec2 g;
+    float z;
+    int object; // index in the scene, -1: background
+    int face;
+    float coverage;
+};
+
+float packSurface(int object, int face, float coverage) { return float(8 * object + face) + 0.5 * coverage; }
+
+SurfacePixel readSurface() {
+    vec4 texel = texelFetch(uSurface, ivec2(gl_FragCoord.xy), 0);
+    int code = int(floor(texel.w));
+    return SurfacePixel(texel.xy, texel.z, code == 0 ? -1 : code >> 3, code & 7, 2.0 * fract(texel.w));
+}
+
+vec3 wallNormal(int face) {
+    float side = (face & 1) == 0 ? -1.0 : 1.0;
+    return face < 4 ? vec3(side, 0.0, 0.0) : vec3(0.0, side, 0.0);
+}

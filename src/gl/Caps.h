@@ -1,0 +1,28 @@
+#pragma once
+/// What this GPU can do. Kept apart are things that others conflate: rendering to float, blending into 32-bit
+/// float, filtering 32-bit float.
+
+#include <string>
+#include <vector>
+
+namespace lucent::gl {
+
+struct Caps {
+    std::string vendor, renderer, version;
+    int maxTextureSize = 0;
+    int maxDrawBuffers = 0;
+    bool colorBufferFloat = false; ///< EXT_color_buffer_float: draw into 16- and 32-bit floats
+    bool floatBlend = false;       ///< EXT_float_blend: blend into 32-bit floats
+    bool floatLinear = false;      ///< OES_texture_float_linear: filter 32-bit floats
+    bool timerQuery = false;       ///< EXT_disjoint_timer_query
+    bool software = false;         ///< llvmpipe or SwiftShader: timer queries time submission only
+
+    /// Asks the current context. On the web this also enables the extensions.
+    static Caps probe();
+    /// What is missing and what it costs, one line each, "caps: ..."; empty on a full machine.
+    std::vector<std::string> fallbacks() const;
+    /// JSON object of the fields above.
+    std::string json() const;
+};
+
+} // namespace lucent::gl

@@ -1,0 +1,114 @@
+#include "gl/Context.h"
+
+#include "gl/Gl.h"
+
+#ifndef __EMSCRIPTEN__
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#endif
+
+namespace lucent::gl {
+
+#ifdef __EMSCRIPTEN__
+
+struct Context::Window {};
+
+#else
+
+struct Context::Window {
+    EGLDisplay display = EGL_NO_DISPLAY;
+    EGLContext context = EGL_NO_CONTEXT;
+
+    ~Window() {
+        if (context == EGL_NO_CONTEXT) return;
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(display, context);
+    }
+
+    // A GPU with a driver of its own first, then Mesa without any window system.
+    Status open() {
+        if (openDevice() ||
+            openOn(eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)))
+            return Done{};
+        return Error{"gl: no OpenGL ES 3.0 context without a window system; install libegl-mesa0 and "
+                     "libgl1-mesa-dri, or the driver of the GPU",
+                     Fault::Machine};
+    }
+
+    bool openDevice() {
+        const auto queryDevices =
+            reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
+        const auto queryString =
+            reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(eglGetProcAddress("eglQueryDeviceStringEXT"));
+        EGLDeviceEXT devices[16];
+        EGLint count = 0;
+        if (!queryDevices || !queryString || !queryDevices(16, devices, &count)) return false;
+        for (EGLint i = 0; i < count; ++i) {
+            const char* extensions = queryString(devices[i], EGL_EXTENSIONS);
+            if (!extensions || std::string_view(extensions).find("software") != std::string_view::npos)
+                continue;
+            if (openOn(eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr))) return true;
+        }
+        return false;
+    }
+
+    bool openOn(EGLDisplay candidate) {
+        if (candidate == EGL_NO_DISPLAY || !eglInitialize(candidate, nullptr, nullptr)) return false;
+        eglBindAPI(EGL_OPENGL_ES_API);
+        const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
+                                 EGL_NONE};
+        EGLConfig config = nullptr;
+        EGLint count = 0;
+        if (!eglChooseConfig(candidate, wanted, &config, 1, &count) || !count) config = EGL_NO_CONFIG_KHR;
+        const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
+        const EGLContext made = eglCreateContext(candidate, config, EGL_NO_CONTEXT, version);
+        if (made == EGL_NO_CONTEXT) return false;
+        if (!eglMakeCurrent(candidate, EGL_NO_SURFACE, EGL_NO_SURFACE, made)) {
+            eglDestroyContext(candidate, made);
+            return false;
+        }
+        display = candidate;
+        context = made;
+        return true;
+    }
+};
+
+#endif
+
+Result<std::unique_ptr<Context>> Context::create() {
+    std::unique_ptr<Context> context(new Context);
+    context->window_ = std::make_unique<Window>();
+#ifndef __EMSCRIPTEN__
+    if (Status opened = context->window_->open(); !opened) return opened.error();
+#endif
+    context->caps_ = Caps::probe();
+    if (!context->caps_.colorBufferFloat)
+        return Error{"caps: cannot draw into floating-point textures (EXT_color_buffer_float missing) on " +
+                         context->caps_.renderer + "; light is summed in them",
+                     Fault::Machine};
+    context->device_ = std::make_unique<Device>();
+    return context;
+}
+
+Context::~Context() {
+    programs_.clear();
+    device_.reset();
+}
+
+Result<const Program*> Context::program(const std::string& stem, const std::vector<std::string>& defines) {
+    std::string key = stem;
+    for (const std::string& define : defines)
+        key += "|" + define;
+    if (const auto found = programs_.find(key); found != programs_.end()) return &found->second;
+    Result<Program> built = Program::build(stem, defines);
+    if (!built) return built.error();
+    return &programs_.emplace(key, std::move(*built)).first->second;
+}
+
+std::string Context::takeError() {
+    if (std::string error = device_->takeError(); !error.empty()) return error;
+    const GLenum error = glGetError();
+    return error ? "gl: error " + std::to_string(error) : "";
+}
+
+} // namespace lucent::gl

@@ -1,0 +1,49 @@
+#pragma once
+/// One GL context: EGL without a window natively, WebGL2 in a page. It owns the capability probe, the program
+/// cache and the device on which frame graphs run.
+
+#include "base/Result.h"
+#include "gl/Caps.h"
+#include "gl/Device.h"
+#include "gl/Program.h"
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace lucent::gl {
+
+class Context {
+public:
+    /// Natively: creates a surfaceless EGL context (OpenGL ES 3.0) and makes it current. In a page: takes the
+    /// WebGL2 context that is current and enables the extensions we use.
+    ///
+    /// @return Error (Fault::Machine) that says what is missing and what to install
+    static Result<std::unique_ptr<Context>> create();
+    ~Context();
+
+    const Caps& caps() const { return caps_; }
+    Device& device() { return *device_; }
+
+    /// The program of a shader stem ("relief/light") with feature switches ("USE_X", "STEPS 64"); compiled at
+    /// the first request, cached for the page. Error: the compiler's log against our files and lines.
+    Result<const Program*> program(const std::string& stem, const std::vector<std::string>& defines = {});
+
+    /// The first thing that went wrong on the GPU since the last call, "" when nothing did.
+    std::string takeError();
+
+    /// GL calls fail from here on until a new Context is made; objects need not be deleted.
+    void markLost() { lost_ = true; }
+    bool lost() const { return lost_; }
+
+private:
+    Context() = default;
+    struct Window;
+    std::unique_ptr<Window> window_;
+    Caps caps_;
+    std::unique_ptr<Device> device_;
+    std::map<std::string, Program> programs_;
+    bool lost_ = false;
+};
+
+} // namespace lucent::gl

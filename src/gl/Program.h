@@ -1,0 +1,46 @@
+#pragma once
+/// A linked shader program: compile errors speak of our files and lines, blocks are checked against C++.
+
+#include "base/Result.h"
+#include "graph/Device.h"
+
+#include <string>
+#include <vector>
+
+namespace lucent::gl {
+
+class Program : public graph::Program {
+public:
+    /// Compiles and links STEM.vert (or lib/screen.vert when there is none: one triangle over the target) and
+    /// STEM.frag with `defines` ("NAME" or "NAME VALUE").
+    ///
+    /// @return Error (Fault::Machine): every line of the log as "relief/light.frag:12: message"
+    static Result<Program> build(const std::string& stem, const std::vector<std::string>& defines);
+
+    Program(Program&& other) noexcept;
+    Program& operator=(Program&&) = delete;
+    ~Program() override;
+
+    unsigned id() const { return id_; }
+    /// Texture unit of a sampler; -1 when the program does not use it.
+    int unit(std::string_view sampler) const;
+    const std::vector<std::string>& samplers() const { return samplers_; }
+
+    /// Compares a block of C++ with what GL made of it, once.
+    ///
+    /// @return Error "relief/light: block ReliefBlock: depth at offset 16 in GLSL, 12 in C++"
+    Status checkBlock(const graph::BlockLayout& layout) const;
+
+private:
+    Program() = default;
+    void bindSamplers();
+    unsigned id_ = 0;
+    std::string stem_;
+    std::vector<std::string> samplers_; ///< the index is the texture unit
+    mutable const graph::BlockLayout* checked_ = nullptr;
+};
+
+/// Rewrites a driver's log so that each "0:LINE" or "ERROR: 0:LINE" names the file and line that was written.
+std::string translateLog(const std::string& log, const std::string& stagePath, int firstSourceLine);
+
+} // namespace lucent::gl

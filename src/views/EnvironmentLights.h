@@ -1,0 +1,24 @@
+#pragma once
+/// An environment as a few lights: equal rings of the sphere, each light with the mean radiance of its cell.
+
+#include "scene/Scene.h"
+
+#include <vector>
+
+namespace lucent::views {
+
+struct EnvironmentLight {
+    vec3 direction; ///< world, unit, towards the light
+    vec3 radiance;  ///< mean over its cell, linear Rec. 709
+    float weight;   ///< solid angle of its cell over 4 pi; all weights sum to 1
+};
+
+/// Divides the sphere of directions into about `count` cells of nearly equal solid angle (rings of latitude,
+/// each cut into as many cells as its length asks for) and averages the map over each, weighted by solid
+/// angle: summing map pixels without sin(phi) would over-weight the poles (thesis 2017, 3.2.2).
+///
+/// @param count  wanted number of lights, >= 6; the result differs by a few
+/// The cells are fixed to the map and turn with `environment.rotation`; `intensity` is included.
+std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count);
+
+} // namespace lucent::views

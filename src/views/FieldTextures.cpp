@@ -1,0 +1,211 @@
+#include "views/FieldTextures.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace lucent::views {
+
+using graph::Format;
+
+std::vector<graph::BlockLayout::Member> fieldMembers(std::size_t offset) {
+    return {{"field.texels", offset + offsetof(FieldBlock, texels)},
+            {"field.texelSize", offset + offsetof(FieldBlock, texelSize)},
+            {"field.heightScale", offset + offsetof(FieldBlock, heightScale)},
+            {"field.lowest", offset + offsetof(FieldBlock, lowest)},
+            {"field.highest", offset + offsetof(FieldBlock, highest)},
+            {"field.bottom", offset + offsetof(FieldBlock, bottom)},
+            {"field.topLevel", offset + offsetof(FieldBlock, topLevel)}};
+}
+
+HeightRange heightRange(const Image& heights) {
+    // Asked for several times a frame for the same few maps; the first and last texel guard a reused address.
+    struct Known {
+        const float* pixels;
+        std::size_t count;
+        float first, last;
+        HeightRange range;
+    };
+    static std::vector<Known> known;
+    const auto& pixels = heights.pixels;
+    for (const Known& one : known)
+        if (one.pixels == pixels.data() && one.count == pixels.size() && one.first == pixels.front() &&
+            one.last == pixels.back())
+            return one.range;
+    const auto [lowest, highest] = std::minmax_element(pixels.begin(), pixels.end());
+    if (known.size() == 8) known.erase(known.begin());
+    known.push_back({pixels.data(), pixels.size(), pixels.front(), pixels.back(), {*lowest, *highest}});
+    return known.back().range;
+}
+
+namespace {
+
+constexpr int kCoarsest = 16; // blocks on a side of the coarsest level, padding aside
+
+int levelCount(ivec2 cells) {
+    int levels = 1;
+    while (std::max(cells.x, cells.y) >> levels > kCoarsest)
+        ++levels;
+    return levels;
+}
+
+// The finest level: blocks of 2 x 2 cells, that is 3 x 3 samples, clamped at the border.
+PyramidLevel finestLevel(const Image& heights, int levels) {
+    const HeightRange range = heightRange(heights);
+    const double unit = (double(range.highest) - range.lowest) / 65535.0;
+    const auto quantised = [&](float height, bool up) -> std::uint16_t {
+        if (unit == 0) return 0;
+        const double steps = (double(height) - range.lowest) / unit;
+        return std::uint16_t(std::clamp(up ? std::ceil(steps) : std::floor(steps), 0.0, 65535.0));
+    };
+    const ivec2 cells = heights.size() + 1;
+    const int multiple = 1 << (levels - 1);
+    PyramidLevel level;
+    level.size = ((cells + 1) / 2 + multiple - 1) / multiple * multiple;
+    level.pairs.assign(std::size_t(level.size.x) * level.size.y * 2, 0);
+    const ivec2 blocks = (cells + 1) / 2;
+    for (int y = 0; y < blocks.y; ++y) {
+        for (int x = 0; x < blocks.x; ++x) {
+            float low = 1e38f, high = -1e38f;
+            for (int j = std::max(2 * y - 1, 0); j <= std::min(2 * y + 1, heights.height - 1); ++j) {
+                for (int i = std::max(2 * x - 1, 0); i <= std::min(2 * x + 1, heights.width - 1); ++i) {
+                    low = std::min(low, *heights.at(i, j));
+                    high = std::max(high, *heights.at(i, j));
+                }
+            }
+            const std::size_t at = (std::size_t(y) * level.size.x + x) * 2;
+            if (low > high) continue;
+            level.pairs[at] = quantised(low, false);
+            level.pairs[at + 1] = quantised(high, true);
+        }
+    }
+    return level;
+}
+
+PyramidLevel coarser(const PyramidLevel& fine) {
+    PyramidLevel level;
+    level.size = fine.size / 2;
+    level.pairs.resize(std::size_t(level.size.x) * level.size.y * 2);
+    for (int y = 0; y < level.size.y; ++y) {
+        for (int x = 0; x < level.size.x; ++x) {
+            const std::uint16_t* top = &fine.pairs[(std::size_t(2 * y) * fine.size.x + 2 * x) * 2];
+            const std::uint16_t* down = top + std::size_t(fine.size.x) * 2;
+            std::uint16_t* out = &level.pairs[(std::size_t(y) * level.size.x + x) * 2];
+            out[0] = std::min({top[0], top[2], down[0], down[2]});
+            out[1] = std::max({top[1], top[3], down[1], down[3]});
+        }
+    }
+    return level;
+}
+
+} // namespace
+
+std::vector<PyramidLevel> buildPyramid(const Image& heights) {
+    std::vector<PyramidLevel> levels;
+    const int count = levelCount((heights.size() + 2) / 2);
+    levels.push_back(finestLevel(heights, count));
+    while (int(levels.size()) < count)
+        levels.push_back(coarser(levels.back()));
+    return levels;
+}
+
+FieldTextures::FieldTextures(gl::Context& context, std::shared_ptr<const Image> heights)
+    : source_(std::move(heights)), range_(heightRange(*source_)) {
+    gl::Device& device = context.device();
+    heights_ = graph::Texture(device, {.size = source_->size(), .format = Format::R32F}, "views.heights");
+    device.upload(heights_.handle(), 0, source_->pixels);
+    const std::vector<PyramidLevel> levels = buildPyramid(*source_);
+    levels_ = int(levels.size());
+    pyramid_ = graph::Texture(device, {.size = levels[0].size, .format = Format::RG16UI, .levels = levels_},
+                              "views.pyramid");
+    for (int level = 0; level < levels_; ++level)
+        device.upload(pyramid_.handle(), level, levels[level].pairs);
+}
+
+FieldBlock FieldTextures::block(const scene::HeightField& field) const {
+    return {.texels = vec2(field.texels()),
+            .texelSize = field.texelSize(),
+            .heightScale = field.heightScale,
+            .lowest = range_.lowest,
+            .highest = range_.highest,
+            .bottom = std::min(range_.lowest, 0.0f) * field.heightScale,
+            .topLevel = float(levels_ - 1)};
+}
+
+std::vector<graph::Binding> FieldTextures::bindings() const {
+    return {{"uHeights", heights_.handle()}, {"uPyramid", pyramid_.handle()}};
+}
+
+// --- cache
+
+Status ImageCache::checkSize(const Image& image) const {
+    const int limit = context_.caps().maxTextureSize;
+    if (image.width <= limit && image.height <= limit) return Done{};
+    return Error{"image of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                     " pixels: too large for this GPU; must be at most " + std::to_string(limit) +
+                     " on a side",
+                 Fault::Machine};
+}
+
+Result<const FieldTextures*> ImageCache::field(const std::shared_ptr<const Image>& heights) {
+    Entry<FieldTextures>& entry = fields_[heights.get()];
+    if (!entry.value) {
+        if (Status fits = checkSize(*heights); !fits) return fits.error();
+        entry.value = std::make_unique<FieldTextures>(context_, heights);
+        entry.source = heights;
+    }
+    entry.used = true;
+    return entry.value.get();
+}
+
+Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image>& image) {
+    Entry<graph::Texture>& entry = images_[image.get()];
+    if (!entry.value) {
+        if (Status fits = checkSize(*image); !fits) return fits.error();
+        const bool scalar = image->channels == 1;
+        const graph::TextureDesc desc{
+            .size = image->size(), .format = scalar ? Format::R32F : Format::RGBA16F, .linear = !scalar};
+        entry.value =
+            std::make_unique<graph::Texture>(context_.device(), desc, scalar ? "views.alpha" : "views.map");
+        entry.source = image;
+        if (scalar) {
+            context_.device().upload(entry.value->handle(), 0, image->pixels);
+        } else {
+            std::vector<float> texels(std::size_t(image->width) * image->height * 4, 1.0f);
+            for (std::size_t i = 0; i < texels.size() / 4; ++i)
+                std::copy_n(&image->pixels[3 * i], 3, &texels[4 * i]);
+            std::vector<std::uint16_t> halves(texels.size());
+            std::transform(texels.begin(), texels.end(), halves.begin(), glm::packHalf1x16);
+            context_.device().upload(entry.value->handle(), 0, halves);
+        }
+    }
+    entry.used = true;
+    return entry.value->handle();
+}
+
+void ImageCache::trim() {
+    std::erase_if(fields_, [](const auto& entry) { return !entry.second.used; });
+    std::erase_if(images_, [](const auto& entry) { return !entry.second.used; });
+    for (auto& [key, entry] : fields_)
+        entry.used = false;
+    for (auto& [key, entry] : images_)
+        entry.used = false;
+}
+
+void ImageCache::clear() {
+    fields_.clear();
+    images_.clear();
+}
+
+std::size_t ImageCache::bytes() const {
+    std::size_t sum = 0;
+    for (const auto& [key, entry] : fields_)
+        sum += entry.value->bytes();
+    for (const auto& [key, entry] : images_)
+        sum += entry.value->desc().bytes();
+    return sum;
+}
+
+} // namespace lucent::views

@@ -1,0 +1,86 @@
+#pragma once
+/// A height field on the GPU: its heights, and the pyramid of lowest and highest heights by which rays skip.
+
+#include "gl/Context.h"
+#include "graph/Device.h"
+#include "scene/Scene.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace lucent::views {
+
+/// Mirrors struct Field of shaders/views/field.glsl.
+struct FieldBlock {
+    vec2 texels;
+    float texelSize, heightScale;
+    float lowest, highest;
+    float bottom, topLevel;
+};
+
+/// Offsets of a FieldBlock's members in a block that holds one at `offset`, for a BlockLayout.
+std::vector<graph::BlockLayout::Member> fieldMembers(std::size_t offset);
+
+struct HeightRange {
+    float lowest, highest; ///< stored heights
+};
+/// Range of a height map; remembered for the last few maps.
+HeightRange heightRange(const Image& heights);
+
+/// One level of a min-max pyramid: pairs of 16-bit numbers, row by row, rounded outwards over the map's
+/// range.
+struct PyramidLevel {
+    ivec2 size;
+    std::vector<std::uint16_t> pairs;
+};
+
+/// Lowest and highest height of every 2, 4, 8, ... cells squared, where a cell lies between four samples (or
+/// at the border between two, or one). Sizes are padded so that each level is half of the one before; the
+/// coarsest has at most 16 blocks on a side, padding aside. After maximum mipmaps (Tevs, Ihrke, Seidel 2008).
+std::vector<PyramidLevel> buildPyramid(const Image& heights);
+
+/// A height map and its pyramid as textures.
+class FieldTextures {
+public:
+    FieldTextures(gl::Context& context, std::shared_ptr<const Image> heights);
+
+    FieldBlock block(const scene::HeightField& field) const;
+    std::vector<graph::Binding> bindings() const;
+    std::size_t bytes() const { return heights_.desc().bytes() + pyramid_.desc().bytes(); }
+
+private:
+    std::shared_ptr<const Image> source_; // its address is the cache's key: it must not be reused
+    graph::Texture heights_, pyramid_;
+    HeightRange range_;
+    int levels_;
+};
+
+/// Textures of the images of a scene, each made once and dropped when no scene image needs it.
+class ImageCache {
+public:
+    explicit ImageCache(gl::Context& context) : context_(context) {}
+    /// Error (Fault::Machine) when the map is larger than the GPU's textures.
+    Result<const FieldTextures*> field(const std::shared_ptr<const Image>& heights);
+    /// A colour map or alpha: 1 channel becomes R32F, 3 become RGBA16F filtered.
+    Result<graph::TextureHandle> image(const std::shared_ptr<const Image>& image);
+    /// Drops what was not asked for since the last trim().
+    void trim();
+    void clear();
+    std::size_t bytes() const;
+
+private:
+    template <class Value>
+    struct Entry {
+        std::unique_ptr<Value> value;
+        std::shared_ptr<const Image> source;
+        bool used = true;
+    };
+    Status checkSize(const Image& image) const;
+    gl::Context& context_;
+    std::map<const Image*, Entry<FieldTextures>> fields_;
+    std::map<const Image*, Entry<graph::Texture>> images_;
+};
+
+} // namespace lucent::views

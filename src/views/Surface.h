@@ -1,0 +1,36 @@
+#pragma once
+/// The camera's view of the scene: for each pixel the first point it meets (one layer).
+
+#include "graph/FrameGraph.h"
+#include "scene/Scene.h"
+#include "views/Eye.h"
+#include "views/FieldTextures.h"
+
+#include <vector>
+
+namespace lucent::views {
+
+/// A visible object with its textures.
+struct DrawnObject {
+    const scene::Object* object = nullptr;
+    int index = 0; ///< in the scene
+    const FieldTextures* field = nullptr;
+    graph::TextureHandle alpha = graph::TextureHandle::None;
+    graph::TextureHandle baseMap = graph::TextureHandle::None;
+    graph::TextureHandle diffuseMap = graph::TextureHandle::None;
+    graph::TextureHandle specularMap = graph::TextureHandle::None;
+};
+
+/// Looks the textures of a scene's visible objects up.
+Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCache& images);
+
+/// Draws the surface image (layout: shaders/views/surface_pixel.glsl) into `target`, RGBA32F.
+Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                     const std::vector<DrawnObject>& objects, graph::TextureId target, ivec2 size);
+
+/// Draws a geometric AOV (normal, depth or position) of the surface image into `target`.
+Status recordGeometry(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                      const std::vector<DrawnObject>& objects, graph::TextureId surface,
+                      graph::TextureId target, scene::Aov aov);
+
+} // namespace lucent::views
