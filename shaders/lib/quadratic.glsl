@@ -1,4 +1,5 @@
-// lib/quadratic.glsl: where a q^2 + b q + c is positive. Compiles as GLSL and, with GLM, as C++.
+// lib/quadratic.glsl: where a q^2 + b q + c is positive. Compiles as GLSL and, with GLM, as C++
+// (hence the f of the constants).
 //
 // Between four samples the height less the ray's height is a quadratic in the ray parameter (a bilinear patch cut
 // by a vertical plane), so the length inside the solid is exact. Roots after Press et al., Numerical Recipes 5.6:
@@ -7,35 +8,35 @@
 // Real roots in ascending order, or both at +1e30 when there are none. Without a quadratic part one root is at
 // infinity (+-1e30), without a linear part both are.
 vec2 quadraticRoots(float a, float b, float c) {
-    float discriminant = b * b - 4.0 * a * c;
-    if (discriminant < 0.0) return vec2(1e30, 1e30);
-    float q = -0.5 * (b + (b < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
-    float first = a == 0.0 ? 1e30 : q / a;
-    float second = q == 0.0 ? (a == 0.0 ? 1e30 : 0.0) : c / q;
+    float discriminant = b * b - 4.0f * a * c;
+    if (discriminant < 0.0f) return vec2(1e30f, 1e30f);
+    float q = -0.5f * (b + (b < 0.0f ? -1.0f : 1.0f) * sqrt(discriminant));
+    float first = a == 0.0f ? 1e30f : q / a;
+    float second = q == 0.0f ? (a == 0.0f ? 1e30f : 0.0f) : c / q;
     return vec2(min(first, second), max(first, second));
 }
 
 // Part of [0, length] on which the quadratic is positive.
 // x: its summed length, exact up to rounding; y: its first point, or 1e30 when there is none.
 vec2 positivePart(float a, float b, float c, float length) {
-    vec2 roots = clamp(quadraticRoots(a, b, c), vec2(0.0), vec2(length));
+    vec2 roots = clamp(quadraticRoots(a, b, c), vec2(0.0f), vec2(length));
     // The roots cut the stretch into three; the sign in the middle of each decides.
-    float inside = 0.0;
-    float entry = 1e30;
-    float middle = 0.5 * (roots.y + length);
-    if (roots.y < length && (a * middle + b) * middle + c > 0.0) {
+    float inside = 0.0f;
+    float entry = 1e30f;
+    float middle = 0.5f * (roots.y + length);
+    if (roots.y < length && (a * middle + b) * middle + c > 0.0f) {
         inside += length - roots.y;
         entry = roots.y;
     }
-    middle = 0.5 * (roots.x + roots.y);
-    if (roots.x < roots.y && (a * middle + b) * middle + c > 0.0) {
+    middle = 0.5f * (roots.x + roots.y);
+    if (roots.x < roots.y && (a * middle + b) * middle + c > 0.0f) {
         inside += roots.y - roots.x;
         entry = roots.x;
     }
-    middle = 0.5 * roots.x;
-    if (roots.x > 0.0 && (a * middle + b) * middle + c > 0.0) {
+    middle = 0.5f * roots.x;
+    if (roots.x > 0.0f && (a * middle + b) * middle + c > 0.0f) {
         inside += roots.x;
-        entry = 0.0;
+        entry = 0.0f;
     }
     return vec2(inside, entry);
 }

@@ -1,0 +1,28 @@
+#pragma once
+/// The vector and matrix types of the whole project, and the few constants that the field keeps using.
+///
+/// House units: metres, radians, linear Rec. 709, y up, right-handed.
+
+#include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <numbers>
+
+namespace lucent {
+using glm::dvec2;
+using glm::dvec3;
+using glm::ivec2;
+using glm::mat3;
+using glm::mat4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+
+inline constexpr float kPi = std::numbers::pi_v<float>;
+
+/// Rotation about the fixed x, then y, then z axis.
+///
+/// @param degrees  angles about x, y, z in degrees, any value
+/// @return         worldFromLocal rotation
+mat3 rotationFromDegrees(vec3 degrees);
+} // namespace lucent

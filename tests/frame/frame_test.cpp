@@ -1,0 +1,171 @@
+// The renderer: only the passes that a scene needs, stages of an environment, and what explain says.
+#include "tests/support/Fields.h"
+#include "tests/support/Gl.h"
+
+namespace lucent::frame {
+namespace {
+
+struct Frame : support::GlTest {
+    scene::Scene scene = support::sceneOf(support::waves({40, 30}), 0.2f, 0.05f);
+    void addEnvironment(int lights) {
+        scene.environment.emplace();
+        auto white = std::make_shared<Image>(8, 4, 3);
+        std::fill(white->pixels.begin(), white->pixels.end(), 1.0f);
+        scene.environment->map = white;
+        support::reliefSettings(scene).environmentLights = lights;
+    }
+    // "views.surface relief.light frame.display": the passes of explain(), in order.
+    std::string passes() {
+        Renderer renderer(*context);
+        const Result<std::string> text = renderer.explain(scene, {40, 30});
+        EXPECT_TRUE(text.ok());
+        std::string names;
+        const std::size_t begin = text->find("passes"), end = text->find("textures that stay");
+        for (std::size_t at = text->find("\n  ", begin); at < end; at = text->find("\n  ", at + 1)) {
+            if ((*text)[at + 3] == ' ') continue; // a target
+            names += (names.empty() ? "" : " ") + text->substr(at + 3, text->find(':', at) - at - 3);
+        }
+        return names;
+    }
+};
+
+TEST_F(Frame, APointLightRunsSurfaceLightAndDisplayOnly) {
+    scene.lights.push_back(scene::PointLight{});
+    EXPECT_EQ(passes(), "views.surface relief.light frame.display");
+}
+
+TEST_F(Frame, AGeometricViewRunsNoLight) {
+    scene.view.show = scene::Aov::Normal;
+    EXPECT_EQ(passes(), "views.surface views.geometry frame.display");
+}
+
+TEST_F(Frame, ExplainNamesReasonsBytesAndWhatWasLeftOut) {
+    scene.lights.push_back(scene::PointLight{});
+    Renderer renderer(*context);
+    const std::string text = *renderer.explain(scene, {40, 30});
+    for (const char* part :
+         {"relief: object \"field\" is a height field",
+          "lights 0 to 0 of 1 through the solid, method hierarchy",
+          "-> frame.surface 40x30 RGBA32F, 19200 bytes",
+          "views.depth: one visible object cannot hide another", "environment: the scene names none",
+          "heights, pyramids and maps of the objects"})
+        EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+}
+
+TEST_F(Frame, APointLightIsDoneInOneSlice) {
+    scene.lights.push_back(scene::PointLight{});
+    Renderer renderer(*context);
+    const auto progress = renderer.advance(scene, 1, {40, 30});
+    ASSERT_TRUE(progress.ok());
+    EXPECT_TRUE(progress->complete);
+    EXPECT_EQ(renderer.stats().draws, 2); // the surface and the light; present() adds one
+    EXPECT_EQ(renderer.stats().passes, 2);
+    EXPECT_EQ(renderer.stats().lights, 1);
+}
+
+TEST_F(Frame, ACompletePictureIsNotDrawnAgain) {
+    scene.lights.push_back(scene::PointLight{});
+    Renderer renderer(*context);
+    ASSERT_TRUE(renderer.finish(scene, 1, {40, 30}).ok());
+    const int draws = context->device().drawCount();
+    ASSERT_TRUE(renderer.advance(scene, 1, {40, 30})->complete);
+    EXPECT_EQ(context->device().drawCount(), draws);
+    ASSERT_TRUE(renderer.advance(scene, 2, {40, 30})->complete); // a changed scene is
+    EXPECT_GT(context->device().drawCount(), draws);
+}
+
+TEST_F(Frame, AnEnvironmentIsSummedInStagesToTheSameMean) {
+    addEnvironment(300);
+    Renderer renderer(*context);
+    int slices = 0;
+    float last = -1;
+    for (;; ++slices) {
+        const auto progress = renderer.advance(scene, 1, {40, 30});
+        ASSERT_TRUE(progress.ok());
+        EXPECT_GE(progress->fraction, last);
+        last = progress->fraction;
+        if (progress->complete) break;
+        ASSERT_LT(slices, 1000);
+    }
+    EXPECT_EQ(last, 1);
+    EXPECT_GE(slices, 2); // 20, 80 and 300 directions
+    const int all = renderer.stats().lights;
+    EXPECT_NEAR(all, 300, 30);
+    // However the sum was sliced, the picture is that of all directions at once.
+    const Image sliced = *renderer.read(scene, scene::Aov::Color);
+    double mean = 0;
+    for (std::size_t i = 0; i < sliced.pixels.size(); i += 4)
+        mean += sliced.pixels[i];
+    mean /= double(sliced.pixels.size() / 4);
+    EXPECT_GT(mean, 0.1);
+    EXPECT_LT(mean, 0.5); // the diffuse albedo is 1 and half of the sphere lies below
+}
+
+TEST_F(Frame, ACoarseLookIsTheFirstStageAlone) {
+    addEnvironment(300);
+    Renderer renderer(*context);
+    for (;;) {
+        const auto progress = renderer.advance(scene, 1, {40, 30}, true);
+        ASSERT_TRUE(progress.ok());
+        if (progress->complete) break;
+    }
+    EXPECT_NEAR(renderer.stats().lights, 20, 6);
+    EXPECT_FALSE(renderer.advance(scene, 1, {40, 30}, false)->complete); // letting go refines
+}
+
+TEST_F(Frame, NormaliseDividesByTheNumberOfLights) {
+    addEnvironment(20);
+    scene.lights.push_back(scene::PointLight{});
+    const auto settings = support::reliefSettings(scene);
+    const auto lights = relief::Relief::lights(scene, settings, 20);
+    auto normalised = settings;
+    normalised.normalise = true;
+    const auto divided = relief::Relief::lights(scene, normalised, 20);
+    // One point light and one environment: everything is halved.
+    EXPECT_FLOAT_EQ(divided.front().color.r, 0.5f * lights.front().color.r);
+    EXPECT_FLOAT_EQ(divided.back().color.r, 0.5f * lights.back().color.r);
+}
+
+TEST_F(Frame, DisplayIsExposedEncodedAndClamped) {
+    scene.objects[0].material.base = vec3(0.5f, 2.0f, 0.0f);
+    Renderer renderer(*context);
+    ASSERT_TRUE(renderer.finish(scene, 1, {40, 30}).ok());
+    const auto pixel = [&] {
+        const Image image = *renderer.readDisplay(scene);
+        return vec3(image.at(20, 15)[0], image.at(20, 15)[1], image.at(20, 15)[2]);
+    };
+    // sRGB of 0.5 is 0.7354; one step up makes it 1, one down 0.25 -> 0.5371.
+    EXPECT_NEAR(pixel().r, 0.7354, 0.5 / 255);
+    EXPECT_EQ(pixel().g, 1);
+    EXPECT_EQ(pixel().b, 0);
+    scene.view.exposure = -1;
+    EXPECT_NEAR(pixel().r, 0.5371, 0.5 / 255);
+}
+
+TEST_F(Frame, ReleaseGivesTheMemoryBackAndThePictureComesAgain) {
+    scene.lights.push_back(scene::PointLight{});
+    const std::size_t before = context->device().textureBytes();
+    Renderer renderer(*context);
+    ASSERT_TRUE(renderer.finish(scene, 1, {40, 30}).ok());
+    const Image first = *renderer.read(scene, scene::Aov::Color);
+    EXPECT_GT(context->device().textureBytes(), before);
+    renderer.release();
+    EXPECT_EQ(context->device().textureBytes(), before);
+    ASSERT_TRUE(renderer.finish(scene, 1, {40, 30}).ok());
+    EXPECT_EQ(renderer.read(scene, scene::Aov::Color)->pixels, first.pixels);
+}
+
+TEST_F(Frame, AMapLargerThanTheGpuAllowsIsRefusedByItsSize) {
+    const int limit = context->caps().maxTextureSize;
+    scene.objects[0].shape.heights = support::heights({limit + 1, 1}, [](int, int) { return 0.0f; });
+    Renderer renderer(*context);
+    const Status status = renderer.finish(scene, 1, {8, 8});
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().message, "image of " + std::to_string(limit + 1) +
+                                          "x1 pixels: too large for this GPU; must be at most " +
+                                          std::to_string(limit) + " on a side");
+    EXPECT_EQ(status.error().fault, Fault::Machine);
+}
+
+} // namespace
+} // namespace lucent::frame

@@ -1,0 +1,134 @@
+// Views without GL: the min-max pyramid and the environment as lights.
+#include "tests/support/Fields.h"
+#include "views/EnvironmentLights.h"
+#include "views/Eye.h"
+#include "views/FieldTextures.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace lucent::views {
+namespace {
+
+struct Sizes : testing::TestWithParam<ivec2> {};
+INSTANTIATE_TEST_SUITE_P(Pyramid, Sizes,
+                         testing::Values(ivec2(1, 1), ivec2(1, 7), ivec2(2, 2), ivec2(33, 20),
+                                         ivec2(257, 100), ivec2(64, 64)));
+
+TEST_P(Sizes, EveryBlockBoundsTheHeightsOfItsCells) {
+    const auto map = support::noise(GetParam());
+    const HeightRange range = heightRange(*map);
+    const double unit = (double(range.highest) - range.lowest) / 65535;
+    const auto levels = buildPyramid(*map);
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        // Cell (i, j) lies between samples i - 1 and i; a block of level k holds 2^(k+1) cells on a side.
+        const int edge = 2 << k;
+        for (int y = 0; y <= map->height; ++y) {
+            for (int x = 0; x <= map->width; ++x) {
+                const std::size_t at = (std::size_t(y / edge) * levels[k].size.x + x / edge) * 2;
+                for (int corner = 0; corner < 4; ++corner) {
+                    const int i = glm::clamp(x - (corner & 1), 0, map->width - 1);
+                    const int j = glm::clamp(y - (corner >> 1), 0, map->height - 1);
+                    const double height = *map->at(i, j);
+                    ASSERT_LE(range.lowest + levels[k].pairs[at] * unit, height + 1e-12);
+                    ASSERT_GE(range.lowest + levels[k].pairs[at + 1] * unit, height - 1e-12);
+                }
+            }
+        }
+    }
+}
+
+TEST_P(Sizes, LevelsHalveExactlyAsTexturesDo) {
+    const auto levels = buildPyramid(*support::noise(GetParam()));
+    for (std::size_t k = 1; k < levels.size(); ++k)
+        EXPECT_EQ(levels[k].size * 2, levels[k - 1].size);
+    EXPECT_GE(levels[0].size.x * 2, GetParam().x + 1);
+    EXPECT_GE(levels[0].size.y * 2, GetParam().y + 1);
+}
+
+std::shared_ptr<const Image> mapOf(ivec2 size, const std::function<vec3(int, int)>& color) {
+    auto image = std::make_shared<Image>(size.x, size.y, 3);
+    for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x) {
+            const vec3 c = color(x, y);
+            std::copy_n(&c[0], 3, image->at(x, y));
+        }
+    }
+    return image;
+}
+
+TEST(EnvironmentLights, WeightsCoverTheSphereOnce) {
+    scene::Environment environment;
+    environment.map = mapOf({64, 32}, [](int, int) { return vec3(1); });
+    for (int count : {6, 20, 256, 1000}) {
+        double sum = 0;
+        vec3 balance(0);
+        const auto lights = environmentLights(environment, count);
+        for (const EnvironmentLight& light : lights) {
+            sum += light.weight;
+            balance += light.weight * light.direction;
+            EXPECT_NEAR(glm::length(light.direction), 1, 1e-6);
+            EXPECT_NEAR(light.radiance.g, 1, 1e-6); // a mean of ones
+        }
+        EXPECT_NEAR(sum, 1, 1e-6);
+        EXPECT_NEAR(glm::length(balance), 0, 1e-6); // a symmetric set has no favourite direction
+        EXPECT_NEAR(double(lights.size()), count, 0.3 * count + 6);
+    }
+}
+
+TEST(EnvironmentLights, TheMeanIsWeightedBySolidAngleNotByPixels) {
+    // White where y > 1/2 of the way to the pole: polar angle below 60 degrees, a cap of (1 - cos 60)/2 = 1/4
+    // of the sphere, though it fills a third of the map's rows.
+    scene::Environment environment;
+    environment.map = mapOf({96, 48}, [](int, int y) { return vec3(y < 16 ? 1 : 0); });
+    vec3 mean(0);
+    for (const EnvironmentLight& light : environmentLights(environment, 256))
+        mean += light.weight * light.radiance;
+    EXPECT_NEAR(mean.r, 0.25, 1e-6);
+}
+
+TEST(EnvironmentLights, DirectionsFollowTheMapConvention) {
+    // One bright pixel right of the centre, on the horizon: centre column is -z, to the right +x.
+    scene::Environment environment;
+    environment.map = mapOf({64, 32}, [](int x, int y) { return vec3(x == 48 && y == 16 ? 1 : 0); });
+    vec3 mean(0);
+    for (const EnvironmentLight& light : environmentLights(environment, 4000))
+        mean += light.weight * light.radiance.r * light.direction;
+    EXPECT_GT(glm::dot(glm::normalize(mean), vec3(1, 0, 0)), 0.99);
+    // Turned by 90 degrees about +y, +x goes to -z.
+    environment.rotation = {0, 90, 0};
+    mean = vec3(0);
+    for (const EnvironmentLight& light : environmentLights(environment, 4000))
+        mean += light.weight * light.radiance.r * light.direction;
+    EXPECT_GT(glm::dot(glm::normalize(mean), vec3(0, 0, -1)), 0.99);
+}
+
+TEST(EnvironmentLights, AFullTurnKeepsEveryLight) {
+    scene::Environment environment;
+    environment.map = mapOf({64, 32}, [](int x, int y) { return vec3(float(x), float(y), 1); });
+    const auto before = environmentLights(environment, 256);
+    environment.rotation = {360, -360, 720};
+    const auto after = environmentLights(environment, 256);
+    ASSERT_EQ(before.size(), after.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        // 720 degrees in float radians are off by 2e-7 of a turn at most
+        EXPECT_NEAR(glm::distance(before[i].direction, after[i].direction), 0, 5e-6);
+        EXPECT_EQ(before[i].radiance, after[i].radiance);
+    }
+}
+
+TEST(Eye, PutsItsPlanesAroundTheObjects) {
+    scene::Scene scene = support::sceneOf(support::waves({16, 16}), 0.2f, 0.05f);
+    for (float distance : {0.5f, 2.0f, 1e4f}) {
+        scene.camera.eye = {0, 0, distance};
+        const Eye eye = makeEye(scene, 1);
+        for (float z : {0.0f, 0.2f}) {
+            const vec4 clip = eye.clipFromWorld * vec4(0.3f, -0.3f, z, 1);
+            EXPECT_LT(std::abs(clip.z), clip.w) << distance;
+        }
+    }
+}
+
+} // namespace
+} // namespace lucent::views
