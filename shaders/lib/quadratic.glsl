@@ -20,23 +20,10 @@ vec2 quadraticRoots(float a, float b, float c) {
 // x: its summed length, exact up to rounding; y: its first point, or 1e30 when there is none.
 vec2 positivePart(float a, float b, float c, float length) {
     vec2 roots = clamp(quadraticRoots(a, b, c), vec2(0.0f), vec2(length));
-    // The roots cut the stretch into three; the sign in the middle of each decides.
-    float inside = 0.0f;
-    float entry = 1e30f;
-    float middle = 0.5f * (roots.y + length);
-    if (roots.y < length && (a * middle + b) * middle + c > 0.0f) {
-        inside += length - roots.y;
-        entry = roots.y;
-    }
-    middle = 0.5f * (roots.x + roots.y);
-    if (roots.x < roots.y && (a * middle + b) * middle + c > 0.0f) {
-        inside += roots.y - roots.x;
-        entry = roots.x;
-    }
-    middle = 0.5f * roots.x;
-    if (roots.x > 0.0f && (a * middle + b) * middle + c > 0.0f) {
-        inside += roots.x;
-        entry = 0.0f;
-    }
-    return vec2(inside, entry);
+    float between = roots.y - roots.x;
+    // Between the roots the sign is that against a; a line has its second root at infinity; a constant has none.
+    bool positiveBetween = a < 0.0f || (a == 0.0f && (b > 0.0f || (b == 0.0f && c <= 0.0f)));
+    if (positiveBetween) return vec2(between, between > 0.0f ? roots.x : 1e30f);
+    float entry = roots.x > 0.0f ? 0.0f : (roots.y < length ? roots.y : 1e30f);
+    return vec2(length - between, entry);
 }

@@ -348,6 +348,8 @@ Status Renderer::present(const scene::Scene& scene) {
     });
 }
 
+void Renderer::wait() { state_->context.device().wait(state_->shown.handle()); }
+
 Result<Image> Renderer::read(const scene::Scene& scene, Aov aov) {
     State& s = *state_;
     if (scene.view.show == aov && s.complete()) return s.display(scene, true);

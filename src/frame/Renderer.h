@@ -53,6 +53,9 @@ public:
     /// Runs advance() until complete.
     Status finish(const scene::Scene& scene, std::uint64_t revision, ivec2 size);
 
+    /// Returns when the GPU has finished the picture.
+    void wait();
+
     /// Linear values of an AOV, 4 channels; the fourth is coverage. Color without tone mapping. Draws the
     /// picture again when it does not show that AOV.
     Result<Image> read(const scene::Scene& scene, scene::Aov aov);

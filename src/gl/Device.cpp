@@ -24,8 +24,8 @@ GlFormat glFormat(Format format) {
         return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
     case Format::R32F:
         return {GL_R32F, GL_RED, GL_FLOAT};
-    case Format::RG16UI:
-        return {GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT};
+    case Format::R32UI:
+        return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT};
     case Format::RGBA16F:
         return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
     case Format::RGBA32F:

@@ -12,7 +12,7 @@ struct FormatInfo {
     int bytes;
 };
 constexpr FormatInfo kFormats[] = {
-    {"R8", 1}, {"RGBA8", 4}, {"R32F", 4}, {"RG16UI", 4}, {"RGBA16F", 8}, {"RGBA32F", 16}, {"Depth24", 4},
+    {"R8", 1}, {"RGBA8", 4}, {"R32F", 4}, {"R32UI", 4}, {"RGBA16F", 8}, {"RGBA32F", 16}, {"Depth24", 4},
 };
 } // namespace
 

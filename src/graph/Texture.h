@@ -9,7 +9,7 @@
 
 namespace lucent::graph {
 
-enum class Format : std::uint8_t { R8, RGBA8, R32F, RG16UI, RGBA16F, RGBA32F, Depth24 };
+enum class Format : std::uint8_t { R8, RGBA8, R32F, R32UI, RGBA16F, RGBA32F, Depth24 };
 const char* name(Format format);
 int bytesPerTexel(Format format);
 

@@ -61,7 +61,7 @@ PyramidLevel finestLevel(const Image& heights, int levels) {
         return std::uint16_t(std::clamp(up ? std::ceil(steps) : std::floor(steps), 0.0, 65535.0));
     };
     const ivec2 cells = heights.size() + 1;
-    const int multiple = 1 << (levels - 1);
+    const int multiple = std::max(2, 1 << (levels - 1)); // even: the atlas is one and a half as wide
     PyramidLevel level;
     level.size = ((cells + 1) / 2 + multiple - 1) / multiple * multiple;
     level.pairs.assign(std::size_t(level.size.x) * level.size.y * 2, 0);
@@ -111,6 +111,34 @@ std::vector<PyramidLevel> buildPyramid(const Image& heights) {
     return levels;
 }
 
+namespace {
+
+struct Atlas {
+    ivec2 size;
+    std::vector<std::uint32_t> words; // lowest in the low half, highest in the high half
+};
+
+// The finest level at the left, the coarser ones above each other right of it.
+Atlas packPyramid(const std::vector<PyramidLevel>& levels) {
+    const ivec2 finest = levels[0].size;
+    Atlas atlas{{finest.x * 3 / 2, finest.y}, {}};
+    atlas.words.resize(std::size_t(atlas.size.x) * atlas.size.y);
+    ivec2 corner(0);
+    for (const PyramidLevel& level : levels) {
+        for (int y = 0; y < level.size.y; ++y) {
+            for (int x = 0; x < level.size.x; ++x) {
+                const std::uint16_t* pair = &level.pairs[(std::size_t(y) * level.size.x + x) * 2];
+                atlas.words[std::size_t(corner.y + y) * atlas.size.x + corner.x + x] =
+                    std::uint32_t(pair[0]) | std::uint32_t(pair[1]) << 16;
+            }
+        }
+        corner = corner.x ? ivec2(corner.x, corner.y + level.size.y) : ivec2(finest.x, 0);
+    }
+    return atlas;
+}
+
+} // namespace
+
 FieldTextures::FieldTextures(gl::Context& context, std::shared_ptr<const Image> heights)
     : source_(std::move(heights)), range_(heightRange(*source_)) {
     gl::Device& device = context.device();
@@ -118,10 +146,9 @@ FieldTextures::FieldTextures(gl::Context& context, std::shared_ptr<const Image> 
     device.upload(heights_.handle(), 0, source_->pixels);
     const std::vector<PyramidLevel> levels = buildPyramid(*source_);
     levels_ = int(levels.size());
-    pyramid_ = graph::Texture(device, {.size = levels[0].size, .format = Format::RG16UI, .levels = levels_},
-                              "views.pyramid");
-    for (int level = 0; level < levels_; ++level)
-        device.upload(pyramid_.handle(), level, levels[level].pairs);
+    const Atlas atlas = packPyramid(levels);
+    pyramid_ = graph::Texture(device, {.size = atlas.size, .format = Format::R32UI}, "views.pyramid");
+    device.upload(pyramid_.handle(), 0, atlas.words);
 }
 
 FieldBlock FieldTextures::block(const scene::HeightField& field) const {
@@ -131,7 +158,7 @@ FieldBlock FieldTextures::block(const scene::HeightField& field) const {
             .lowest = range_.lowest,
             .highest = range_.highest,
             .bottom = std::min(range_.lowest, 0.0f) * field.heightScale,
-            .topLevel = float(levels_ - 1)};
+            .topLevel = float(levels_)};
 }
 
 std::vector<graph::Binding> FieldTextures::bindings() const {
