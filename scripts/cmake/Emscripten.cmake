@@ -1,7 +1,4 @@
 # The Emscripten toolchain of whoever is on the PATH: Debian's package or the user's own SDK.
-if(NOT DEFINED ENV{NODE_PATH} AND EXISTS /usr/share/nodejs)
-  set(ENV{NODE_PATH} /usr/share/nodejs) # Debian's emcc needs acorn from there at -O2 and above
-endif()
 find_program(EMCC emcc REQUIRED)
 file(REAL_PATH ${EMCC} EMCC_REAL)
 get_filename_component(EMSCRIPTEN_ROOT ${EMCC_REAL} DIRECTORY)
@@ -11,3 +8,10 @@ if(NOT EXISTS ${EMSCRIPTEN_TOOLCHAIN})
                       "install it with: apt-get install emscripten")
 endif()
 include(${EMSCRIPTEN_TOOLCHAIN})
+
+# Debian's emcc finds acorn, which it needs at -O2 and above when it links, only with this path.
+if(NOT DEFINED ENV{NODE_PATH} AND EXISTS /usr/share/nodejs)
+  foreach(language C CXX)
+    set(CMAKE_${language}_LINKER_LAUNCHER ${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs)
+  endforeach()
+endif()

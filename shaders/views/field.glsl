@@ -193,12 +193,16 @@ Crossing walk(Ray ray, Field field, float from, float to, float enough) {
     if (ray.rise > 0.0) end = min(end, (ceiling - ray.z0) / ray.rise);
     else if (ray.rise < 0.0) s = max(s, (ceiling - ray.z0) / ray.rise);
     else if (ray.z0 >= ceiling) return crossing;
+    // Below the lowest point all is inside: a falling ray is followed down to there only.
+    float floorZ = relativeHeight(field.lowest, ray, field);
+    float sunk = ray.rise < 0.0 ? clamp((floorZ - ray.z0) / ray.rise, s, max(s, end)) : end;
+    float sunkLength = max(end - sunk, 0.0);
+    end = min(end, sunk);
 
     // A direction component of 0 never leaves its cell: its border is at +infinity.
     Way way = Way(vec2(ray.step.x == 0.0 ? 1e30 : 1.0 / ray.step.x, ray.step.y == 0.0 ? 1e30 : 1.0 / ray.step.y),
                   ivec2(ray.step.x >= 0.0 ? 1 : 0, ray.step.y >= 0.0 ? 1 : 0), int(field.topLevel));
     float unit = (field.highest - field.lowest) * field.heightScale / 65535.0;
-    float floorZ = relativeHeight(field.lowest, ray, field);
     ivec2 finest = textureSize(uPyramid, 0); // level 1 is two thirds of the image's width and all of its height
     finest.x = finest.x * 2 / 3;
     int level = min(kFirstLevel, way.topLevel);
@@ -247,6 +251,10 @@ Crossing walk(Ray ray, Field field, float from, float to, float enough) {
             s = exit;
             block = leave(block, borders, way);
         }
+    }
+    if (sunkLength > 0.0 && crossing.inside <= enough) {
+        crossing.inside += sunkLength;
+        crossing.entry = min(crossing.entry, sunk);
     }
     return crossing;
 }

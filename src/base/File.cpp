@@ -22,7 +22,7 @@ Error failed(const std::string& path, const char* what, int reason) {
 bool writeAll(const std::string& path, std::span<const std::byte> bytes) {
     std::FILE* file = std::fopen(path.c_str(), "wb");
     if (!file) return false;
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    const bool written = bytes.empty() || std::fwrite(bytes.data(), bytes.size(), 1, file) == 1;
     return std::fclose(file) == 0 && written; // a full disk may show only when the last bytes are flushed
 }
 

@@ -1,5 +1,6 @@
 #include "base/Image.h"
 
+#include "base/Hdr.h"
 #include "base/ImageSize.h"
 #include "base/Pfm.h"
 #include "base/Stb.h"
@@ -50,21 +51,23 @@ struct FreePixels {
 template <class Sample>
 using Decoder = Sample* (*)(const stbi_io_callbacks*, void*, int*, int*, int*, int);
 
-bool isAlpha(int channel, int channels) { return channels % 2 == 0 && channel == channels - 1; }
-
 // Integer code values as floats in [0,1].
-Image toFloat(const Image& frame, const auto* samples, int levels, Encoding encoding) {
-    std::vector<float> linear(static_cast<std::size_t>(levels)), colour;
-    for (int i = 0; i < levels; ++i)
-        linear[std::size_t(i)] = float(i) / float(levels - 1);
-    colour = linear;
+template <class Sample>
+Image toFloat(Image frame, const Sample* samples, Encoding encoding) {
+    constexpr std::size_t kLevels = std::size_t(std::numeric_limits<Sample>::max()) + 1;
+    std::vector<float> linear(kLevels);
+    for (std::size_t i = 0; i < kLevels; ++i)
+        linear[i] = float(i) / float(kLevels - 1);
+    std::vector<float> color = linear;
     if (encoding == Encoding::Srgb)
-        std::transform(linear.begin(), linear.end(), colour.begin(), linearFromSrgb);
-    Image image(frame.width, frame.height, frame.channels);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-        image.pixels[i] =
-            (isAlpha(int(i % std::size_t(image.channels)), image.channels) ? linear : colour)[samples[i]];
-    return image;
+        std::transform(linear.begin(), linear.end(), color.begin(), linearFromSrgb);
+    const auto channels = std::size_t(frame.channels);
+    frame.pixels.resize(std::size_t(frame.width) * std::size_t(frame.height) * channels);
+    for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
+        const bool alpha = channels % 2 == 0 && i % channels == channels - 1;
+        frame.pixels[i] = (alpha ? linear : color)[samples[i]];
+    }
+    return frame;
 }
 
 Error damaged(const std::string& name, std::string_view format, bool truncated) {
@@ -73,44 +76,45 @@ Error damaged(const std::string& name, std::string_view format, bool truncated) 
             std::string(format) + " file"};
 }
 
-// Runs one of stb's decoders and hands its samples to `convert`.
-template <class Sample, class Convert>
+// Runs one of stb's decoders.
+template <class Sample>
 Result<Image> decodeWith(Decoder<Sample> decode, std::span<const std::byte> bytes, const std::string& name,
-                         std::string_view format, Convert convert) {
+                         std::string_view format, Encoding encoding) {
     Source source{bytes};
     Image frame;
     const std::unique_ptr<Sample, FreePixels> samples(
         decode(&kCallbacks, &source, &frame.width, &frame.height, &frame.channels, 0));
     if (!samples || source.exhausted) return damaged(name, format, source.exhausted);
-    return convert(frame, samples.get());
+    return toFloat(std::move(frame), samples.get(), encoding);
 }
 
-// PNG, JPEG or HDR.
-Result<Image> decodeStb(std::span<const std::byte> bytes, const std::string& name, std::string_view format,
-                        Encoding encoding) {
-    if (bytes.size() > 0x7fffffff) return Error{name + ": is larger than 2 GiB; must be smaller"};
-    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-    const int length = int(bytes.size());
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(data, length, &width, &height, &channels)) return damaged(name, format, false);
-    if (Status size = checkImageSize(width, height, name); !size) return size.error();
+// Width and height, which stand at fixed places of a PNG file.
+dvec2 pngSize(std::span<const std::byte> bytes) {
+    const auto bigEndian = [&](std::size_t at) {
+        double value = 0;
+        for (std::size_t i = at; i < at + 4; ++i)
+            value = value * 256 + double(bytes[i]);
+        return value;
+    };
+    return {bigEndian(16), bigEndian(20)};
+}
 
-    if (format == "HDR")
-        return decodeWith<float>(
-            stbi_loadf_from_callbacks, bytes, name, format, [](Image& image, const float* samples) {
-                const std::size_t count =
-                    std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
-                image.pixels.assign(samples, samples + count);
-                return std::move(image);
-            });
-    if (stbi_is_16_bit_from_memory(data, length))
-        return decodeWith<stbi_us>(stbi_load_16_from_callbacks, bytes, name, format,
-                                   [&](const Image& frame, const stbi_us* samples) {
-                                       return toFloat(frame, samples, 65536, encoding);
-                                   });
-    return decodeWith<stbi_uc>(
-        stbi_load_from_callbacks, bytes, name, format,
-        [&](const Image& frame, const stbi_uc* samples) { return toFloat(frame, samples, 256, encoding); });
+Result<Image> decodePng(std::span<const std::byte> bytes, const std::string& name, Encoding encoding) {
+    if (bytes.size() < 25) return damaged(name, "PNG", true);
+    const dvec2 side = pngSize(bytes);
+    if (Status size = checkImageSize(side.x, side.y, name); !size) return size.error();
+    if (bytes[24] == std::byte(16)) // bits a sample
+        return decodeWith<stbi_us>(stbi_load_16_from_callbacks, bytes, name, "PNG", encoding);
+    return decodeWith<stbi_uc>(stbi_load_from_callbacks, bytes, name, "PNG", encoding);
+}
+
+Result<Image> decodeJpeg(std::span<const std::byte> bytes, const std::string& name, Encoding encoding) {
+    Source source{bytes};
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_info_from_callbacks(&kCallbacks, &source, &width, &height, &channels))
+        return damaged(name, "JPEG", source.exhausted);
+    if (Status size = checkImageSize(width, height, name); !size) return size.error();
+    return decodeWith<stbi_uc>(stbi_load_from_callbacks, bytes, name, "JPEG", encoding);
 }
 
 bool startsWith(std::span<const std::byte> bytes, std::string_view signature) {
@@ -182,9 +186,9 @@ float srgbFromLinear(float linear) {
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, Encoding encoding) {
     constexpr const char* kKinds = "; must be a PNG, JPEG, HDR or PFM image";
     if (bytes.empty()) return Error{name + ": is empty" + kKinds};
-    if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodeStb(bytes, name, "PNG", encoding);
-    if (startsWith(bytes, "\xff\xd8\xff")) return decodeStb(bytes, name, "JPEG", encoding);
-    if (startsWith(bytes, "#?")) return decodeStb(bytes, name, "HDR", encoding);
+    if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodePng(bytes, name, encoding);
+    if (startsWith(bytes, "\xff\xd8\xff")) return decodeJpeg(bytes, name, encoding);
+    if (startsWith(bytes, "#?")) return decodeHdr(bytes, name);
     if (isPfm(bytes)) return decodePfm(bytes, name);
     if (startsWith(bytes, "\x76\x2f\x31\x01"))
         return Error{name + ": is an EXR file, whose reader is not here" + kKinds};

@@ -5,6 +5,8 @@
 #define STBI_NO_STDIO
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
-#define STBI_ONLY_HDR
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
+#define STBI_MAX_DIMENSIONS 16384 // kMaxImageSide
 #include <stb_image.h>
 #include <stb_image_write.h>

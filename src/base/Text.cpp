@@ -14,6 +14,10 @@ template <class Value>
 std::string shortestText(Value value, Value (*parse)(const char*, char**), int digits) {
     if (value == 0) value = 0; // no "-0"
     char text[40];
+    if (std::abs(value) < Value(1e7) && value == std::floor(value)) { // 1000, not 1e+03
+        std::snprintf(text, sizeof text, "%.0f", double(value));
+        return text;
+    }
     for (int precision = 1; precision <= digits; ++precision) {
         std::snprintf(text, sizeof text, "%.*g", precision, double(value));
         if (parse(text, nullptr) == value) break;

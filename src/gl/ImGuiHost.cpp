@@ -16,7 +16,8 @@ void setAttribute(GLuint location, GLint components, GLenum type, bool normalize
                           reinterpret_cast<const void*>(offset));
 }
 
-// ImGui's rectangle in CSS pixels from the top, GL's in pixels from the bottom. False when nothing is left of it.
+// ImGui's rectangle in CSS pixels from the top, GL's in pixels from the bottom. False when nothing is left of
+// it.
 bool setScissor(const ImVec4& clip, const ImDrawData& data, ivec2 size) {
     const vec2 scale(data.FramebufferScale.x, data.FramebufferScale.y);
     const ivec2 low = glm::max(ivec2(vec2(clip.x, clip.y) * scale), ivec2(0));
@@ -29,7 +30,8 @@ bool setScissor(const ImVec4& clip, const ImDrawData& data, ivec2 size) {
 void drawList(const ImDrawList& list, const ImDrawData& data, ivec2 size) {
     static_assert(sizeof(ImDrawIdx) == 2);
     glBufferData(GL_ARRAY_BUFFER, list.VtxBuffer.size_in_bytes(), list.VtxBuffer.Data, GL_STREAM_DRAW);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, list.IdxBuffer.size_in_bytes(), list.IdxBuffer.Data, GL_STREAM_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, list.IdxBuffer.size_in_bytes(), list.IdxBuffer.Data,
+                 GL_STREAM_DRAW);
     for (const ImDrawCmd& command : list.CmdBuffer) {
         if (!setScissor(command.ClipRect, data, size)) continue;
         const void* first = reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx));
@@ -71,8 +73,9 @@ void ImGuiHost::create(ImFontAtlas& atlas) {
 
 void ImGuiHost::clear(int width, int height) {
     context_.device().setScreenSize({width, height});
-    context_.device().runPass({"viewer.clear", {graph::TextureHandle::Screen}, graph::TextureHandle::None, vec4(0)},
-                              [](graph::Commands&) {});
+    context_.device().runPass(
+        {"viewer.clear", {graph::TextureHandle::Screen}, graph::TextureHandle::None, vec4(0)},
+        [](graph::Commands&) {});
 }
 
 Status ImGuiHost::draw(const ImDrawData& data, ImFontAtlas& atlas, int width, int height) {
@@ -94,7 +97,8 @@ Status ImGuiHost::draw(const ImDrawData& data, ImFontAtlas& atlas, int width, in
     glBindTexture(GL_TEXTURE_2D, fontTexture_);
     glBindVertexArray(vertexArray_);
     glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
-    for (int i = 0; i < data.CmdListsCount; ++i) drawList(*data.CmdLists[i], data, {width, height});
+    for (int i = 0; i < data.CmdListsCount; ++i)
+        drawList(*data.CmdLists[i], data, {width, height});
 
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);

@@ -154,7 +154,7 @@ public:
 
 private:
     const FrameGraph& graph_;
-    const Pass& pass_;
+    [[maybe_unused]] const Pass& pass_; // only asserted on
     const TexturePool& pool_;
 };
 

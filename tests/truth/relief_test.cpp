@@ -55,6 +55,15 @@ TEST(Relief, BelowHalfATexelTheFlatFieldKeepsItsSine) {
                     std::sin(elevation * kDegree), 1e-12);
 }
 
+TEST(Relief, TheLimitHoldsBelowHalfATexelOnly) {
+    // Light along the surface: the limit gives the cosine, 0; the length ends at the border, 0.4 m aside.
+    const Field field = fieldOf(8, 8, 1, 0.1f, [](int, int) { return 0.5f; });
+    const SurfacePoint point = field.pointAbove({0.1, 0});
+    EXPECT_EQ(illumination(field, point, 0.0624, distant({1, 0, 0}), Attenuation::Ratio), 0);
+    EXPECT_NEAR(illumination(field, point, 0.0625, distant({1, 0, 0}), Attenuation::Ratio), 0.0625 / 0.4,
+                1e-12);
+}
+
 TEST(Relief, ExponentialAttenuationOfAFlatFieldIsThatOfOneOverTheSine) {
     const Field field = fieldOf(64, 64, 1, 0.1f, [](int, int) { return 0.7f; });
     // r = t / sin(30 degrees) = 2 t, so d = exp(1 - 2), as measured length and as the limit for small depths.

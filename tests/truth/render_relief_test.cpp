@@ -76,6 +76,8 @@ TEST(EnvironmentLights, TheMapsCentreIsMinusZAndItsRightIsPlusX) {
     EXPECT_GT(-brightest(1).x, 0.99);
     environment.rotation = {90, 90, 0}; // x first: +y goes to +z, and then to +x
     EXPECT_GT(brightest(2).x, 0.99);
+    environment.rotation = {0, 90, 90}; // y before z: +x goes to -z and stays there
+    EXPECT_GT(-brightest(0).z, 0.99);
 }
 
 TEST(EnvironmentLights, WhiteSkyOverAFlatFieldInTheLimitGivesAQuarter) {

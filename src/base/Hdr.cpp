@@ -1,0 +1,127 @@
+#include "base/Hdr.h"
+
+#include "base/ImageSize.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+namespace lucent {
+namespace {
+
+using Rgbe = std::array<std::uint8_t, 4>;
+
+// Takes bytes off the front; says when there are none left.
+class Input {
+public:
+    explicit Input(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    std::size_t left() const { return bytes_.size(); }
+    std::uint8_t peek(std::size_t i) const { return i < bytes_.size() ? std::uint8_t(bytes_[i]) : 0; }
+    bool take(std::uint8_t& value) {
+        if (bytes_.empty()) return false;
+        value = std::uint8_t(bytes_.front());
+        bytes_ = bytes_.subspan(1);
+        return true;
+    }
+    bool take(Rgbe& pixel) { return take(pixel[0]) && take(pixel[1]) && take(pixel[2]) && take(pixel[3]); }
+    bool takeLine(std::string& line) {
+        line.clear();
+        std::uint8_t c;
+        while (take(c)) {
+            if (c == '\n') return true;
+            line += char(c);
+        }
+        return false;
+    }
+
+private:
+    std::span<const std::byte> bytes_;
+};
+
+// New kind of coding: each channel of the row on its own, in runs (count above 128) and plain stretches.
+bool takeChannels(Input& input, std::vector<Rgbe>& row) {
+    for (std::size_t channel = 0; channel < 4; ++channel)
+        for (std::size_t x = 0; x < row.size();) {
+            std::uint8_t count, value = 0;
+            if (!input.take(count)) return false;
+            const bool run = count > 128;
+            const std::size_t length = run ? count - 128u : count;
+            if (length == 0 || length > row.size() - x || (run && !input.take(value))) return false;
+            for (std::size_t i = 0; i < length; ++i) {
+                if (!run && !input.take(value)) return false;
+                row[x++][channel] = value;
+            }
+        }
+    return true;
+}
+
+// Plain pixels; (1, 1, 1, n) repeats the last one n times, several of them in a row count in bytes from the
+// lowest.
+bool takePixels(Input& input, std::vector<Rgbe>& row) {
+    int shift = 0;
+    for (std::size_t x = 0; x < row.size();) {
+        Rgbe pixel;
+        if (!input.take(pixel)) return false;
+        if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
+            row[x++] = pixel;
+            shift = 0;
+            continue;
+        }
+        const std::size_t length = shift > 16 ? 0 : std::size_t(pixel[3]) << shift;
+        if (x == 0 || length > row.size() - x) return false;
+        for (std::size_t i = 0; i < length; ++i, ++x)
+            row[x] = row[x - 1];
+        shift += 8;
+    }
+    return true;
+}
+
+bool takeRow(Input& input, std::vector<Rgbe>& row) {
+    const bool canBeCoded = row.size() >= 8 && row.size() < 32768;
+    const bool coded = canBeCoded && input.peek(0) == 2 && input.peek(1) == 2 && input.peek(2) < 128;
+    if (!coded) return takePixels(input, row);
+    Rgbe start;
+    const bool fits = input.take(start) && (std::size_t(start[2]) << 8 | start[3]) == row.size();
+    return fits && takeChannels(input, row);
+}
+
+} // namespace
+
+Result<Image> decodeHdr(std::span<const std::byte> bytes, const std::string& name) {
+    const Error damaged{name + ": the HDR file is cut or damaged; must be a whole Radiance RGBE file"};
+    Input input(bytes);
+    std::string line;
+    bool known = false;
+    do {
+        if (!input.takeLine(line)) return damaged;
+        if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
+            return Error{name + ": is stored as " + line.substr(7) + "; must be 32-bit_rle_rgbe"};
+        known |= line.starts_with("FORMAT=");
+    } while (!line.empty());
+    if (!known || !input.takeLine(line)) return damaged;
+    int width = 0, height = 0;
+    if (std::sscanf(line.c_str(), "-Y %d +X %d", &height, &width) != 2)
+        return Error{name + ": has the layout \"" + line + "\"; must be -Y height +X width"};
+    if (Status size = checkImageSize(width, height, name); !size) return size.error();
+    // A run codes at most 127 pixels of a channel in two bytes: fewer bytes than this cannot hold the
+    // picture.
+    if (input.left() < std::size_t(height) * 4) return damaged;
+
+    Image image(width, height, 3);
+    std::vector<Rgbe> row(static_cast<std::size_t>(width));
+    for (int y = 0; y < height; ++y) {
+        if (!takeRow(input, row)) return damaged;
+        for (int x = 0; x < width; ++x) {
+            const Rgbe& pixel = row[std::size_t(x)];
+            const float scale =
+                pixel[3] ? std::ldexp(1.0f, int(pixel[3]) - 136) : 0; // 128 + 8 bits of mantissa
+            for (int c = 0; c < 3; ++c)
+                image.at(x, y)[c] = float(pixel[std::size_t(c)]) * scale;
+        }
+    }
+    return image;
+}
+
+} // namespace lucent

@@ -1,0 +1,125 @@
+#include "cli/Files.h"
+
+#include "base/Text.h"
+#include "frame/Renderer.h"
+#include "scene/Keys.h"
+#include "scene/Load.h"
+#include "scene/readers/Readers.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+namespace lucent::cli {
+
+namespace fs = std::filesystem;
+
+void SceneOptions::addTo(CLI::App& parser) {
+    parser.add_option("SCENE", path, "Scene file (JSON)")->required();
+    parser.add_option("--size", size, "Size of the picture in pixels, WxH; else the scene's own")
+        ->type_name("WxH");
+    parser
+        .add_option("--set", sets,
+                    "Changes a parameter of the scene; lucent list names them. May be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
+void SceneOptions::addAovTo(CLI::App& parser, const std::string& help) {
+    parser.add_option("--aov", aov, help)->type_name("NAME");
+}
+
+namespace {
+Status applySet(scene::Scene& scene, const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) return Error{"--set: is " + inQuotes(text) + "; must be KEY=VALUE"};
+    const Status set = setParam(scene, text.substr(0, equals), text.substr(equals + 1));
+    return set ? set : Status(Error{"--set: " + set.error().message});
+}
+
+Result<scene::Aov> parseAov(const std::string& text) {
+    const auto names = scene::aovNames();
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found != names.end()) return scene::Aov(found - names.begin());
+    std::string known;
+    for (const std::string_view name : names)
+        known += (known.empty() ? "" : ", ") + std::string(name);
+    return Error{"--aov: is " + inQuotes(text) + "; must be one of " + known};
+}
+} // namespace
+
+Result<scene::Scene> SceneOptions::load() const {
+    Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), frame::techniques());
+    if (!scene) return scene;
+    for (const std::string& set : sets)
+        if (Status applied = applySet(*scene, set); !applied) return applied.error();
+    if (!size.empty()) {
+        const Result<ivec2> pixels = parseSize("--size", size, scene::kMaxPictureSide);
+        if (!pixels) return pixels.error();
+        scene->size = *pixels;
+    }
+    if (!aov.empty()) {
+        const Result<scene::Aov> shown = parseAov(aov);
+        if (!shown) return shown.error();
+        scene->view.show = *shown;
+    }
+    return scene;
+}
+
+Result<ivec2> parseSize(const std::string& option, const std::string& text, int largest) {
+    char* end = nullptr;
+    const long width = std::strtol(text.c_str(), &end, 10);
+    const long height = *end == 'x' ? std::strtol(end + 1, &end, 10) : 0;
+    if (*end != 0 || width < 1 || height < 1 || width > largest || height > largest)
+        return Error{option + ": is " + inQuotes(text) + "; must be WIDTHxHEIGHT, each from 1 to " +
+                     std::to_string(largest)};
+    return ivec2(int(width), int(height));
+}
+
+void addOutput(CLI::App& parser, std::string& path, const std::string& help) {
+    parser.add_option("-o,--output", path, help)->required()->type_name("FILE");
+}
+
+Status checkFolder(const std::string& path) {
+    std::error_code ignored;
+    const fs::path folder = fs::path(path).parent_path();
+    if (folder.empty() || fs::is_directory(folder, ignored)) return Done{};
+    return Error{path + ": cannot be written, " + folder.string() +
+                 " is no folder; must be in an existing one"};
+}
+
+Status checkImageOutput(const std::string& path) {
+    const std::string ending = fs::path(path).extension().string();
+    if (ending != ".png" && ending != ".hdr" && ending != ".exr" && ending != ".pfm")
+        return Error{path + ": ends in no known image type; must be .png, .hdr, .exr or .pfm"};
+    return checkFolder(path);
+}
+
+Result<Bytes> encode(const Image& image, const std::string& path) {
+    return fs::path(path).extension() == ".exr" ? scene::encodeExr(image) : encodeImage(image, path);
+}
+
+Status writeAll(const std::vector<Output>& outputs) {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const Status written = writeFile(outputs[i].path, outputs[i].bytes);
+        if (written) continue;
+        std::error_code ignored;
+        for (std::size_t earlier = 0; earlier < i; ++earlier)
+            fs::remove(outputs[earlier].path, ignored);
+        return written;
+    }
+    return Done{};
+}
+
+Bytes toBytes(const std::string& text) {
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    return Bytes(first, first + text.size());
+}
+
+Result<Image> readImage(const std::string& path, Encoding encoding) {
+    Result<Bytes> bytes = scene::plainFiles()(path);
+    if (!bytes) return bytes.error();
+    return decodeImage(*bytes, path, encoding);
+}
+
+} // namespace lucent::cli

@@ -1,0 +1,108 @@
+#include "measure/Metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace lucent::measure {
+
+namespace {
+/// Channels that hold colour: grey or red, green, blue.
+int colorChannels(const Image& image) { return image.channels < 3 ? 1 : 3; }
+
+std::string sizeText(const Image& image) {
+    return std::to_string(image.width) + "x" + std::to_string(image.height) + " pixels with " +
+           std::to_string(colorChannels(image)) + " colour channel" + (colorChannels(image) == 1 ? "" : "s");
+}
+
+Status checkFinite(const Image& image, const std::string& name) {
+    const auto count = std::count_if(image.pixels.begin(), image.pixels.end(),
+                                     [](float value) { return !std::isfinite(value); });
+    if (count == 0) return Done{};
+    const ivec2 first = findNonFinite(image);
+    return Error{name + ": " + std::to_string(count) + " values are NaN or infinite, the first at pixel (" +
+                 std::to_string(first.x) + ", " + std::to_string(first.y) + "); must be finite"};
+}
+
+/// Calls visit(x, y, value, reference) for every colour value.
+template <class Visit>
+void forEachValue(const Image& image, const Image& reference, Visit visit) {
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int channel = 0; channel < colorChannels(image); ++channel)
+                visit(x, y, double(image.at(x, y)[channel]), double(reference.at(x, y)[channel]));
+}
+} // namespace
+
+Result<Metrics> compare(const Image& image, const std::string& imageName, const Image& reference,
+                        const std::string& referenceName) {
+    if (image.size() != reference.size() || colorChannels(image) != colorChannels(reference))
+        return Error{imageName + ": has " + sizeText(image) + "; must have " + sizeText(reference) +
+                     " like " + referenceName};
+    if (Status finite = checkFinite(image, imageName); !finite) return finite.error();
+    if (Status finite = checkFinite(reference, referenceName); !finite) return finite.error();
+
+    Metrics metrics;
+    std::vector<double> differences;
+    double squares = 0, sum = 0, referenceSum = 0;
+    forEachValue(image, reference, [&](int x, int y, double value, double wanted) {
+        const double difference = value - wanted;
+        squares += difference * difference;
+        sum += value;
+        referenceSum += wanted;
+        metrics.relMse += difference * difference / (wanted * wanted + kRelMseEpsilon);
+        metrics.mae += std::abs(difference);
+        metrics.bias += difference;
+        if (std::abs(difference) > metrics.maximum) {
+            metrics.maximum = std::abs(difference);
+            metrics.maximumAt = {x, y};
+        }
+        differences.push_back(std::abs(difference));
+    });
+    const double count = double(differences.size());
+    metrics.rmse = std::sqrt(squares / count);
+    metrics.relMse /= count;
+    metrics.mae /= count;
+    metrics.bias /= count;
+    metrics.psnr = -20 * std::log10(metrics.rmse);
+    metrics.fluxRatio = referenceSum == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / referenceSum;
+    const auto p99 = differences.begin() + (std::ptrdiff_t(std::ceil(0.99 * count)) - 1);
+    std::nth_element(differences.begin(), p99, differences.end());
+    metrics.p99 = *p99;
+    return metrics;
+}
+
+dvec3 heatColor(double share) {
+    // A path through Oklab (Ottosson 2020): lightness grows evenly, the hue turns from blue over red to
+    // yellow. The chroma, chosen by eye, keeps the path within Rec. 709 nearly everywhere.
+    const double u = std::clamp(share, 0.0, 1.0);
+    const double lightness = 0.97 * u, chroma = 0.16 * std::sin(std::numbers::pi * std::sqrt(u)) + 0.05 * u;
+    const double hue = (-90 + 195 * u) * std::numbers::pi / 180;
+    const double a = chroma * std::cos(hue), b = chroma * std::sin(hue);
+    const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
+    const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
+    const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
+    const dvec3 linear{4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+                       -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+                       -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
+    return glm::clamp(linear, 0.0, 1.0);
+}
+
+Image heatMap(const Image& image, const Image& reference, double full) {
+    Image map(image.width, image.height, 3);
+    std::vector<double> differences(std::size_t(image.width) * std::size_t(image.height));
+    forEachValue(image, reference, [&](int x, int y, double value, double wanted) {
+        double& difference = differences[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+        difference = std::max(difference, std::abs(value - wanted));
+    });
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        const dvec3 color = heatColor(differences[i] / full);
+        for (int channel = 0; channel < 3; ++channel)
+            map.pixels[3 * i + std::size_t(channel)] = srgbFromLinear(float(color[channel]));
+    }
+    return map;
+}
+
+} // namespace lucent::measure

@@ -1,0 +1,31 @@
+#pragma once
+/// How the three kinds of files become a field of heights.
+
+#include "scene/Scene.h"
+
+#include <memory>
+#include <span>
+
+namespace lucent::scene {
+
+struct SourcedHeights {
+    std::shared_ptr<const Image> image; ///< 1 channel; of a normal map in [0,1]
+    float texelsPerHeight = 0;          ///< of a normal map: how many texel widths high a height of 1 stands
+};
+
+/// Decodes the file of `source`.
+///
+/// @param name  of the file, for messages
+/// @return      Error "NAME: what was found; what was expected"
+Result<SourcedHeights> loadHeights(const HeightSource& source, std::span<const std::byte> bytes,
+                                   const std::string& name);
+
+/// Sinks every texel with alpha below 0.5 (nearest texel of `field.alpha`, which must be there) as deep below
+/// the lowest height as the larger side of the footprint, at most 1e4 heights.
+void digHoles(HeightField& field);
+
+/// Chooses a scale for heights outside [0,1], such as metres: the range becomes a tenth of the width, and the
+/// lowest height lies in the object's plane. Heights inside keep what they have.
+void fitHeights(Object& object);
+
+} // namespace lucent::scene

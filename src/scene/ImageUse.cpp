@@ -1,0 +1,74 @@
+#include "scene/ImageUse.h"
+
+#include "base/Text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lucent::scene {
+namespace {
+
+using SharedImage = std::shared_ptr<const Image>;
+
+// One value a pixel, computed by `value(const float* pixel, int channels)`.
+template <class Value>
+Image toOneChannel(const Image& image, Value value) {
+    Image out(image.width, image.height, 1);
+    for (std::size_t i = 0; i < out.pixels.size(); ++i)
+        out.pixels[i] = value(&image.pixels[i * std::size_t(image.channels)], image.channels);
+    return out;
+}
+
+float greyOf(const float* pixel, int channels) {
+    return channels <= 2 ? pixel[0] : (pixel[0] + pixel[1] + pixel[2]) / 3;
+}
+
+float coverageOf(const float* pixel, int channels) {
+    return channels % 2 == 0 ? pixel[channels - 1] : greyOf(pixel, channels);
+}
+
+// First value of a picture outside [min, max], NaN included.
+Status checkValues(const Image& image, float min, float max, const std::string& name,
+                   const std::string& rule) {
+    const auto bad = std::find_if(image.pixels.begin(), image.pixels.end(),
+                                  [&](float v) { return !(v >= min && v <= max); });
+    if (bad == image.pixels.end()) return Done{};
+    const int texel = int((bad - image.pixels.begin()) / image.channels);
+    return Error{name + ": texel (" + std::to_string(texel % image.width) + ", " +
+                 std::to_string(texel / image.width) + ") is " + shortest(*bad) + "; " + rule};
+}
+
+Result<SharedImage> share(Image image, float min, float max, const std::string& name,
+                          const std::string& rule) {
+    if (Status legal = checkValues(image, min, max, name, rule); !legal) return legal.error();
+    return SharedImage(std::make_shared<Image>(std::move(image)));
+}
+
+} // namespace
+
+Result<SharedImage> decodeColors(std::span<const std::byte> bytes, const std::string& name) {
+    const Result<Image> image = decodeImage(bytes, name, Encoding::Srgb);
+    if (!image) return image.error();
+    Image colors(image->width, image->height, 3);
+    for (int y = 0; y < image->height; ++y)
+        for (int x = 0; x < image->width; ++x)
+            for (int c = 0; c < 3; ++c)
+                colors.at(x, y)[c] = image->at(x, y)[image->channels >= 3 ? c : 0];
+    constexpr float kMost = std::numeric_limits<float>::max();
+    return share(std::move(colors), -kMost, kMost, name, "colours must be finite");
+}
+
+Result<SharedImage> decodeHeights(std::span<const std::byte> bytes, const std::string& name) {
+    const Result<Image> image = decodeImage(bytes, name, Encoding::Linear);
+    if (!image) return image.error();
+    return share(toOneChannel(*image, greyOf), -1e9f, 1e9f, name,
+                 "heights must be finite, at most 1e9 in size");
+}
+
+Result<SharedImage> decodeAlpha(std::span<const std::byte> bytes, const std::string& name) {
+    const Result<Image> image = decodeImage(bytes, name, Encoding::Linear);
+    if (!image) return image.error();
+    return share(toOneChannel(*image, coverageOf), 0, 1, name, "alpha must be in [0, 1]");
+}
+
+} // namespace lucent::scene

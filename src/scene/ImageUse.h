@@ -1,0 +1,22 @@
+#pragma once
+/// From decoded files to the channels that a scene uses.
+
+#include "base/Image.h"
+
+#include <memory>
+
+namespace lucent::scene {
+
+/// Picture as 3 linear channels: 8 and 16 bit are decoded from sRGB, grey is spread, alpha left out.
+/// Error when a value is not finite, naming the texel.
+Result<std::shared_ptr<const Image>> decodeColors(std::span<const std::byte> bytes, const std::string& name);
+
+/// Picture as one channel of heights: the first of one or two, else the mean of red, green and blue.
+/// Error when a height is not finite or beyond 1e9, naming the texel.
+Result<std::shared_ptr<const Image>> decodeHeights(std::span<const std::byte> bytes, const std::string& name);
+
+/// Picture as one channel of coverage: its alpha where it has one, else as decodeHeights() does.
+/// Error when a value is outside [0, 1], naming the texel.
+Result<std::shared_ptr<const Image>> decodeAlpha(std::span<const std::byte> bytes, const std::string& name);
+
+} // namespace lucent::scene

@@ -1,0 +1,45 @@
+#pragma once
+/// From a scene file to a Scene, with every complaint at its place.
+
+#include "base/File.h"
+#include "scene/Scene.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lucent::scene {
+
+/// Loads a scene and every file it names.
+///
+/// @param path        of the scene file; its files are looked up beside it
+/// @param read        gives the bytes of the scene and of the files
+/// @param techniques  tables of the techniques whose settings may stand under "technique"
+/// @return            the scene, complete, or "FILE:LINE: place.key is X; must be Y"
+Result<Scene> load(const std::string& path, const ReadFile& read,
+                   std::span<const ParamTable* const> techniques);
+
+/// Files that a scene names, resolved against its path and in the order of the file: what a page fetches
+/// before it calls load().
+Result<std::vector<std::string>> dependencies(const std::string& path, std::span<const std::byte> scene);
+
+/// A scene around one height map: what a person gets who drops a picture on the page.
+///
+/// Lit by a point light, seen from above so that the whole field fits.
+Result<Scene> sceneFromHeights(const std::string& name, std::span<const std::byte> bytes,
+                               std::span<const ParamTable* const> techniques);
+
+/// Replaces the heights of an object by another file; alpha and colour maps of the old picture are dropped.
+Status replaceHeights(Object& object, const std::string& name, std::span<const std::byte> bytes);
+
+/// Decodes an environment map; `source` is a file name or a procedural name, for which `bytes` is empty.
+Result<std::shared_ptr<const Image>> loadEnvironmentMap(const std::string& source,
+                                                        std::span<const std::byte> bytes);
+
+/// JSON Schema (2020-12) of the scene file, written from the parameter tables.
+std::string jsonSchema(std::span<const ParamTable* const> techniques);
+
+/// The scene as a scene file: what was loaded with its parameters as they are now. Files keep their names.
+std::string toJson(const Scene& scene);
+
+} // namespace lucent::scene

@@ -1,0 +1,174 @@
+#pragma once
+/// What a scene is: objects, lights, an environment, a camera. Plain values; loading is in Load.h.
+
+#include "base/Image.h"
+#include "base/Math.h"
+#include "base/Param.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace lucent::scene {
+
+/// Where heights came from: a picture of heights, of normals, or the depth of a mesh.
+struct HeightSource {
+    enum class Kind { Heights, NormalMap, Mesh };
+    Kind kind = Kind::Heights;
+    std::string file;           ///< as the scene file names it
+    ivec2 resolution{512, 512}; ///< texels, this and the rest for a mesh only (see depthOfMesh)
+    vec3 meshRotate{0};         ///< degrees about the fixed x, y, z axes
+    float margin = 0.04f;       ///< of the larger side
+    float floorGap = 0.12f;     ///< height of the farthest visible point
+};
+
+/// Heights over a rectangle that lies in its object's xy plane, centred, facing +z, image row 0 at +y.
+///
+/// Samples stand at texel centres, bilinear between, constant in the outer half texel; the footprint's border
+/// is a wall to outside and there is no floor. The field is `width` metres wide, its texels are square.
+struct HeightField {
+    float width = 1;          ///< m, > 0
+    float heightScale = 0.1f; ///< m for a height of 1, >= 0
+
+    /// A texel with alpha 0 still casts and holds light. When false the loader has dug a hole at each texel
+    /// with alpha below 0.5: it lies the larger footprint side below the lowest height, at most 1e4 heights.
+    bool alphaIsSolid = true;
+
+    std::shared_ptr<const Image> heights; ///< 1 channel, finite; never null once loaded
+    std::shared_ptr<const Image> alpha;   ///< 1 channel, [0,1]; null: opaque. Any size.
+    HeightSource source;                  ///< of the heights
+    std::string alphaFile;                ///< as the scene file names it
+
+    ivec2 texels() const { return heights->size(); }
+    /// Edge of a texel in metres.
+    float texelSize() const { return width / float(heights->width); }
+    /// Width and height of the footprint in metres.
+    vec2 footprint() const { return vec2(heights->size()) * texelSize(); }
+};
+
+/// What the surface does with light. The relief model's colours and factors (height-field thesis 2017, 3.5).
+struct Material {
+    vec3 base{0};               ///< cB, shown without light
+    vec3 diffuse{0.8f};         ///< cD
+    vec3 specular{1};           ///< cS
+    float specularity = 0;      ///< ks, [0,1]
+    float forwardScatter = 0;   ///< kf, [0,1]
+    float depth = 0.05f;        ///< t: how far below the surface the light is looked at, m, > 0
+    vec2 specularFalloff{0, 1}; ///< s_min, s_max
+    vec2 scatterFalloff{0, 1};  ///< f_min, f_max
+
+    std::shared_ptr<const Image> baseMap, diffuseMap,
+        specularMap;                                          ///< 3 channels, linear; multiply the colours
+    std::string baseMapFile, diffuseMapFile, specularMapFile; ///< as the scene file names them
+};
+
+/// Placement of an object: scaled, then rotated about the fixed x, y, z axes, then moved.
+struct Transform {
+    vec3 translate{0}; ///< m
+    vec3 rotate{0};    ///< degrees
+    float scale = 1;   ///< > 0
+    mat4 worldFromObject() const;
+};
+
+struct Object {
+    std::string name;
+    HeightField shape; ///< becomes a variant when the second shape comes
+    Material material;
+    Transform transform;
+    bool visible = true; ///< false: hidden from the camera only
+};
+
+/// How the light of a point source fades: not at all (the thesis) or with the square of the distance
+/// (physics).
+enum class LightFalloff : int { None, InverseSquare };
+
+struct PointLight {
+    vec3 position{0.3f, 0.4f, 0.6f}; ///< m
+    vec3 color{1};
+    float intensity = 1; ///< plain factor; W/sr with inverse-square falloff
+    LightFalloff falloff = LightFalloff::None;
+};
+
+struct DistantLight {
+    vec3 direction{0, 0, -1}; ///< the way the light travels; any length > 0
+    vec3 color{1};
+    float irradiance = 1; ///< on a facing surface; plain factor in relief
+};
+
+using Light = std::variant<PointLight, DistantLight>;
+
+/// Light from all around, on a lat-long map: row 0 = +y, centre column = -z, to the right = +x.
+struct Environment {
+    std::string source = "uniform"; ///< "rainbow", "sky", "uniform", "direction" or a file
+    vec3 rotation{0};               ///< degrees about the fixed x, y, z axes, x first
+    float intensity = 1;
+    bool enabled = true;              ///< off: only the lights shine
+    std::shared_ptr<const Image> map; ///< 3 channels, linear; always there once loaded
+};
+
+struct Camera {
+    enum class Type : int { Orthographic, Perspective };
+    Type type = Type::Orthographic;
+    vec3 eye{0, 0, 2};
+    vec3 target{0};
+    vec3 up{0, 1, 0};
+    float height = 1; ///< m shown from top to bottom, orthographic
+    float fov = 40;   ///< vertical degrees, perspective
+};
+
+/// What is shown instead of the picture: one of the quantities behind it.
+enum class Aov : int { Color, Illumination, Visibility, Normal, Depth, Position, Iterations };
+
+/// How linear light becomes a picture: exposure, clamp, sRGB curve; nothing else.
+struct View {
+    float exposure = 0; ///< ev: the image is multiplied by 2^ev
+    Aov show = Aov::Color;
+    bool lightDot = true; ///< the viewer marks the light's place
+};
+
+struct Scene {
+    std::string title, caption;
+    ivec2 size{512, 512};
+    Camera camera;
+    View view;
+    std::optional<Environment> environment;
+    std::vector<Light> lights;
+    std::vector<Object> objects;
+    std::map<std::string, Settings> technique; ///< one for each registered technique, by its table's name
+    std::optional<float> maxError;             ///< quality.maxError
+};
+
+const ParamTable& heightFieldParams();
+const ParamTable& heightSourceParams(); ///< read when loaded; not bound by bindParams()
+const ParamTable& materialParams();
+const ParamTable& transformParams();
+const ParamTable& pointLightParams();
+const ParamTable& distantLightParams();
+const ParamTable& environmentParams();
+const ParamTable& cameraParams();
+const ParamTable& viewParams();
+
+/// Spelling of an AOV on the command line and in files: "color", "d", "visibility", ...
+std::span<const std::string_view> aovNames();
+
+/// Every parameter of a scene bound to its value, in the order of the panel.
+///
+/// The pointers stay valid while the scene's vectors keep their size. Of a camera's height and field of view
+/// only the one in use is bound. Attributes address the first light and the first object; others are set by
+/// path.
+std::vector<BoundParam> bindParams(Scene& scene);
+
+/// What no single range can say: the camera looks somewhere, a direction has a length. Error "KEY is X;
+/// must...".
+Status check(const Camera& camera);
+Status check(const Light& light);
+
+/// Sets one parameter by its path ("objects.coin.material.specularity"; objects by name or number, lights by
+/// number). On error the scene is unchanged and the message names the path, what was found and expected, and
+/// for an unknown path the nearest one that exists.
+Status setParam(Scene& scene, std::string_view path, std::string_view value);
+
+} // namespace lucent::scene

@@ -1,0 +1,142 @@
+// A Scene back to its file.
+#include "base/JsonWriter.h"
+#include "scene/Load.h"
+
+#include <array>
+#include <cstring>
+
+namespace lucent::scene {
+namespace {
+
+void writeValue(JsonWriter& json, const Param& param, const void* data) {
+    if (param.kind == Kind::Toggle)
+        json.value(getComponent(param, data, 0) != 0);
+    else if (param.kind == Kind::Choice)
+        json.value(getText(param, data));
+    else if (componentCount(param.kind) == 1)
+        json.raw(getText(param, data));
+    else {
+        std::array<float, 3> numbers{};
+        const std::size_t count = std::size_t(componentCount(param.kind));
+        for (std::size_t i = 0; i < count; ++i)
+            numbers[i] = float(getComponent(param, data, int(i)));
+        json.value(std::span<const float>(numbers.data(), count));
+    }
+}
+
+bool isDefault(const ParamTable& table, const Param& param, const void* values) {
+    const auto at = [&](const void* base) { return static_cast<const std::byte*>(base) + param.offset; };
+    return getText(param, at(values)) == getText(param, at(table.defaults));
+}
+
+// Parameters that differ from their defaults; `always` is written in any case.
+void writeParams(JsonWriter& json, const ParamTable& table, const void* values,
+                 std::string_view always = "") {
+    for (const Param& param : table.params) {
+        if (isDefault(table, param, values) && param.id != always) continue;
+        json.key(param.id);
+        writeValue(json, param, static_cast<const std::byte*>(values) + param.offset);
+    }
+}
+
+void writeText(JsonWriter& json, std::string_view key, const std::string& text) {
+    if (!text.empty()) json.key(key).value(text);
+}
+
+void writeSize(JsonWriter& json, std::string_view key, ivec2 size) {
+    const float sides[] = {float(size.x), float(size.y)};
+    json.key(key).value(std::span<const float>(sides));
+}
+
+void writeShape(JsonWriter& json, const HeightField& field) {
+    const HeightSource& source = field.source;
+    json.key("shape").beginObject();
+    json.key("type").value("heightfield");
+    constexpr std::string_view kKeys[] = {"heights", "normalMap", "mesh"};
+    json.key(kKeys[int(source.kind)]).value(source.file);
+    if (source.kind == HeightSource::Kind::Mesh) {
+        writeSize(json, "resolution", source.resolution);
+        writeParams(json, heightSourceParams(), &source);
+    }
+    writeParams(json, heightFieldParams(), &field, "heightScale"); // a normal map has its own default
+    writeText(json, "alpha", field.alphaFile);
+    if (!field.alphaIsSolid) json.key("alphaIsSolid").value(false);
+    json.end();
+}
+
+void writeObject(JsonWriter& json, const Object& object) {
+    json.beginObject();
+    json.key("name").value(object.name);
+    writeShape(json, object.shape);
+    json.key("material").beginObject();
+    writeParams(json, materialParams(), &object.material);
+    writeText(json, "baseMap", object.material.baseMapFile);
+    writeText(json, "diffuseMap", object.material.diffuseMapFile);
+    writeText(json, "specularMap", object.material.specularMapFile);
+    json.end();
+    json.key("transform").beginObject();
+    writeParams(json, transformParams(), &object.transform);
+    json.end();
+    if (!object.visible) json.key("visible").value(false);
+    json.end();
+}
+
+void writeLight(JsonWriter& json, const Light& light) {
+    json.beginObject();
+    const bool point = std::holds_alternative<PointLight>(light);
+    json.key("type").value(point ? "point" : "distant");
+    const void* values = std::visit([](const auto& value) -> const void* { return &value; }, light);
+    writeParams(json, point ? pointLightParams() : distantLightParams(), values);
+    json.end();
+}
+
+void writeTechniques(JsonWriter& json, const std::map<std::string, Settings>& techniques) {
+    json.key("technique").beginObject();
+    for (const auto& [name, settings] : techniques) {
+        json.key(name).beginObject();
+        writeParams(json, settings.table(), settings.data());
+        json.end();
+    }
+    json.end();
+}
+
+} // namespace
+
+std::string toJson(const Scene& scene) {
+    JsonWriter json;
+    json.beginObject();
+    json.key("lucent").value(1);
+    writeText(json, "title", scene.title);
+    writeText(json, "caption", scene.caption);
+    writeSize(json, "size", scene.size);
+    json.key("camera").beginObject();
+    writeParams(json, cameraParams(), &scene.camera);
+    json.end();
+    json.key("view").beginObject();
+    writeParams(json, viewParams(), &scene.view);
+    json.end();
+    if (scene.environment) {
+        json.key("environment").beginObject();
+        json.key("source").value(scene.environment->source);
+        writeParams(json, environmentParams(), &*scene.environment);
+        json.end();
+    }
+    json.key("lights").beginArray();
+    for (const Light& light : scene.lights)
+        writeLight(json, light);
+    json.end();
+    json.key("objects").beginArray();
+    for (const Object& object : scene.objects)
+        writeObject(json, object);
+    json.end();
+    writeTechniques(json, scene.technique);
+    if (scene.maxError) {
+        json.key("quality").beginObject();
+        json.key("maxError").value(*scene.maxError);
+        json.end();
+    }
+    json.end();
+    return json.text();
+}
+
+} // namespace lucent::scene

@@ -1,0 +1,24 @@
+#include "scene/readers/Readers.h"
+
+#include "scene/readers/Exr.h"
+#include "scene/readers/Gltf.h"
+
+namespace lucent::scene {
+
+bool isForeign(const std::string& name, std::span<const std::byte> bytes) {
+    return isExr(bytes) || isGltf(name, bytes);
+}
+
+Result<Bytes> toPlain(const std::string& name, Bytes bytes, const ReadFile& read) {
+    if (isExr(bytes)) {
+        const Result<Image> image = decodeExr(bytes, name);
+        if (!image) return image.error();
+        return encodeImage(*image, ".pfm");
+    }
+    if (!isGltf(name, bytes)) return bytes;
+    const Result<Mesh> mesh = readGltf(name, bytes, read);
+    if (!mesh) return mesh.error();
+    return encodeMesh(*mesh);
+}
+
+} // namespace lucent::scene

@@ -1,0 +1,27 @@
+#pragma once
+/// Readers of foreign files, kept apart so that a page fetches them only when a scene needs one: they turn
+/// glTF and EXR into the plain forms (LUCENTM1, PFM) that the loader reads.
+
+#include "base/File.h"
+#include "base/Image.h"
+#include "scene/Mesh.h"
+
+namespace lucent::scene {
+
+/// True for bytes that toPlain() would turn into another form.
+bool isForeign(const std::string& name, std::span<const std::byte> bytes);
+
+/// glTF 2.0 (.gltf, .glb: every triangle, node transforms applied) becomes a mesh file, EXR becomes PFM,
+/// everything else stays as it is.
+///
+/// @param read  gives the external buffers of a .gltf
+/// @return      Error "NAME: what was found; what was expected"
+Result<Bytes> toPlain(const std::string& name, Bytes bytes, const ReadFile& read);
+
+/// Linear floats as EXR (32-bit float, 1, 3 or 4 channels, ZIP).
+Result<Bytes> encodeExr(const Image& image);
+
+/// readFile() with every foreign file turned into its plain form: what native programs load scenes with.
+ReadFile plainFiles();
+
+} // namespace lucent::scene

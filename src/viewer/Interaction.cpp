@@ -1,0 +1,107 @@
+#include "viewer/Interaction.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lucent::viewer {
+
+namespace {
+
+constexpr float kGrazing = 0.05f;      // onPlane(): cosine below which the hit runs away; chosen by eye
+constexpr float kPole = kPi / 180;     // closest angle between sight line and up
+constexpr float kLowestLight = 0.001f; // m, see liftedLight()
+
+vec3 turned(vec3 vector, float angle, vec3 axis) {
+    return vec3(glm::rotate(mat4(1), angle, axis) * vec4(vector, 0));
+}
+
+vec3 rightOf(const scene::Camera& camera) {
+    return glm::normalize(glm::cross(camera.target - camera.eye, camera.up));
+}
+
+float wrapDegrees(float degrees) { return degrees - 360 * std::floor((degrees + 180) / 360); }
+
+} // namespace
+
+Lens::Lens(const scene::Camera& camera, vec2 size)
+    : perspective_(camera.type == scene::Camera::Type::Perspective), eye_(camera.eye),
+      forward_(glm::normalize(camera.target - camera.eye)), right_(rightOf(camera)),
+      up_(glm::cross(right_, forward_)), size_(size) {
+    const float height = perspective_ ? 2 * std::tan(glm::radians(camera.fov) / 2) : camera.height;
+    spread_ = height / size.y;
+}
+
+std::optional<vec2> Lens::project(vec3 point) const {
+    const vec3 offset = point - eye_;
+    const float depth = glm::dot(offset, forward_);
+    if (perspective_ && depth <= 0) return {};
+    const vec2 metres(glm::dot(offset, right_), -glm::dot(offset, up_));
+    return size_ * 0.5f + metres / (perspective_ ? spread_ * depth : spread_);
+}
+
+std::optional<vec3> Lens::onPlane(vec2 pixel, float z) const {
+    const vec2 metres = (pixel - size_ * 0.5f) * spread_;
+    const vec3 aside = right_ * metres.x - up_ * metres.y;
+    const vec3 origin = perspective_ ? eye_ : eye_ + aside;
+    const vec3 direction = glm::normalize(perspective_ ? forward_ + aside : forward_);
+    if (std::abs(direction.z) < kGrazing) return {};
+    const float distance = (z - origin.z) / direction.z;
+    if (perspective_ && distance <= 0) return {};
+    return origin + distance * direction;
+}
+
+float Lens::metresPerPixel(vec3 point) const {
+    return perspective_ ? spread_ * std::abs(glm::dot(point - eye_, forward_)) : spread_;
+}
+
+scene::Camera framed(scene::Camera camera, ivec2 sceneSize, vec2 viewSize) {
+    const float wanted = float(sceneSize.x) / float(sceneSize.y);
+    const float widening = std::max(1.0f, wanted * viewSize.y / viewSize.x);
+    camera.height *= widening;
+    camera.fov = glm::degrees(2 * std::atan(std::tan(glm::radians(camera.fov) / 2) * widening));
+    return camera;
+}
+
+vec3 movedLight(const Lens& lens, vec3 position, vec2 from, vec2 to) {
+    const auto start = lens.onPlane(from, position.z);
+    const auto end = lens.onPlane(to, position.z);
+    if (!start || !end) return position;
+    return vec3(vec2(position) + vec2(*end) - vec2(*start), position.z);
+}
+
+vec3 turnedLight(const scene::Camera& camera, vec3 direction, vec2 turns) {
+    const vec3 right = rightOf(camera);
+    const vec3 up = glm::normalize(glm::cross(right, camera.target - camera.eye));
+    return turned(turned(direction, turns.x * kPi, up), turns.y * kPi, right);
+}
+
+vec3 turnedMap(vec3 rotation, vec2 turns, bool roll) {
+    const vec2 degrees = turns * 180.0f;
+    rotation += roll ? vec3(0, 0, -degrees.x) : vec3(degrees.y, degrees.x, 0);
+    return {wrapDegrees(rotation.x), wrapDegrees(rotation.y), wrapDegrees(rotation.z)};
+}
+
+vec3 orbited(const scene::Camera& camera, vec2 turns) {
+    const vec3 up = glm::normalize(camera.up);
+    const vec3 arm = turned(camera.eye - camera.target, -turns.x * kPi, up);
+    const float polar = std::acos(std::clamp(glm::dot(glm::normalize(arm), up), -1.0f, 1.0f));
+    const float wanted = std::clamp(polar - turns.y * kPi, kPole, kPi - kPole);
+    const vec3 side = glm::cross(up, arm);
+    if (glm::length(side) < 1e-6f * glm::length(arm))
+        return camera.eye; // looking along `up` there is no side
+    return camera.target + turned(arm, wanted - polar, glm::normalize(side));
+}
+
+scene::Camera zoomed(scene::Camera camera, float factor) {
+    if (camera.type == scene::Camera::Type::Orthographic)
+        camera.height /= factor;
+    else
+        camera.eye = camera.target + (camera.eye - camera.target) / factor;
+    return camera;
+}
+
+float liftedLight(float z, float factor) {
+    return std::copysign(std::max(std::abs(z), kLowestLight) * factor, z);
+}
+
+} // namespace lucent::viewer

@@ -1,0 +1,55 @@
+#pragma once
+/// How a movement on the picture changes the scene: where things are seen, and what a drag makes of a light,
+/// an environment or a camera. Pure functions; who calls them when is the viewer's business.
+
+#include "scene/Scene.h"
+
+#include <optional>
+
+namespace lucent::viewer {
+
+/// A camera in front of a picture of a certain size: between world and pixels.
+class Lens {
+public:
+    /// @param size  of the picture in CSS pixels, > 0
+    Lens(const scene::Camera& camera, vec2 size);
+
+    /// Pixel at which a world point is seen, from the top left corner; nothing behind a perspective camera.
+    std::optional<vec2> project(vec3 point) const;
+    /// Where the sight line of a pixel meets the plane z = const; nothing when it runs along the plane
+    /// (steeper than 1 : 20) or meets it behind the camera.
+    std::optional<vec3> onPlane(vec2 pixel, float z) const;
+    /// Metres that one pixel covers at the depth of a world point.
+    float metresPerPixel(vec3 point) const;
+
+private:
+    bool perspective_;
+    vec3 eye_, forward_, right_, up_;
+    vec2 size_;
+    float spread_; ///< m a pixel; perspective: m a pixel at a depth of 1 m
+};
+
+/// The camera that shows all of a picture of `sceneSize` within a view of another shape: a narrow view sees
+/// more above and below instead of cutting off the sides.
+scene::Camera framed(scene::Camera camera, ivec2 sceneSize, vec2 viewSize);
+
+/// The point light moved from under one pixel to under another, at its z. Unmoved where onPlane() fails.
+vec3 movedLight(const Lens& lens, vec3 position, vec2 from, vec2 to);
+/// A distant light turned so that its source goes with the pointer; half a turn for the view's shorter side.
+vec3 turnedLight(const scene::Camera& camera, vec3 direction, vec2 turns);
+/// An environment turned about the world's y axis (sideways) and x axis (up and down), or with `roll` about
+/// z. What stands behind the camera goes with the pointer.
+///
+/// @param rotation  degrees about x, y, z
+/// @param turns     drag in half turns
+/// @return          degrees, each in [-180, 180)
+vec3 turnedMap(vec3 rotation, vec2 turns, bool roll);
+/// The eye led around the target by a drag, `up` kept; stops one degree before the poles.
+vec3 orbited(const scene::Camera& camera, vec2 turns);
+/// Closer for factors above 1: shows 1 / `factor` of the height, or brings the eye to 1 / `factor` of its
+/// distance.
+scene::Camera zoomed(scene::Camera camera, float factor);
+/// `z` times `factor`; heights under a millimetre start at a millimetre, so that zero is no trap.
+float liftedLight(float z, float factor);
+
+} // namespace lucent::viewer

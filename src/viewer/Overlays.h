@@ -1,0 +1,27 @@
+#pragma once
+/// What is drawn over the picture itself: the light's dot, messages, help, the cost of the picture, tooltips.
+/// All need a current ImGui context between NewFrame and Render; all places are CSS pixels.
+
+#include "frame/Renderer.h"
+#include "viewer/Panel.h"
+
+#include <string>
+
+namespace lucent::viewer {
+
+/// A ring with a dot in the light's colour (linear).
+void drawLightDot(vec2 place, vec3 color);
+
+/// A card at the top with a message. @return true when its close button was pressed
+bool drawMessage(const std::string& message, vec2 picture, const Theme& theme);
+
+/// The list of gestures and keys. @return true when it was closed
+bool drawHelp(vec2 picture, const Theme& theme);
+
+/// One line at the bottom: what the last complete picture cost.
+void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme);
+
+/// A sentence beside the control that it explains, inside the canvas.
+void drawTooltip(std::string_view text, Rect control, vec2 canvas, const Theme& theme);
+
+} // namespace lucent::viewer

@@ -1,0 +1,76 @@
+#include "viewer/Report.h"
+
+#include "base/JsonWriter.h"
+
+namespace lucent::viewer {
+
+namespace {
+
+std::string_view kindName(Kind kind) {
+    constexpr std::string_view names[] = {"number", "integer", "toggle", "choice",
+                                          "color",  "vector",  "range"};
+    return names[int(kind)];
+}
+
+void writeControl(JsonWriter& json, const Control& control) {
+    const BoundParam& bound = control.bound;
+    const Param& param = *bound.param;
+    json.beginObject();
+    json.key("path").value(bound.path).key("attribute").value(attributeName(bound));
+    json.key("label").value(param.label).key("unit").value(param.unit);
+    json.key("group").value(name(param.group)).key("doc").value(param.doc);
+    json.key("kind").value(kindName(param.kind)).key("components").value(componentCount(param.kind));
+    json.key("min").value(param.min).key("max").value(param.max);
+    json.key("low").value(param.low).key("high").value(param.high);
+    json.key("logarithmic").value(param.logarithmic);
+    json.key("choices").beginArray();
+    for (const std::string_view choice : param.choices)
+        json.value(choice);
+    json.end();
+    json.key("value").value(getText(param, bound.data)).key("default").value(control.loaded);
+    json.end();
+}
+
+} // namespace
+
+std::string controlsJson(std::span<const Control> controls) {
+    JsonWriter json;
+    json.beginArray();
+    for (const Control& control : controls)
+        writeControl(json, control);
+    json.end();
+    return json.text();
+}
+
+std::string changesJson(std::span<const Control> controls) {
+    JsonWriter json;
+    json.beginObject();
+    for (const Control& control : controls) {
+        const std::string now = getText(*control.bound.param, control.bound.data);
+        if (now != control.loaded) json.key(control.bound.path).value(now);
+    }
+    json.end();
+    return json.text();
+}
+
+std::string statsJson(const StatsInput& input) {
+    JsonWriter json;
+    json.beginObject();
+    json.key("milliseconds").value(input.cost.milliseconds).key("passes").value(input.cost.passes);
+    json.key("draws").value(input.cost.draws).key("lights").value(input.cost.lights);
+    json.key("bytes").value(double(input.cost.bytes)).key("complete").value(input.complete);
+    json.key("frames").value(input.frames).key("revision").value(double(input.revision));
+    if (input.light) {
+        const float place[] = {input.light->x, input.light->y};
+        json.key("light").value(std::span<const float>(place));
+    }
+    json.key("panel").beginObject();
+    for (const auto& [path, rect] : input.widgets) {
+        const float place[] = {rect.low.x, rect.low.y, rect.high.x - rect.low.x, rect.high.y - rect.low.y};
+        json.key(path).value(std::span<const float>(place));
+    }
+    json.end().end();
+    return json.text();
+}
+
+} // namespace lucent::viewer

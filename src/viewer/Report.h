@@ -1,0 +1,27 @@
+#pragma once
+/// What a page asks about a viewer, as JSON.
+
+#include "frame/Renderer.h"
+#include "viewer/Panel.h"
+
+#include <optional>
+
+namespace lucent::viewer {
+
+/// Array of the controls in panel order; those of Group::None too, with an empty group.
+std::string controlsJson(std::span<const Control> controls);
+
+/// Object path -> value of every parameter that differs from the loaded scene.
+std::string changesJson(std::span<const Control> controls);
+
+struct StatsInput {
+    frame::Stats cost;
+    bool complete = false;
+    int frames = 0;
+    std::uint64_t revision = 0;
+    std::optional<vec2> light;           ///< CSS pixels of its dot
+    std::map<std::string, Rect> widgets; ///< see Panel::widgets()
+};
+std::string statsJson(const StatsInput& input);
+
+} // namespace lucent::viewer

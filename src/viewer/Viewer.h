@@ -1,0 +1,98 @@
+#pragma once
+/// What a person does with a scene: look, drag the light, turn knobs. No window system: events come in as
+/// plain values, pictures go to the default framebuffer.
+
+#include "base/File.h"
+#include "frame/Renderer.h"
+#include "gl/ImGuiHost.h"
+#include "scene/Scene.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lucent::viewer {
+
+enum class PointerEvent { Down, Move, Up, Leave };
+struct Modifiers {
+    bool shift = false, control = false, alt = false;
+};
+
+/// One viewer on a page. The GL context and its ImGui host are the page's and outlive it.
+class Viewer {
+public:
+    Viewer(gl::Context& context, gl::ImGuiHost& imgui);
+    ~Viewer();
+
+    /// Loads a scene file through `read`. On error the scene that was showing stays and the message is shown
+    /// on the canvas until dismissed.
+    Status load(const std::string& path, const ReadFile& read);
+    /// A dropped or opened picture: a height map, or an environment map when `asEnvironment`.
+    Status openImage(const std::string& name, std::span<const std::byte> bytes, bool asEnvironment);
+    /// Shows a message over the picture ("" removes it).
+    void showMessage(const std::string& message);
+
+    /// Framebuffer size in pixels and pixels per CSS pixel.
+    void resize(ivec2 pixels, float scale);
+    void setPanelVisible(bool visible);
+    void setDark(bool dark);
+
+    /// Draws if something changed or the picture is not complete. @return true when another call is wanted
+    bool draw(double nowSeconds);
+    /// Number of times something was really drawn since the start: an idle page must not raise it.
+    int drawCount() const;
+
+    /// Pointer in CSS pixels from the top left corner. @return true when the viewer used the event
+    ///
+    /// A drag moves the point light whose dot is nearest (a distant light turns). While the environment
+    /// shines, a drag turns it, with Alt or the right button about z, and the light is gripped at its dot
+    /// only. With Shift it leads the camera around its target.
+    bool pointer(PointerEvent event, vec2 position, int button, Modifiers modifiers, bool touch);
+    /// Distance of the light; zoom with Control and where there is no point light to lift. @param delta CSS
+    /// pixels
+    bool wheel(vec2 position, float delta, Modifiers modifiers);
+    bool pinch(float factor);
+    /// `key` as in KeyboardEvent.key.
+    bool key(const std::string& key, Modifiers modifiers);
+
+    /// Parameters of the scene by path, as text; set() records an undo step (steps of one drag are merged).
+    std::string get(const std::string& path) const;
+    Status set(const std::string& path, const std::string& value);
+    void reset(const std::string& path);
+    bool undo();
+    bool redo();
+    /// Marks one control of the panel: its DOM twin has the keyboard focus ("" for none).
+    void focusControl(const std::string& path);
+
+    /// JSON array of the controls in panel order: path, attribute, label, unit, group, doc, kind, components,
+    /// min, max, low, high, logarithmic, choices, value, default (as loaded; both as text). An empty group:
+    /// not in the panel. The DOM twin is made from it.
+    std::string controls();
+    /// JSON: milliseconds, passes, draws, lights, bytes, complete, frames, revision; light: [x, y] of the
+    /// dot; panel: path -> [x, y, width, height] of each control's widget that can be seen in full. CSS
+    /// pixels.
+    std::string stats() const;
+    /// JSON object path -> value of every parameter that differs from the loaded scene: what a link carries.
+    std::string changes() const;
+    std::string sceneJson() const;
+    std::string title() const;
+    std::string caption() const;
+    const scene::Scene* scene() const;
+    /// Changes whenever a parameter changed, by whatever road.
+    std::uint64_t revision() const;
+
+    /// Gives the GPU memory back; the next draw() makes the picture again.
+    void release();
+    /// Goes on with another context, after the old one was lost. Scene, undo steps and panel stay.
+    void attach(gl::Context& context, gl::ImGuiHost& imgui);
+
+private:
+    Status openEnvironment(const std::string& name, std::span<const std::byte> bytes);
+    Status openHeights(const std::string& name, std::span<const std::byte> bytes);
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lucent::viewer

@@ -1,0 +1,172 @@
+#include "web/Api.h"
+
+#include "base/JsonWriter.h"
+#include "scene/Load.h"
+#include "viewer/Viewer.h"
+
+#include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+
+using namespace lucent;
+using viewer::Viewer;
+
+namespace {
+
+/// What a page has: one context, one host for its panels, files and viewers.
+struct Page {
+    std::unique_ptr<gl::Context> context;
+    std::unique_ptr<gl::ImGuiHost> imgui;
+    std::map<std::string, Bytes> files;
+    std::map<int, std::unique_ptr<Viewer>> viewers;
+    int lastViewer = 0;
+    std::string answer;
+};
+
+Page& page() {
+    static Page only;
+    return only;
+}
+
+Viewer& viewerOf(int handle) { return *page().viewers.at(handle); }
+
+const char* answer(std::string text) {
+    page().answer = std::move(text);
+    return page().answer.c_str();
+}
+
+const char* answer(const Status& status) { return answer(status ? std::string() : status.error().message); }
+
+Result<Bytes> readFetched(const std::string& path) {
+    const auto found = page().files.find(path);
+    if (found == page().files.end())
+        return Error{path + ": was not fetched; must be put before the scene is loaded"};
+    return found->second;
+}
+
+std::span<const std::byte> bytesOf(const std::uint8_t* bytes, int size) {
+    return std::as_bytes(std::span(bytes, std::size_t(size)));
+}
+
+viewer::Modifiers modifiersOf(int bits) { return {(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0}; }
+
+} // namespace
+
+// Dear ImGui falls back to a typeface of its own when an atlas has none. Ours always has one, and without
+// that typeface the page is 10 KB smaller: the linker sends calls of ImFontAtlas::AddFontDefault here.
+extern "C" void* __wrap__ZN11ImFontAtlas14AddFontDefaultEPK12ImFontConfig(void*, const void*) {
+    return nullptr;
+}
+
+const char* lucent_start() {
+    Page& p = page();
+    for (auto& [handle, viewer] : p.viewers)
+        viewer->release();
+    p.imgui.reset();
+    p.context.reset();
+    Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
+    if (!context) return answer(context.error().message);
+    p.context = std::move(*context);
+    p.imgui = std::make_unique<gl::ImGuiHost>(*p.context);
+    for (auto& [handle, viewer] : p.viewers)
+        viewer->attach(*p.context, *p.imgui);
+    return answer(std::string());
+}
+
+const char* lucent_capabilities() {
+    const gl::Caps& caps = page().context->caps();
+    JsonWriter json;
+    json.beginObject().key("webgl").raw(caps.json()).key("fallbacks").beginArray();
+    for (const std::string& line : caps.fallbacks())
+        json.value(line);
+    json.end().end();
+    return answer(json.text());
+}
+
+void lucent_context_lost() { page().context->markLost(); }
+
+// --- files
+
+void file_put(const char* path, const std::uint8_t* bytes, int size) {
+    const auto content = bytesOf(bytes, size);
+    page().files[path] = Bytes(content.begin(), content.end());
+}
+
+void file_forget(const char* path) { page().files.erase(path); }
+
+const char* scene_dependencies(const char* path) {
+    JsonWriter json;
+    json.beginObject();
+    const Result<Bytes> scene = readFetched(path);
+    const auto files =
+        scene ? scene::dependencies(path, *scene) : Result<std::vector<std::string>>(scene.error());
+    if (files) {
+        json.key("files").beginArray();
+        for (const std::string& file : *files)
+            json.value(file);
+        json.end();
+    } else {
+        json.key("error").value(files.error().message);
+    }
+    json.end();
+    return answer(json.text());
+}
+
+// --- viewers
+
+int viewer_create() {
+    Page& p = page();
+    p.viewers.emplace(++p.lastViewer, std::make_unique<Viewer>(*p.context, *p.imgui));
+    return p.lastViewer;
+}
+
+void viewer_destroy(int viewer) { page().viewers.erase(viewer); }
+
+const char* viewer_load(int viewer, const char* path) {
+    return answer(viewerOf(viewer).load(path, readFetched));
+}
+
+const char* viewer_open_image(int viewer, const char* name, const std::uint8_t* bytes, int size, int kind) {
+    return answer(viewerOf(viewer).openImage(name, bytesOf(bytes, size), kind == 1));
+}
+
+void viewer_message(int viewer, const char* text) { viewerOf(viewer).showMessage(text); }
+void viewer_resize(int viewer, int width, int height, float scale) {
+    viewerOf(viewer).resize({width, height}, scale);
+}
+void viewer_panel(int viewer, int visible) { viewerOf(viewer).setPanelVisible(visible != 0); }
+void viewer_dark(int viewer, int dark) { viewerOf(viewer).setDark(dark != 0); }
+int viewer_draw(int viewer, double seconds) { return viewerOf(viewer).draw(seconds); }
+int viewer_draw_count(int viewer) { return viewerOf(viewer).drawCount(); }
+
+int viewer_pointer(int viewer, int event, float x, float y, int button, int modifiers, int touch) {
+    return viewerOf(viewer).pointer(viewer::PointerEvent(event), {x, y}, button, modifiersOf(modifiers),
+                                    touch != 0);
+}
+
+int viewer_wheel(int viewer, float x, float y, float delta, int modifiers) {
+    return viewerOf(viewer).wheel({x, y}, delta, modifiersOf(modifiers));
+}
+
+int viewer_pinch(int viewer, float factor) { return viewerOf(viewer).pinch(factor); }
+int viewer_key(int viewer, const char* key, int modifiers) {
+    return viewerOf(viewer).key(key, modifiersOf(modifiers));
+}
+
+const char* viewer_get(int viewer, const char* path) { return answer(viewerOf(viewer).get(path)); }
+const char* viewer_set(int viewer, const char* path, const char* value) {
+    return answer(viewerOf(viewer).set(path, value));
+}
+void viewer_reset(int viewer, const char* path) { viewerOf(viewer).reset(path); }
+int viewer_undo(int viewer) { return viewerOf(viewer).undo(); }
+int viewer_redo(int viewer) { return viewerOf(viewer).redo(); }
+void viewer_focus(int viewer, const char* path) { viewerOf(viewer).focusControl(path); }
+const char* viewer_controls(int viewer) { return answer(viewerOf(viewer).controls()); }
+const char* viewer_stats(int viewer) { return answer(viewerOf(viewer).stats()); }
+const char* viewer_changes(int viewer) { return answer(viewerOf(viewer).changes()); }
+const char* viewer_scene_json(int viewer) { return answer(viewerOf(viewer).sceneJson()); }
+const char* viewer_title(int viewer) { return answer(viewerOf(viewer).title()); }
+const char* viewer_caption(int viewer) { return answer(viewerOf(viewer).caption()); }
+double viewer_revision(int viewer) { return double(viewerOf(viewer).revision()); }
+void viewer_release(int viewer) { viewerOf(viewer).release(); }

@@ -1,0 +1,55 @@
+#pragma once
+/// The calls that JavaScript makes: C functions, numbers and UTF-8 strings only, so that no code is generated at
+/// run time and a strict content policy holds. Strings returned stay valid until the next call that returns one.
+///
+/// A page makes one WebGL2 context on an OffscreenCanvas, makes it current, calls lucent_start once, and then
+/// one viewer an element. Before viewer_draw the canvas must have the viewer's size.
+
+#include <cstdint>
+
+extern "C" {
+/// Takes the current WebGL2 context. Returns "" or the message why it cannot be used. Called again after a lost
+/// context came back: viewers keep their scenes and rebuild what they had on the GPU.
+const char* lucent_start();
+/// JSON: {"webgl": {...capabilities}, "fallbacks": [...]}
+const char* lucent_capabilities();
+void lucent_context_lost();
+
+/// Keeps a file for later loads; the bytes are copied.
+void file_put(const char* path, const std::uint8_t* bytes, int size);
+void file_forget(const char* path);
+/// JSON: {"files": [...]} or {"error": "..."}; the scene must have been put.
+const char* scene_dependencies(const char* path);
+
+int viewer_create(); ///< handle > 0
+void viewer_destroy(int viewer);
+/// "" or the message; the files must have been put. After an error the old scene stays.
+const char* viewer_load(int viewer, const char* path);
+/// kind: 0 height map, 1 environment map
+const char* viewer_open_image(int viewer, const char* name, const std::uint8_t* bytes, int size, int kind);
+void viewer_message(int viewer, const char* text);
+void viewer_resize(int viewer, int width, int height, float scale);
+void viewer_panel(int viewer, int visible);
+void viewer_dark(int viewer, int dark);
+int viewer_draw(int viewer, double seconds); ///< 1: another frame is wanted
+int viewer_draw_count(int viewer);
+/// event: 0 down, 1 move, 2 up, 3 leave; modifiers: 1 shift, 2 control, 4 alt. Returns 1 when used.
+int viewer_pointer(int viewer, int event, float x, float y, int button, int modifiers, int touch);
+int viewer_wheel(int viewer, float x, float y, float delta, int modifiers);
+int viewer_pinch(int viewer, float factor);
+int viewer_key(int viewer, const char* key, int modifiers);
+const char* viewer_get(int viewer, const char* path);
+const char* viewer_set(int viewer, const char* path, const char* value); ///< "" or the message
+void viewer_reset(int viewer, const char* path);
+int viewer_undo(int viewer);
+int viewer_redo(int viewer);
+void viewer_focus(int viewer, const char* path);
+const char* viewer_controls(int viewer);
+const char* viewer_stats(int viewer);
+const char* viewer_changes(int viewer);
+const char* viewer_scene_json(int viewer);
+const char* viewer_title(int viewer);
+const char* viewer_caption(int viewer);
+double viewer_revision(int viewer);
+void viewer_release(int viewer);
+}

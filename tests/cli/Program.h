@@ -1,0 +1,88 @@
+#pragma once
+/// Runs the built program in a folder of its own.
+
+#include "base/File.h"
+#include "base/Image.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lucent::test {
+
+struct Outcome {
+    int code;
+    std::string out, err;
+};
+
+class ProgramTest : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = std::filesystem::temp_directory_path() /
+                  (std::string("lucent-") + info->name() + "-" + std::to_string(getpid()));
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    bool exists(const std::string& name) const { return std::filesystem::exists(path(name)); }
+
+    void write(const std::string& name, const std::string& text) const {
+        const auto* first = reinterpret_cast<const std::byte*>(text.data());
+        ASSERT_TRUE(writeFile(path(name), std::span(first, text.size())).ok());
+    }
+    void write(const std::string& name, const Image& image) const {
+        const auto bytes = encodeImage(image, name);
+        ASSERT_TRUE(bytes.ok());
+        ASSERT_TRUE(writeFile(path(name), *bytes).ok());
+    }
+    std::string text(const std::string& name) const {
+        const auto bytes = readFile(path(name));
+        return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "";
+    }
+
+    /// Files in the folder, so that nothing written can be told.
+    std::size_t fileCount() const {
+        const std::filesystem::directory_iterator files(folder_);
+        return std::size_t(std::distance(begin(files), end(files)));
+    }
+
+    /// A scene over `heights` (a file name), with `material` and `rest` put in as JSON members.
+    void writeScene(const std::string& heights, const std::string& material = R"("depth": 0.1)",
+                    const std::string& rest = R"("title": "test")") const {
+        write("scene.json", "{ \"lucent\": 1, \"size\": [16, 16], " + rest +
+                                ",\n"
+                                "  \"lights\": [ { \"type\": \"point\", \"position\": [0.3, 0.4, 0.6] } ],\n"
+                                "  \"objects\": [ { \"name\": \"field\",\n"
+                                "    \"shape\": { \"type\": \"heightfield\", \"heights\": " +
+                                heights + " },\n    \"material\": { " + material + " } } ] }\n");
+    }
+    /// A bump of 8 x 8 texels.
+    void writeBump(const std::string& name) const {
+        Image heights(8, 8, 1);
+        *heights.at(3, 4) = 1;
+        write(name, heights);
+    }
+
+    /// Runs "lucent ARGUMENTS" in the folder.
+    Outcome run(const std::string& arguments) const {
+        const std::string command = "cd '" + folder_.string() + "' && '" LUCENT_PROGRAM "' " + arguments +
+                                    " >'" + path(".out") + "' 2>'" + path(".err") + "'";
+        const int status = std::system(command.c_str());
+        Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(".out"), text(".err")};
+        std::filesystem::remove(path(".out"));
+        std::filesystem::remove(path(".err"));
+        return outcome;
+    }
+
+private:
+    std::filesystem::path folder_;
+};
+
+} // namespace lucent::test

@@ -1,0 +1,235 @@
+#include "tests/cli/Program.h"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <limits>
+#include <thread>
+#include <unistd.h>
+
+namespace lucent::test {
+namespace {
+
+class Program : public ProgramTest {
+protected:
+    /// The command must end with code 1, one message that holds `message`, and leave no new file.
+    void expectRefusal(const std::string& arguments, const std::string& message) const {
+        const std::size_t before = fileCount();
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.code, 1) << arguments;
+        EXPECT_EQ(outcome.out, "") << arguments;
+        EXPECT_EQ(outcome.err.rfind("lucent: ", 0), 0u) << outcome.err;
+        EXPECT_NE(outcome.err.find(message), std::string::npos) << arguments << "\n" << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_EQ(fileCount(), before) << arguments;
+    }
+    /// The scene must be refused by every command that reads one.
+    void expectBadScene(const std::string& message) const {
+        expectRefusal("render scene.json -o out.png", message);
+        expectRefusal("truth scene.json -o out.pfm", message);
+        expectRefusal("explain scene.json", message);
+    }
+};
+
+TEST_F(Program, HelpOfEveryCommandHasExamplesAndEndsWellBehaved) {
+    EXPECT_EQ(run("--help").code, 0);
+    EXPECT_EQ(run("--version").out, "0.1.0\n");
+    for (const char* command : {"render", "truth", "compare", "explain", "list", "convert", "schema"}) {
+        const Outcome outcome = run(std::string(command) + " --help");
+        EXPECT_EQ(outcome.code, 0);
+        EXPECT_EQ(outcome.err, "");
+        EXPECT_NE(outcome.out.find("Example"), std::string::npos) << command;
+    }
+}
+
+TEST_F(Program, WrongUsageIsExplained) {
+    writeBump("bump.pfm");
+    writeScene("\"bump.pfm\"");
+    expectRefusal("", "see lucent --help");
+    expectRefusal("frobnicate", "command: is \"frobnicate\"; must be one that lucent --help names");
+    expectRefusal("render scene.json", "--output is required; see lucent render --help");
+    expectRefusal("render scene.json -o out.png --frob", "--frob; see lucent render --help");
+    expectRefusal("render scene.json -o out.gif", "out.gif: ends in no known image type; must be .png");
+    expectRefusal("render scene.json -o no/out.png",
+                  "no/out.png: cannot be written, no is no folder; must be");
+    expectRefusal("render scene.json -o out.png --stats no/s.json", "no/s.json: cannot be written");
+    for (const char* size : {"0x4", "16", "4x4x4", "-1x5", "9000x1", "ax4"})
+        expectRefusal("render scene.json -o out.png --size=" + std::string(size),
+                      "--size: is \"" + std::string(size) + "\"; must be WIDTHxHEIGHT, each from 1 to 8192");
+    expectRefusal("render scene.json -o out.png --aov shine",
+                  "--aov: is \"shine\"; must be one of color, d,");
+    expectRefusal("truth scene.json -o out.png --aov normal", "must be color or d");
+}
+
+TEST_F(Program, WrongChangesOfParametersAreRefusedWithTheirPath) {
+    writeBump("bump.pfm");
+    writeScene("\"bump.pfm\"");
+    expectRefusal("render scene.json -o out.png --set depth", "--set: is \"depth\"; must be KEY=VALUE");
+    expectRefusal("render scene.json -o out.png --set objects.field.material.depht=1",
+                  "--set: objects.field.material.depht is not a parameter; the nearest is "
+                  "objects.field.material.depth");
+    expectRefusal("truth scene.json -o out.png --set objects.field.material.depth=-1",
+                  "--set: objects.field.material.depth is -1; must be");
+    expectRefusal("truth scene.json -o out.png --set technique.relief.method=magic",
+                  "technique.relief.method is");
+}
+
+TEST_F(Program, MissingFilesAreNamed) {
+    expectBadScene("scene.json: cannot be read (No such file or directory)");
+    writeScene("\"bump.pfm\"");
+    expectBadScene("bump.pfm: cannot be read (No such file or directory)");
+}
+
+TEST_F(Program, WrongTypesAreNamedWithTheirLine) {
+    writeScene("5");
+    expectBadScene("scene.json:4: objects.field.shape.heights is 5; must be");
+    write("scene.json", std::string("{ \"lucent\": 1,\n  \"objects\": "));
+    expectBadScene("scene.json:");
+}
+
+TEST_F(Program, UnknownKeysAndValuesOutOfRangeAreNamedWithTheirLine) {
+    writeBump("bump.pfm");
+    writeScene("\"bump.pfm\"", "\"shine\": 1");
+    expectBadScene("scene.json:5: ");
+    expectBadScene("shine");
+    writeScene("\"bump.pfm\"", "\"specularity\": 2");
+    expectBadScene("scene.json:5: objects.field.material.specularity is 2; must be in [0, 1]");
+}
+
+TEST_F(Program, ATruncatedPngIsRefused) {
+    writeBump("bump.png");
+    writeScene("\"bump.png\"");
+    write("bump.png", text("bump.png").substr(0, 50));
+    expectBadScene("bump.png: ");
+}
+
+TEST_F(Program, ATexelThatIsNotANumberIsRefusedWithItsPlace) {
+    // PFM by hand, rows from the bottom: the third number stands in column 0 of the upper row.
+    const float values[] = {0, 1, std::numeric_limits<float>::quiet_NaN(), 0.5f};
+    write("nan.pfm", "Pf\n2 2\n-1\n" + std::string(reinterpret_cast<const char*>(values), sizeof values));
+    writeScene("\"nan.pfm\"");
+    expectBadScene("nan.pfm: ");
+}
+
+TEST_F(Program, AnImageOfNoSizeIsRefused) {
+    write("none.pfm", std::string("Pf\n0 4\n-1\n"));
+    writeScene("\"none.pfm\"");
+    expectBadScene("none.pfm: is 0 x 4 pixels");
+}
+
+TEST_F(Program, TruthWritesTheModelsValues) {
+    // A flat field in its object's plane under a lamp: d of the middle is the sine of the lamp's elevation
+    // from p'.
+    write("flat.pfm", Image(8, 8, 1));
+    writeScene("\"flat.pfm\"", R"("depth": 0.25)");
+    ASSERT_EQ(run("truth scene.json -o d.pfm --aov d --size 1x1 --set 'lights.0.position=0.3 0 0.05'").code,
+              0);
+    const auto bytes = readFile(path("d.pfm"));
+    ASSERT_TRUE(bytes.ok());
+    const auto image = decodeImage(*bytes, "d.pfm", Encoding::Linear);
+    ASSERT_TRUE(image.ok());
+    EXPECT_FLOAT_EQ(image->pixels[0], 0.3f / std::hypot(0.3f, 0.3f)); // 0.3 m aside, 0.05 + 0.25 m up
+}
+
+TEST_F(Program, StoppingTheTruthLeavesNoFile) {
+    writeBump("bump.pfm");
+    // Thousands of directions and a large picture: minutes of work.
+    writeScene("\"bump.pfm\"", R"("depth": 0.1)", R"("environment": { "source": "sky" })");
+    const std::string scene = path("scene.json"), out = path("out.pfm"), err = path("err");
+    const pid_t program = fork();
+    if (program == 0) {
+        alarm(60); // outlives exec: a program that does not stop is stopped all the same
+        if (std::freopen(err.c_str(), "w", stderr))
+            execl(LUCENT_PROGRAM, "lucent", "truth", scene.c_str(), "-o", out.c_str(), "--size", "2048x2048",
+                  nullptr);
+        _exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    kill(program, SIGINT);
+    int status = 0;
+    waitpid(program, &status, 0);
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
+    EXPECT_EQ(text("err"), "lucent: truth: stopped before the picture was complete\n");
+    EXPECT_FALSE(exists("out.pfm"));
+}
+
+TEST_F(Program, CompareMeasuresAndDrawsWhereItDiffers) {
+    Image a(2, 1, 3), b(2, 1, 3);
+    for (int channel = 0; channel < 3; ++channel)
+        a.at(1, 0)[channel] = 0.5f;
+    write("a.pfm", a);
+    write("b.pfm", b);
+    const Outcome outcome = run("compare a.pfm b.pfm --json --heatmap heat.png");
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.out.find("\"max\": 0.5"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("\"mae\": 0.25"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("\"fluxRatio\": null"), std::string::npos)
+        << outcome.out; // the reference is black
+    EXPECT_TRUE(exists("heat.png"));
+    write("c.pfm", Image(1, 2, 3));
+    expectRefusal("compare a.pfm c.pfm --heatmap more.png", "a.pfm: has 2x1 pixels");
+    expectRefusal("compare a.pfm nothing.pfm", "nothing.pfm: cannot be read");
+    expectRefusal("compare a.pfm b.pfm --heatmap more.txt", "more.txt: ends in no known image type");
+}
+
+TEST_F(Program, ConvertMakesHeightsOfImagesAndNormalMaps) {
+    writeBump("bump.png");
+    ASSERT_EQ(run("convert bump.png -o bump.pfm").code, 0);
+    const auto bytes = readFile(path("bump.pfm"));
+    const auto image = decodeImage(*bytes, "bump.pfm", Encoding::Linear);
+    EXPECT_EQ(*image->at(3, 4), 1);
+    EXPECT_EQ(*image->at(4, 4), 0);
+
+    // Normals (1, 0, 1) / sqrt 2 everywhere: one texel down for each texel to the right. Stored as (n + 1)
+    // / 2.
+    Image normals(4, 2, 3);
+    for (std::size_t i = 0; i < normals.pixels.size(); ++i)
+        normals.pixels[i] = i % 3 == 1 ? 0.5f : 0.5f + 0.5f * std::sqrt(0.5f);
+    write("slope.pfm", normals);
+    const Outcome outcome = run("convert slope.pfm -o heights.pfm --normals");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    // Three texels high over four texels in a metre: 0.75 m.
+    EXPECT_NE(outcome.out.find("heightScale = 0.75 for a width of 1 m"), std::string::npos) << outcome.out;
+
+    expectRefusal("convert bump.png -o out.png", "out.png: 8-bit PNG would make terraces");
+    expectRefusal("convert bump.png -o out.pfm --rotate 0,1,2", "bump.png: is no mesh; --size, --rotate");
+    expectRefusal("convert nothing.glb -o out.pfm", "nothing.glb: cannot be read");
+    write("bad.glb", std::string("glTF and then nothing"));
+    expectRefusal("convert bad.glb -o out.pfm", "bad.glb: ");
+}
+
+TEST_F(Program, ConvertSeesAMeshFromAboveAndChecksItsOptions) {
+    // A triangle as glTF with its buffer beside it: three corners, of which one is 1 m higher.
+    const float corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 1};
+    write("triangle.bin", std::string(reinterpret_cast<const char*>(corners), sizeof corners));
+    write("triangle.gltf",
+          std::string(R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ],
+  "nodes": [ { "mesh": 0 } ], "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
+  "buffers": [ { "uri": "triangle.bin", "byteLength": 36 } ],
+  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [ 0, 0, 0 ], "max": [ 1, 1, 1 ] } ] })"));
+    const Outcome outcome =
+        run("convert triangle.gltf -o heights.pfm --size 32x16 --floor-gap 0.5 --margin 0.1");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "heights.pfm: 32 x 16 heights\n");
+    expectRefusal("convert triangle.gltf -o out.pfm --margin 2", "--margin: is 2; must be in [0, 0.45]");
+    expectRefusal("convert triangle.gltf -o out.pfm --floor-gap x", "--floor-gap: is \"x\"; must be");
+    expectRefusal("convert triangle.gltf -o out.pfm --size 0x0", "--size: is \"0x0\"; must be");
+    expectRefusal("convert triangle.gltf -o out.pfm --normals",
+                  "triangle.gltf: is a mesh; --normals takes an image");
+}
+
+TEST_F(Program, ListAndSchemaNameEveryParameter) {
+    for (const char* format : {"list", "list --json", "list --markdown", "schema"}) {
+        const Outcome outcome = run(format);
+        EXPECT_EQ(outcome.code, 0);
+        EXPECT_EQ(outcome.err, "");
+        for (const char* word :
+             {"relief", "hierarchy", "march", "counting", "specularFalloff", "heightScale", "fov"})
+            EXPECT_NE(outcome.out.find(word), std::string::npos) << format << " lacks " << word;
+    }
+}
+
+} // namespace
+} // namespace lucent::test

@@ -1,0 +1,108 @@
+#include "measure/Metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace lucent::measure {
+namespace {
+
+Image imageOf(int width, int height, int channels, std::vector<float> pixels) {
+    Image image(width, height, channels);
+    image.pixels = std::move(pixels);
+    return image;
+}
+
+TEST(Metrics, AreThoseOfTheirDefinitions) {
+    // Differences 0.5, 0, -1, 0.25 against 0.5, 1, 2, 0: all are exact in float.
+    const Image reference = imageOf(2, 2, 1, {0.5f, 1, 2, 0});
+    const Image image = imageOf(2, 2, 1, {1, 1, 1, 0.25f});
+    const auto metrics = compare(image, "a", reference, "b");
+    ASSERT_TRUE(metrics.ok());
+    const double mse = (0.25 + 0 + 1 + 0.0625) / 4;
+    EXPECT_DOUBLE_EQ(metrics->rmse, std::sqrt(mse));
+    EXPECT_DOUBLE_EQ(metrics->relMse, (0.25 / 0.26 + 0 + 1 / 4.01 + 0.0625 / 0.01) / 4);
+    EXPECT_DOUBLE_EQ(metrics->mae, 1.75 / 4);
+    EXPECT_DOUBLE_EQ(metrics->p99, 1); // of four values the fourth: 99 % is more than three
+    EXPECT_DOUBLE_EQ(metrics->maximum, 1);
+    EXPECT_EQ(metrics->maximumAt, ivec2(0, 1));
+    EXPECT_NEAR(metrics->psnr, 10 * std::log10(1 / mse), 1e-12);
+    EXPECT_DOUBLE_EQ(metrics->bias, -0.25 / 4);
+    EXPECT_DOUBLE_EQ(metrics->fluxRatio, 3.25 / 3.5);
+}
+
+TEST(Metrics, LookAtRedGreenBlueAndNotAtAlpha) {
+    const auto metrics = compare(imageOf(1, 1, 4, {0, 3, 0, 9}), "a", imageOf(1, 1, 3, {0, 0, 0}), "b");
+    ASSERT_TRUE(metrics.ok());
+    EXPECT_DOUBLE_EQ(metrics->rmse, std::sqrt(3.0)); // 9 over three channels
+    EXPECT_TRUE(std::isnan(metrics->fluxRatio));     // nothing to be a share of
+}
+
+TEST(Metrics, EqualPicturesHaveNoErrorAndInfinitePsnr) {
+    const Image image = imageOf(1, 2, 1, {0.25f, 4});
+    const auto metrics = compare(image, "a", image, "a");
+    ASSERT_TRUE(metrics.ok());
+    EXPECT_EQ(metrics->rmse, 0);
+    EXPECT_EQ(metrics->maximum, 0);
+    EXPECT_EQ(metrics->fluxRatio, 1);
+    EXPECT_EQ(metrics->psnr, std::numeric_limits<double>::infinity());
+}
+
+TEST(Metrics, NinetyNinePercentAreNotAboveP99) {
+    // 200 values, two of them wrong by 5 and one by 3: 198 of 200 are 99 %, so the 198th in order counts: 3.
+    Image image(200, 1, 1);
+    image.pixels[7] = image.pixels[90] = 5;
+    image.pixels[3] = 3;
+    const auto metrics = compare(image, "a", Image(200, 1, 1), "b");
+    ASSERT_TRUE(metrics.ok());
+    EXPECT_EQ(metrics->p99, 3);
+    EXPECT_EQ(metrics->maximumAt, ivec2(7, 0));
+}
+
+TEST(Metrics, DifferentSizesAndChannelsAreRefused) {
+    const auto sizes = compare(Image(2, 3, 1), "a.png", Image(3, 2, 1), "b.pfm");
+    ASSERT_FALSE(sizes.ok());
+    EXPECT_EQ(sizes.error().message,
+              "a.png: has 2x3 pixels with 1 colour channel; must have 3x2 pixels with 1 "
+              "colour channel like b.pfm");
+    const auto channels = compare(Image(2, 3, 4), "a.png", Image(2, 3, 1), "b.pfm");
+    ASSERT_FALSE(channels.ok());
+    EXPECT_EQ(channels.error().message,
+              "a.png: has 2x3 pixels with 3 colour channels; must have 2x3 pixels with 1 "
+              "colour channel like b.pfm");
+}
+
+TEST(Metrics, ValuesThatAreNotFiniteAreCountedAndRefused) {
+    Image image(3, 2, 1);
+    *image.at(1, 1) = std::numeric_limits<float>::quiet_NaN();
+    *image.at(2, 1) = std::numeric_limits<float>::infinity();
+    const auto metrics = compare(Image(3, 2, 1), "a.pfm", image, "b.pfm");
+    ASSERT_FALSE(metrics.ok());
+    EXPECT_EQ(metrics.error().message,
+              "b.pfm: 2 values are NaN or infinite, the first at pixel (1, 1); must be finite");
+}
+
+TEST(HeatMap, IsBlackForNoErrorAndEachStepIsLighter) {
+    EXPECT_EQ(heatColor(0), dvec3(0));
+    double last = 0;
+    for (int i = 1; i <= 256; ++i) {
+        const double luminance = glm::dot(heatColor(i / 256.0), dvec3(0.2126, 0.7152, 0.0722));
+        EXPECT_GT(luminance, last) << "step " << i;
+        last = luminance;
+    }
+    EXPECT_GT(last, 0.8);
+    EXPECT_EQ(heatColor(7), heatColor(1));
+}
+
+TEST(HeatMap, ShowsTheLargestChannelOfEachPixel) {
+    const Image map = heatMap(imageOf(2, 1, 3, {0, 0, 0, 0.1f, -0.5f, 0}), Image(2, 1, 3), 1);
+    const dvec3 half = heatColor(0.5);
+    for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_EQ(map.at(0, 0)[channel], 0);
+        EXPECT_EQ(map.at(1, 0)[channel], srgbFromLinear(float(half[channel])));
+    }
+}
+
+} // namespace
+} // namespace lucent::measure

@@ -1,0 +1,127 @@
+#include "scene/Json.h"
+#include "scene/Keys.h"
+#include "scene/Load.h"
+#include "scene/Mesh.h"
+#include "tests/scene/Files.h"
+
+#include <gtest/gtest.h>
+
+namespace lucent::scene {
+namespace {
+
+Result<Json> parse(std::string_view text) {
+    return parseJson(std::as_bytes(std::span(text.data(), text.size())), "text");
+}
+
+// Moves every parameter away from its default, within its range.
+void changeEverything(Scene& scene) {
+    int number = 0;
+    for (const BoundParam& bound : bindParams(scene)) {
+        const double start =
+            0.05 + 0.06 * (number++ % 10); // neighbours differ: the eye must not be the target
+        for (int i = 0; i < componentCount(bound.param->kind); ++i) {
+            const double value = getComponent(*bound.param, bound.data, i);
+            double other = bound.param->low + (bound.param->high - bound.param->low) * (start + 0.1 * i);
+            if (bound.param->kind == Kind::Toggle) other = 1 - value;
+            if (bound.param->kind == Kind::Choice) other = value == 0;
+            if (bound.param->kind == Kind::Integer) other = value + 1;
+            setComponent(*bound.param, bound.data, i, other);
+        }
+    }
+}
+
+TEST(ToJson, LoadsBackToTheSameValues) {
+    test::Files files;
+    files.put("scenes/c.png", Image(1, 1, 3));
+    files.put("scenes/a.png", Image(1, 1, 1));
+    const std::string shape = R"("shape": { "type": "heightfield", "heights": "h.pfm", "alpha": "a.png" })";
+    Result<Scene> scene =
+        test::load(files, R"({ "lucent": 1, "title": "A \"b\"\n", "caption": "c", "size": [30, 20],
+        "environment": { "source": "sky" }, "quality": { "maxError": 0.1 },
+        "lights": [ { "type": "point" }, { "type": "distant" } ], "objects": [
+        { "name": "one", "visible": false, "material": { "diffuseMap": "c.png" }, )" +
+                              shape + " }, { " + shape + " } ] }");
+    ASSERT_TRUE(scene) << scene.error().message;
+    changeEverything(*scene);
+    scene->camera.fov = 25; // bound only now that the camera is a perspective one
+    const Result<Scene> back = test::load(files, toJson(*scene));
+    ASSERT_TRUE(back) << back.error().message << "\n" << toJson(*scene);
+    Scene copy = *back;
+    const std::vector<BoundParam> a = bindParams(*scene), b = bindParams(copy);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(getText(*a[i].param, a[i].data), getText(*b[i].param, b[i].data)) << a[i].path;
+        EXPECT_NE(getText(*a[i].param, a[i].data), getText(*a[i].param, a[i].defaults)) << a[i].path;
+    }
+    EXPECT_EQ(toJson(copy), toJson(*scene)); // names, files, sizes and flags as well
+    EXPECT_EQ(copy.title, "A \"b\"\n");
+    EXPECT_EQ(copy.size, ivec2(30, 20));
+    EXPECT_EQ(copy.maxError, 0.1f);
+    EXPECT_FALSE(copy.objects[0].visible);
+    EXPECT_EQ(copy.objects[0].material.diffuseMapFile, "c.png");
+}
+
+TEST(ToJson, KeepsTheSourceOfMeshAndNormalHeights) {
+    test::Files files;
+    Image up(2, 2, 3);
+    for (std::size_t i = 0; i < up.pixels.size(); ++i)
+        up.pixels[i] = i % 3 == 2 ? 1.0f : 0.5f;
+    files.put("scenes/n.pfm", up);
+    files.content["scenes/m"] = encodeMesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}});
+    const Result<Scene> scene = test::load(files, R"({ "lucent": 1, "objects": [
+        { "shape": { "type": "heightfield", "normalMap": "n.pfm" } },
+        { "shape": { "type": "heightfield", "mesh": "m", "resolution": [6, 4], "meshRotate": [1, 2, 3], "margin": 0.1,
+                     "floorGap": 0.3 } } ] })");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->objects[0].shape.heightScale, 0); // a flat map
+    const Result<Scene> back = test::load(files, toJson(*scene));
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->objects[0].shape.heightScale, 0);
+    EXPECT_EQ(back->objects[1].shape.source.meshRotate, vec3(1, 2, 3));
+    EXPECT_EQ(back->objects[1].shape.source.floorGap, 0.3f);
+    EXPECT_EQ(back->objects[1].shape.heights->pixels, scene->objects[1].shape.heights->pixels);
+}
+
+TEST(JsonSchema, IsJsonAndListsEveryKey) {
+    const Result<Json> schema = parse(jsonSchema(test::kTechniques));
+    ASSERT_TRUE(schema) << schema.error().message;
+    const auto listed = [](const Json* place, const KeySet& keys) {
+        ASSERT_TRUE(place);
+        const Json* properties = place->find("properties");
+        ASSERT_TRUE(properties);
+        for (const std::string_view id : keys.ids())
+            EXPECT_TRUE(properties->find(id)) << id;
+        EXPECT_EQ(properties->keys.size(), keys.ids().size());
+        EXPECT_FALSE(place->find("additionalProperties")->boolean);
+    };
+    const Json& properties = *schema->find("properties");
+    const Json* objects = properties.find("objects")->find("items");
+    const Json* lights = properties.find("lights")->find("items")->find("oneOf");
+    listed(&*schema, sceneKeys());
+    listed(properties.find("camera"), cameraKeys());
+    listed(properties.find("view"), viewKeys());
+    listed(properties.find("environment"), environmentKeys());
+    listed(properties.find("quality"), qualityKeys());
+    listed(&lights->items[0], pointLightKeys());
+    listed(&lights->items[1], distantLightKeys());
+    listed(objects, objectKeys());
+    listed(objects->find("properties")->find("shape"), shapeKeys());
+    listed(objects->find("properties")->find("material"), materialKeys());
+    listed(objects->find("properties")->find("transform"), transformKeys());
+    const KeySet demo{{&test::demoParams()}, {}};
+    listed(properties.find("technique")->find("properties")->find("demo"), demo);
+}
+
+TEST(JsonSchema, CarriesTheRangesOfTheTables) {
+    const Result<Json> schema = parse(jsonSchema(test::kTechniques));
+    const Json* object = schema->find("properties")->find("objects")->find("items")->find("properties");
+    const Json* depth = object->find("material")->find("properties")->find("depth");
+    EXPECT_EQ(depth->find("exclusiveMinimum")->number, 0);
+    EXPECT_EQ(depth->find("maximum")->number, 1000);
+    EXPECT_TRUE(depth->find("description")->string.ends_with(" [m]"));
+    const Json* method = schema->find("properties")->find("technique")->find("properties")->find("demo");
+    EXPECT_EQ(method->find("properties")->find("method")->find("enum")->items[1].string, "fancy");
+}
+
+} // namespace
+} // namespace lucent::scene

@@ -1,0 +1,137 @@
+#pragma once
+/// A page around one viewer: a canvas, files in memory, a person's hands.
+
+#include "tests/support/Gl.h"
+#include "tests/viewer/Window.h"
+#include "viewer/Viewer.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <optional>
+
+namespace lucent::viewer {
+
+/// A lamp over a small field: 1 m wide, 2 m of height shown, so that a 400 pixel high canvas has 0.005 m a
+/// pixel.
+inline constexpr const char* kLampScene =
+    R"({"lucent": 1, "title": "Lamp", "caption": "A wave", "size": [512, 512],
+ "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 2},
+ "lights": [{"type": "point", "position": [0.2, 0.1, 0.5]}],
+ "environment": {"source": "uniform", "enabled": false},
+ "technique": {"relief": {"environmentLights": 8}},
+ "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
+
+/// The same field, seen from farther off, under an environment only: more of its lights than a quick look
+/// takes.
+inline constexpr const char* kMapScene = R"({"lucent": 1, "title": "Map", "size": [512, 512],
+ "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 4},
+ "environment": {"source": "rainbow"},
+ "technique": {"relief": {"environmentLights": 48}},
+ "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
+
+class Page : public support::GlTest {
+protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        if (!context) return;
+        host = std::make_unique<gl::ImGuiHost>(*context);
+        open({800, 400});
+    }
+    void TearDown() override {
+        viewer.reset();
+        host.reset();
+        GlTest::TearDown();
+        window.reset();
+    }
+
+    /// A fresh viewer on a canvas of this size in CSS pixels.
+    void open(ivec2 size, float scale = 1) {
+        viewer.reset();
+        window.reset();
+        window.emplace(ivec2(vec2(size) * scale));
+        ASSERT_TRUE(window->ok());
+        viewer = std::make_unique<Viewer>(*context, *host);
+        viewer->resize(ivec2(vec2(size) * scale), scale);
+    }
+
+    static ReadFile files(std::string scene) {
+        return [scene](const std::string& path) -> Result<Bytes> {
+            const auto text = std::as_bytes(std::span(scene));
+            if (path == "scene.json") return Bytes(text.begin(), text.end());
+            if (path == "wave.pfm") return wave();
+            return Error{path + ": is not there"};
+        };
+    }
+    static Bytes wave() {
+        Image image(16, 16, 1);
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x)
+                *image.at(x, y) = 0.5f + 0.5f * std::sin(float(x) * 0.8f) * std::cos(float(y));
+        return *encodeImage(image, "wave.pfm");
+    }
+    void load(const char* scene) {
+        const Status loaded = viewer->load("scene.json", files(scene));
+        ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+        settle();
+    }
+
+    /// Draws until the viewer wants no more frames; a minute of frames is a failure.
+    void settle() {
+        int frames = 0;
+        while (viewer->draw(time += 0.02))
+            ASSERT_LT(++frames, 3000);
+    }
+
+    void move(vec2 at, Modifiers modifiers = {}) {
+        viewer->pointer(PointerEvent::Move, at, 0, modifiers, false);
+    }
+    bool down(vec2 at, Modifiers modifiers = {}) {
+        return viewer->pointer(PointerEvent::Down, at, 0, modifiers, false);
+    }
+    void up(vec2 at) { viewer->pointer(PointerEvent::Up, at, 0, {}, false); }
+    void click(vec2 at) {
+        move(at);
+        down(at);
+        up(at);
+        settle();
+    }
+    void drag(vec2 from, vec2 to, Modifiers modifiers = {}) {
+        move(from);
+        down(from, modifiers);
+        for (int i = 1; i <= 4; ++i) {
+            move(glm::mix(from, to, float(i) / 4), modifiers);
+            viewer->draw(time += 0.02);
+        }
+        up(to);
+        settle();
+    }
+
+    vec3 vector(const std::string& path) const {
+        vec3 value{std::nanf("")};
+        std::sscanf(viewer->get(path).c_str(), "%f %f %f", &value.x, &value.y, &value.z);
+        return value;
+    }
+    float number(const std::string& path) const { return std::strtof(viewer->get(path).c_str(), nullptr); }
+    nlohmann::json stats() const { return nlohmann::json::parse(viewer->stats()); }
+    vec2 dot() const { return {stats()["light"][0].get<float>(), stats()["light"][1].get<float>()}; }
+
+    std::unique_ptr<gl::ImGuiHost> host;
+    std::optional<Window> window;
+    std::unique_ptr<Viewer> viewer;
+    double time = 0;
+};
+
+/// Pixels of which a channel differs by more than a step of 8 bits.
+inline int differences(const Image& a, const Image& b) {
+    int count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); i += 4) {
+        bool differs = false;
+        for (std::size_t c = 0; c < 4; ++c)
+            differs = differs || std::abs(a.pixels[i + c] - b.pixels[i + c]) > 1.5f / 255;
+        count += differs;
+    }
+    return count;
+}
+
+} // namespace lucent::viewer

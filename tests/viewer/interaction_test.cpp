@@ -1,0 +1,111 @@
+#include "viewer/Interaction.h"
+
+#include <gtest/gtest.h>
+
+namespace lucent::viewer {
+namespace {
+
+using scene::Camera;
+
+void expectNear(vec3 a, vec3 b, float tolerance) {
+    EXPECT_LT(glm::distance(a, b), tolerance) << a.x << " " << a.y << " " << a.z;
+}
+
+Camera perspective() {
+    Camera camera;
+    camera.type = Camera::Type::Perspective;
+    camera.fov = 90;
+    return camera; // at (0, 0, 2), looking along -z
+}
+
+TEST(Lens, AnOrthographicCameraShowsItsHeightFromTopToBottom) {
+    Camera camera;
+    camera.height = 2;
+    const Lens lens(camera, {400, 200}); // 0.01 m a pixel
+    EXPECT_EQ(*lens.project({0, 0, 0}), vec2(200, 100));
+    EXPECT_LT(glm::distance(*lens.project({0.5f, 1, -7}), vec2(250, 0)), 1e-3f);
+}
+
+TEST(Lens, APerspectiveCameraSeesTheEdgeOfItsAngleAtTheEdge) {
+    const Lens lens(perspective(), {200, 200});
+    // 90 degrees: at depth 2 the view is 4 m high, so y = 2 is at the top; at depth 1, y = 1.
+    EXPECT_LT(glm::distance(*lens.project({0, 2, 0}), vec2(100, 0)), 1e-3f);
+    EXPECT_LT(glm::distance(*lens.project({0, 1, 1}), vec2(100, 0)), 1e-3f);
+    EXPECT_FALSE(lens.project({0, 0, 3}).has_value()); // behind
+}
+
+TEST(Lens, OnPlaneIsTheInverseOfProject) {
+    Camera camera = perspective();
+    camera.eye = {0.7f, -0.4f, 1.5f};
+    const Lens lens(camera, {300, 200});
+    const vec3 point(0.2f, 0.1f, 0.3f);
+    const auto back = lens.onPlane(*lens.project(point), point.z);
+    ASSERT_TRUE(back.has_value());
+    expectNear(*back, point, 1e-5f);
+}
+
+TEST(Lens, APlaneSeenFromItsEdgeHasNoPlaceForThePointer) {
+    Camera camera;
+    camera.eye = {0, -2, 0};
+    camera.up = {0, 0, 1};
+    EXPECT_FALSE(Lens(camera, {100, 100}).onPlane({50, 50}, 0.5f).has_value());
+}
+
+TEST(Framed, ANarrowViewShowsTheWholeWidthOfTheScene) {
+    Camera camera;
+    camera.height = 1;
+    // A square scene in a view half as wide as high: the height must double for the width to fit.
+    EXPECT_FLOAT_EQ(framed(camera, {512, 512}, {100, 200}).height, 2);
+    EXPECT_FLOAT_EQ(framed(camera, {512, 512}, {300, 200}).height, 1);
+    // tan(45 degrees) doubles: 2 atan(2) = 126.87 degrees.
+    EXPECT_NEAR(framed(perspective(), {512, 512}, {100, 200}).fov, 126.8699f, 1e-3f);
+}
+
+TEST(MovedLight, TheLightStaysUnderThePointerAtItsHeight) {
+    const Lens lens(perspective(), {200, 200});
+    const vec3 light(0.1f, 0.2f, 0.5f);
+    const vec2 from = *lens.project(light), to = from + vec2(20, -10);
+    const vec3 moved = movedLight(lens, light, from, to);
+    EXPECT_EQ(moved.z, light.z);
+    EXPECT_LT(glm::distance(*lens.project(moved), to), 1e-3f);
+}
+
+TEST(TurnedLight, TheSourceGoesWithThePointer) {
+    Camera camera;
+    // Light from the camera; a quarter turn to the right brings its source to +x, one down to -y.
+    expectNear(turnedLight(camera, {0, 0, -1}, {0.5f, 0}), {-1, 0, 0}, 1e-6f);
+    expectNear(turnedLight(camera, {0, 0, -1}, {0, 0.5f}), {0, 1, 0}, 1e-6f);
+}
+
+TEST(TurnedMap, SidewaysTurnsAboutYUpAndDownAboutXAndRollAboutZ) {
+    expectNear(turnedMap({10, 20, 30}, {0.5f, 0.25f}, false), {55, 110, 30}, 1e-4f);
+    expectNear(turnedMap({10, 20, 30}, {0.5f, 0.25f}, true), {10, 20, -60}, 1e-4f);
+    expectNear(turnedMap({0, 170, 0}, {0.125f, 0}, false), {0, 170 + 22.5f - 360, 0}, 1e-4f);
+}
+
+TEST(Orbited, GoesAroundTheTargetAndStopsBeforeThePole) {
+    Camera camera;
+    camera.target = {0.5f, 0, 0};
+    camera.eye = {0.5f, 0, 2};
+    expectNear(orbited(camera, {0.5f, 0}), {-1.5f, 0, 0}, 1e-5f); // the object is turned to the right
+    const vec3 top = orbited(camera, {0, 3});
+    // One degree from straight above: 2 cos 1 = 1.9997 up, 2 sin 1 = 0.0349 aside.
+    expectNear(top, {0.5f, 1.99970f, 0.03490f}, 1e-4f);
+    EXPECT_NEAR(glm::distance(orbited(camera, {0.3f, 0.2f}), camera.target), 2, 1e-5f);
+}
+
+TEST(Zoomed, ShowsLessOfTheSceneAtTwiceTheSize) {
+    Camera camera;
+    camera.height = 3;
+    EXPECT_FLOAT_EQ(zoomed(camera, 2).height, 1.5f);
+    expectNear(zoomed(perspective(), 2).eye, {0, 0, 1}, 1e-6f);
+}
+
+TEST(LiftedLight, MovesByAFactorAndLeavesZero) {
+    EXPECT_FLOAT_EQ(liftedLight(0.5f, 1.1f), 0.55f);
+    EXPECT_FLOAT_EQ(liftedLight(-0.5f, 2), -1);
+    EXPECT_FLOAT_EQ(liftedLight(0, 2), 0.002f); // from a millimetre on
+}
+
+} // namespace
+} // namespace lucent::viewer

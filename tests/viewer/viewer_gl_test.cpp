@@ -1,0 +1,239 @@
+// A person's hands on the picture: what they move, what is drawn for it, and what can be taken back.
+#include "tests/viewer/Page.h"
+
+namespace lucent::viewer {
+namespace {
+
+using Picture = Page;
+constexpr Modifiers kShift{.shift = true}, kControl{.control = true},
+    kControlShift{.shift = true, .control = true};
+
+TEST_F(Picture, AnIdleViewerDrawsNothing) {
+    load(kLampScene);
+    const int drawn = viewer->drawCount();
+    EXPECT_GT(drawn, 0);
+    for (int i = 0; i < 20; ++i)
+        EXPECT_FALSE(viewer->draw(time += 1));
+    move({100, 100});
+    move({120, 90}); // over the picture nothing lights up
+    settle();
+    EXPECT_EQ(viewer->drawCount(), drawn);
+}
+
+TEST_F(Picture, TheLightsDotFollowsThePointer) {
+    load(kLampScene);
+    const vec2 start = dot();
+    drag(start, start + vec2(50, -30));
+    EXPECT_LT(glm::distance(dot(), start + vec2(50, -30)), 0.5f);
+    // 0.005 m a pixel, y up.
+    EXPECT_LT(glm::distance(vector("lights.0.position"), vec3(0.2f + 0.25f, 0.1f + 0.15f, 0.5f)), 1e-3f);
+}
+
+TEST_F(Picture, ThePictureChangesWithTheLight) {
+    load(kLampScene);
+    const Image before = window->read();
+    drag({200, 200}, {300, 100});
+    EXPECT_GT(differences(before, window->read()), 5000); // of the 200 x 200 pixels of the field
+}
+
+TEST_F(Picture, ADragIsOneStepBackAndOneForth) {
+    load(kLampScene);
+    const std::string before = viewer->get("lights.0.position");
+    drag({200, 200}, {260, 180});
+    const std::string after = viewer->get("lights.0.position");
+    EXPECT_NE(before, after);
+    EXPECT_TRUE(viewer->undo());
+    EXPECT_EQ(viewer->get("lights.0.position"), before);
+    EXPECT_FALSE(viewer->undo());
+    EXPECT_TRUE(viewer->key("Z", kControlShift));
+    EXPECT_EQ(viewer->get("lights.0.position"), after);
+    EXPECT_TRUE(viewer->key("z", kControl));
+    EXPECT_TRUE(viewer->key("y", kControl));
+    EXPECT_EQ(viewer->get("lights.0.position"), after);
+    EXPECT_FALSE(viewer->redo());
+}
+
+TEST_F(Picture, TheWheelLiftsTheLightAndWithControlZooms) {
+    load(kLampScene);
+    EXPECT_TRUE(viewer->wheel({200, 200}, -100, {}));
+    EXPECT_NEAR(vector("lights.0.position").z, 0.5f * std::exp(0.15f), 1e-3f);
+    EXPECT_TRUE(viewer->wheel({200, 200}, -100, kControl));
+    EXPECT_NEAR(number("camera.height"), 2 / std::exp(0.15f), 2e-3f);
+    viewer->pinch(2);
+    EXPECT_NEAR(number("camera.height"), 1 / std::exp(0.15f), 2e-3f);
+}
+
+TEST_F(Picture, ShiftDragOrbitsTheCameraAndZeroBringsItBack) {
+    load(kLampScene);
+    const std::string eye = viewer->get("camera.eye"), lamp = viewer->get("lights.0.position");
+    drag({200, 200}, {300, 150}, kShift);
+    EXPECT_NE(viewer->get("camera.eye"), eye);
+    EXPECT_EQ(viewer->get("lights.0.position"), lamp);
+    EXPECT_NEAR(glm::length(vector("camera.eye")), 2, 1e-3f);
+    drag({200, 200}, {230, 200});
+    EXPECT_TRUE(viewer->key("0", {}));
+    EXPECT_EQ(viewer->get("camera.eye"), eye);
+    EXPECT_EQ(viewer->get("lights.0.position"), lamp);
+    EXPECT_EQ(viewer->changes(), "{}\n");
+    EXPECT_TRUE(viewer->undo()); // all of it is one step
+    EXPECT_NE(viewer->get("camera.eye"), eye);
+    EXPECT_NE(viewer->get("lights.0.position"), lamp);
+}
+
+TEST_F(Picture, WithoutALampADragTurnsTheEnvironment) {
+    load(kMapScene);
+    drag({100, 100}, {200, 100}); // 100 of the 400 pixels of the shorter side: a quarter of half a turn
+    EXPECT_LT(glm::distance(vector("environment.rotation"), vec3(0, 45, 0)), 0.2f);
+    drag({100, 100}, {100, 200});
+    EXPECT_LT(glm::distance(vector("environment.rotation"), vec3(45, 45, 0)), 0.2f);
+    drag({100, 100}, {200, 100}, {.alt = true});
+    EXPECT_LT(glm::distance(vector("environment.rotation"), vec3(45, 45, -45)), 0.2f);
+    const float height = number("camera.height");
+    viewer->wheel({100, 100}, -100, {});
+    EXPECT_LT(number("camera.height"), height); // no lamp to lift: zoom
+}
+
+TEST_F(Picture, WithAnEnvironmentOnTheLampIsGrippedAtItsDot) {
+    load(kLampScene);
+    ASSERT_TRUE(viewer->set("environment.enabled", "true").ok());
+    drag({50, 350}, {90, 350});
+    EXPECT_EQ(vector("lights.0.position"), vec3(0.2f, 0.1f, 0.5f));
+    EXPECT_NEAR(vector("environment.rotation").y, 18, 0.2f); // 40 / 400 of 180 degrees
+    const vec2 start = dot();
+    drag(start, start + vec2(20, 0));
+    EXPECT_NEAR(vector("lights.0.position").x, 0.3f, 1e-3f);
+}
+
+TEST_F(Picture, ArrowKeysMoveTheLightAndARunOfThemIsOneStep) {
+    load(kLampScene);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_TRUE(viewer->key("ArrowRight", {}));
+    // 2 % of 2 m a key.
+    EXPECT_NEAR(vector("lights.0.position").x, 0.2f + 3 * 0.04f, 1e-3f);
+    EXPECT_TRUE(viewer->key("PageUp", {}));
+    EXPECT_NEAR(vector("lights.0.position").z, 0.55f, 1e-3f);
+    EXPECT_TRUE(viewer->undo());
+    EXPECT_TRUE(viewer->undo());
+    EXPECT_EQ(vector("lights.0.position"), vec3(0.2f, 0.1f, 0.5f));
+    EXPECT_FALSE(viewer->key("q", {}));
+}
+
+TEST_F(Picture, ValuesComeByTextAndWrongOnesSayWhatIsExpected) {
+    load(kLampScene);
+    const std::uint64_t revision = viewer->revision();
+    const Status wrong = viewer->set("objects.field.material.specularity", "2");
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_EQ(wrong.error().message, "objects.field.material.specularity is 2; must be in [0, 1]");
+    EXPECT_EQ(viewer->revision(), revision);
+    EXPECT_TRUE(viewer->set("objects.0.material.specularity", "0.5").ok()); // by number
+    EXPECT_GT(viewer->revision(), revision);
+    EXPECT_EQ(nlohmann::json::parse(viewer->changes()),
+              nlohmann::json({{"objects.field.material.specularity", "0.5"}}));
+    EXPECT_NE(viewer->sceneJson().find("\"specularity\": 0.5"), std::string::npos);
+    viewer->reset("objects.field.material.specularity");
+    EXPECT_EQ(viewer->changes(), "{}\n");
+}
+
+TEST_F(Picture, ABadSceneKeepsTheOldOneAndSaysWhy) {
+    load(kLampScene);
+    const Image before = window->read();
+    const Status bad = viewer->load("scene.json", files(R"({"lucent": 1, "lights": 3})"));
+    ASSERT_FALSE(bad.ok());
+    EXPECT_EQ(bad.error().message.substr(0, 13), "scene.json:1:");
+    settle();
+    EXPECT_EQ(viewer->title(), "Lamp");
+    EXPECT_EQ(viewer->get("lights.0.position"), "0.2 0.1 0.5");
+    EXPECT_GT(differences(before, window->read()), 1000); // a message stands over the picture
+    EXPECT_TRUE(viewer->key("Escape", {}));
+    settle();
+    EXPECT_EQ(differences(before, window->read()), 0);
+}
+
+TEST_F(Picture, AMessageIsClosedByItsButton) {
+    load(kLampScene);
+    const Image before = window->read();
+    viewer->showMessage("coin.png: is truncated; must be a whole PNG");
+    settle();
+    // The card ends 12 pixels before the picture's right end (800 - 312 - 24 = 464), the button 22 before
+    // that.
+    click({464 - 12 - 22, 12 + 22});
+    move({100, 300});
+    settle();
+    EXPECT_EQ(differences(before, window->read()), 0);
+}
+
+TEST_F(Picture, APictureDroppedOnTheViewerBecomesItsHeightField) {
+    load(kLampScene);
+    const Image before = window->read();
+    const Bytes broken(20, std::byte(7));
+    EXPECT_FALSE(viewer->openImage("broken.png", broken, false).ok());
+    EXPECT_EQ(viewer->get("lights.0.position"), "0.2 0.1 0.5");
+    Image ramp(8, 8, 1);
+    for (int i = 0; i < 64; ++i)
+        ramp.pixels[std::size_t(i)] = float(i % 8) / 8;
+    ASSERT_TRUE(viewer->openImage("ramp.pfm", *encodeImage(ramp, "ramp.pfm"), false).ok());
+    settle();
+    EXPECT_GT(differences(before, window->read()), 1000);
+    Image sky(4, 2, 3);
+    for (float& value : sky.pixels)
+        value = 0.5f;
+    ASSERT_TRUE(viewer->openImage("sky.pfm", *encodeImage(sky, "sky.pfm"), true).ok());
+    EXPECT_EQ(viewer->get("environment.enabled"), "true");
+    settle();
+}
+
+TEST_F(Picture, AViewerWithoutASceneMakesOneOfAPicture) {
+    ASSERT_TRUE(viewer->openImage("wave.pfm", wave(), false).ok());
+    settle();
+    EXPECT_GT(viewer->drawCount(), 0);
+    EXPECT_NE(viewer->scene(), nullptr);
+}
+
+TEST_F(Picture, TwoViewersShareAContextAndKeepTheirPictures) {
+    load(kLampScene);
+    const Image first = window->read();
+    {
+        Viewer other(*context, *host);
+        other.resize({800, 400}, 1);
+        other.setDark(true);
+        ASSERT_TRUE(other.load("scene.json", files(kMapScene)).ok());
+        for (int i = 0; other.draw(i * 0.02); ++i)
+            ASSERT_LT(i, 3000);
+        EXPECT_GT(differences(first, window->read()), 10000);
+    }
+    viewer->release(); // and it can make its picture again
+    settle();
+    EXPECT_EQ(differences(first, window->read()), 0);
+}
+
+TEST_F(Picture, AViewerGoesOnWithAnotherHost) {
+    load(kLampScene);
+    ASSERT_TRUE(viewer->set("lights.0.intensity", "0.5").ok());
+    settle();
+    const Image before = window->read();
+    gl::ImGuiHost other(*context);
+    viewer->attach(*context, other);
+    settle();
+    EXPECT_EQ(differences(before, window->read()), 0);
+    EXPECT_TRUE(viewer->undo());
+    viewer->attach(*context, *host);
+}
+
+TEST_F(Picture, ASlowEnvironmentIsLookedAtQuicklyFirst) {
+    load(kMapScene);
+    EXPECT_TRUE(stats()["complete"].get<bool>());
+    move({100, 100});
+    down({100, 100});
+    move({150, 100});
+    int frames = 0;
+    while (viewer->draw(time += 0.02))
+        ASSERT_LT(++frames, 3000); // while held, the quick look is enough
+    EXPECT_FALSE(stats()["complete"].get<bool>());
+    up({150, 100});
+    settle();
+    EXPECT_TRUE(stats()["complete"].get<bool>());
+    EXPECT_GT(stats()["lights"].get<int>(), 20); // the quick look takes no more
+}
+
+} // namespace
+} // namespace lucent::viewer
