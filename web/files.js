@@ -52,11 +52,12 @@ const fileName = (url) => decodeURIComponent(url.pathname.split('/').pop());
 
 /**
  * Fetches a scene and every file it names.
+ * @param starting  promise of the runtime: the scene is on its way meanwhile
  * @return {Promise<{path: string, files: Map<string, Uint8Array>}>}  the scene's own name and all files by name
  */
-export async function fetchScene(runtime, url) {
+export async function fetchScene(starting, url) {
     const path = fileName(url) || url.href;
-    const scene = await fetchBytes(url, path);
+    const [runtime, scene] = await Promise.all([starting, fetchBytes(url, path)]);
     runtime.call('file_put', path, scene);
     const { files: names, error } = runtime.json('scene_dependencies', path);
     runtime.call('file_forget', path);

@@ -102,7 +102,9 @@ export class LucentViewer extends HTMLElement {
         place.observe(this);
         this.#observers = [attributes, size, place];
         kDark.addEventListener('change', this.#themeChanged);
-        if (this.loading !== 'lazy') this.#loadSource();
+        if (this.loading === 'lazy') return;
+        Runtime.shared().catch(() => {}); // starts before there is a src; whoever loads hears of errors
+        this.#loadSource();
     }
 
     // Also called when the element is only moved within the page, hence the second look.
@@ -240,8 +242,8 @@ export class LucentViewer extends HTMLElement {
         this.#src = this.src;
         this.#status.textContent = 'Loading…';
         try {
+            const scene = await fetchScene(Runtime.shared(), new URL(this.src, document.baseURI));
             await this.#start();
-            const scene = await fetchScene(this.#runtime, new URL(this.src, document.baseURI));
             if (task !== this.#task) return;
             const message = loadFiles(this.#runtime, this.#handle, scene);
             if (message) throw new LucentError('scene', message);

@@ -58,7 +58,8 @@ function showScene({ id, title, scene, poster }, changes = {}) {
     for (const link of find('gallery').children) link.toggleAttribute('aria-current', link.dataset.id === id);
 }
 
-function galleryCard({ id, title, caption, thumbnail }) {
+function galleryCard(entry) {
+    const { id, title, caption, thumbnail } = entry;
     const card = document.createElement('a');
     card.href = '#scene=' + encodeURIComponent(id);
     card.dataset.id = id;
@@ -66,7 +67,10 @@ function galleryCard({ id, title, caption, thumbnail }) {
     const name = Object.assign(document.createElement('b'), { textContent: title });
     const text = Object.assign(document.createElement('small'), { textContent: caption });
     card.append(image, name, text);
-    card.addEventListener('click', () => viewer.scrollIntoView({ block: 'nearest' }));
+    card.addEventListener('click', () => {
+        if (id === current) showScene(entry); // as it was before the person opened files of their own
+        viewer.scrollIntoView({ block: 'nearest' });
+    });
     return card;
 }
 

@@ -43,9 +43,9 @@ float srgbFromLinear(float linear);
 ///                  Error: "NAME: what was found; what was expected" (truncated, empty, unknown, 0-sized).
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, Encoding encoding);
 
-/// Encodes by the ending of `path`: .png (8 bit; values are written as they are, clamped to [0,1]), .hdr, .pfm
-/// (linear floats, without alpha). Error when the ending is none of these or a value cannot be held: NaN and infinity
-/// outside PFM, negative values in HDR. scene/readers adds .exr.
+/// Encodes by the ending of `path`: .png (8 bit; values are written as they are, clamped to [0,1]), .hdr,
+/// .pfm (linear floats, without alpha). Error when the ending is none of these or a value cannot be held: NaN
+/// and infinity outside PFM, negative values in HDR. scene/readers adds .exr.
 Result<Bytes> encodeImage(const Image& image, const std::string& path);
 
 /// First pixel that is NaN or infinite, as x, y; (-1, -1) when there is none.

@@ -1,6 +1,6 @@
 #pragma once
-/// Parameters are declared once, beside the struct that holds their values. From that one declaration come the
-/// slider, the JSON key and its check, `--set`, the element's attribute and property, the accessible HTML
+/// Parameters are declared once, beside the struct that holds their values. From that one declaration come
+/// the slider, the JSON key and its check, `--set`, the element's attribute and property, the accessible HTML
 /// control, the JSON Schema and the table in the documentation.
 
 #include "base/Math.h"
@@ -34,16 +34,16 @@ std::string_view name(Group group);
 
 /// One declared parameter. `kLimitless` as min or max means no bound on that side.
 struct Param {
-    std::string_view id;    ///< JSON key and last part of its path
-    std::string_view label; ///< what a person reads
-    std::string_view unit;  ///< "m", "degrees", "" for plain numbers
-    double min;             ///< smallest legal value of a component
-    double max;             ///< largest legal value of a component
-    double low;             ///< left end of the slider
-    double high;            ///< right end of the slider
-    bool logarithmic;       ///< the slider moves through decades
-    Group group;            ///< None: file and command line only
-    std::string_view doc;   ///< one sentence, shown as tooltip and in the documentation
+    std::string_view id;                       ///< JSON key and last part of its path
+    std::string_view label;                    ///< what a person reads
+    std::string_view unit;                     ///< "m", "degrees", "" for plain numbers
+    double min;                                ///< smallest legal value of a component
+    double max;                                ///< largest legal value of a component
+    double low;                                ///< left end of the slider
+    double high;                               ///< right end of the slider
+    bool logarithmic;                          ///< the slider moves through decades
+    Group group;                               ///< None: file and command line only
+    std::string_view doc;                      ///< one sentence, shown as tooltip and in the documentation
     std::span<const std::string_view> choices; ///< Choice only
     std::string_view attribute;                ///< name in the element; derived from table and id when empty
     Kind kind;
@@ -72,14 +72,20 @@ template <class Struct, class Member>
 Param declare(Member Struct::*member, const ParamText& text) {
     static const Struct probe{};
     Kind kind = Kind::Number;
-    if constexpr (std::is_same_v<Member, int>) kind = Kind::Integer;
-    else if constexpr (std::is_same_v<Member, bool>) kind = Kind::Toggle;
-    else if constexpr (std::is_enum_v<Member>) kind = Kind::Choice;
-    else if constexpr (std::is_same_v<Member, vec3>) kind = text.color ? Kind::Color : Kind::Vector;
-    else if constexpr (std::is_same_v<Member, vec2>) kind = Kind::Range;
-    else static_assert(std::is_same_v<Member, float>, "a parameter is a float, int, bool, enum, vec2 or vec3");
-    const auto offset = std::size_t(reinterpret_cast<const char*>(&(probe.*member)) -
-                                    reinterpret_cast<const char*>(&probe));
+    if constexpr (std::is_same_v<Member, int>)
+        kind = Kind::Integer;
+    else if constexpr (std::is_same_v<Member, bool>)
+        kind = Kind::Toggle;
+    else if constexpr (std::is_enum_v<Member>)
+        kind = Kind::Choice;
+    else if constexpr (std::is_same_v<Member, vec3>)
+        kind = text.color ? Kind::Color : Kind::Vector;
+    else if constexpr (std::is_same_v<Member, vec2>)
+        kind = Kind::Range;
+    else
+        static_assert(std::is_same_v<Member, float>, "a parameter is a float, int, bool, enum, vec2 or vec3");
+    const auto offset =
+        std::size_t(reinterpret_cast<const char*>(&(probe.*member)) - reinterpret_cast<const char*>(&probe));
     return {text.id,          text.label, text.unit, text.min,     text.max,       text.low, text.high,
             text.logarithmic, text.group, text.doc,  text.choices, text.attribute, kind,     offset};
 }
@@ -120,8 +126,9 @@ private:
 
 /// A declared parameter bound to the struct that holds its value now.
 struct BoundParam {
-    std::string path;   ///< "objects.coin.material.specularity": what --set and links use
-    std::string prefix; ///< of the attribute: "light", "material", "env", "relief", "view"; "": has no attribute
+    std::string path; ///< "objects.coin.material.specularity": what --set and links use
+    std::string
+        prefix; ///< of the attribute: "light", "material", "env", "relief", "view"; "": has no attribute
     const Param* param;
     void* data;           ///< the value
     const void* defaults; ///< the value to which reset goes back

@@ -1,6 +1,6 @@
 #pragma once
-/// The parts of stb that we use, with the same switches wherever they are included. The writer keeps its stdio part:
-/// stb's HDR writer is inside it, even the one that writes to memory.
+/// The parts of stb that we use, with the same switches wherever they are included. The writer keeps its
+/// stdio part: stb's HDR writer is inside it, even the one that writes to memory.
 
 #define STBI_NO_STDIO
 #define STBI_ONLY_PNG

@@ -4,6 +4,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -16,43 +17,65 @@ constexpr double kHalfTurn = std::numbers::pi;
 // Rows by columns of the picture, in double: the sums run over millions of texels.
 using Field = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Cosine transform of each row. forward: X_k = sum_n x_n cos(pi k (2n + 1) / 2N). The row is mirrored to 2N
-// values, whose Fourier transform is 2 exp(i pi k / 2N) X_k.
+// Cosine transforms of rows, equally fast for all lengths N, primes too: X_k = Re e(k/2) sum_n x_n e(nk) with
+// e(a) = exp(-i pi a / N). As nk = (n^2 + k^2 - (k - n)^2) / 2, the sum is a convolution with a chirp
+// (Bluestein 1970), done by Fourier transforms whose length is a power of two.
 class CosineTransform {
 public:
-    explicit CosineTransform(Eigen::Index length) : length_(length) {
-        for (Eigen::Index k = 0; k <= length; ++k)
-            twist_.push_back(2.0 * std::polar(1.0, kHalfTurn * double(k) / (2.0 * double(length))));
-        fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+    explicit CosineTransform(Eigen::Index length) : length_(std::size_t(length)) {
+        for (std::size_t n = 0; n < length_; ++n) {
+            halfTurns_.push_back(std::polar(1.0, -kHalfTurn * double(n) / double(2 * length_)));
+            // The angle is taken modulo a full turn while it is still an integer.
+            chirp_.push_back(
+                std::polar(1.0, -kHalfTurn * double(n * n % (4 * length_)) / double(2 * length_)));
+        }
+        std::vector<Complex> kernel(std::bit_ceil(2 * length_));
+        for (std::size_t n = 0; n < length_; ++n)
+            kernel[n] = kernel[(kernel.size() - n) % kernel.size()] = std::conj(chirp_[n]);
+        fft_.fwd(kernel_, kernel);
+        padded_.resize(kernel.size());
     }
 
+    // X_k = sum_n x_n cos(pi k (2n + 1) / 2N)
     void forward(Field& field) {
-        std::vector<double> mirrored(std::size_t(2 * length_));
-        std::vector<std::complex<double>> spectrum;
-        for (Eigen::Index row = 0; row < field.rows(); ++row) {
-            for (Eigen::Index n = 0; n < length_; ++n)
-                mirrored[std::size_t(n)] = mirrored[std::size_t(2 * length_ - 1 - n)] = field(row, n);
-            fft_.fwd(spectrum, mirrored);
-            for (Eigen::Index k = 0; k < length_; ++k)
-                field(row, k) = (spectrum[std::size_t(k)] / twist_[std::size_t(k)]).real();
+        for (auto row : field.rowwise()) {
+            for (std::size_t n = 0; n < length_; ++n)
+                padded_[n] = row[Eigen::Index(n)];
+            sum();
+            for (std::size_t k = 0; k < length_; ++k)
+                row[Eigen::Index(k)] = (halfTurns_[k] * padded_[k]).real();
         }
     }
 
+    // x_n = (X_0 + 2 sum_k X_k cos(pi k (2n + 1) / 2N)) / N
     void inverse(Field& field) {
-        std::vector<double> mirrored;
-        std::vector<std::complex<double>> spectrum(std::size_t(length_ + 1)); // the last stays zero
-        for (Eigen::Index row = 0; row < field.rows(); ++row) {
-            for (Eigen::Index k = 0; k < length_; ++k)
-                spectrum[std::size_t(k)] = twist_[std::size_t(k)] * field(row, k);
-            fft_.inv(mirrored, spectrum, 2 * length_);
-            for (Eigen::Index n = 0; n < length_; ++n)
-                field(row, n) = mirrored[std::size_t(n)];
+        for (auto row : field.rowwise()) {
+            for (std::size_t k = 0; k < length_; ++k)
+                padded_[k] = (k ? 2.0 : 1.0) / double(length_) * row[Eigen::Index(k)] * halfTurns_[k];
+            sum();
+            for (std::size_t n = 0; n < length_; ++n)
+                row[Eigen::Index(n)] = padded_[n].real();
         }
     }
 
 private:
-    Eigen::Index length_;
-    std::vector<std::complex<double>> twist_;
+    using Complex = std::complex<double>;
+
+    // padded_[k] becomes sum_n padded_[n] exp(-i pi n k / N).
+    void sum() {
+        for (std::size_t n = 0; n < length_; ++n)
+            padded_[n] *= chirp_[n];
+        std::fill(padded_.begin() + std::ptrdiff_t(length_), padded_.end(), 0.0);
+        fft_.fwd(spectrum_, padded_);
+        for (std::size_t i = 0; i < kernel_.size(); ++i)
+            spectrum_[i] *= kernel_[i];
+        fft_.inv(padded_, spectrum_);
+        for (std::size_t k = 0; k < length_; ++k)
+            padded_[k] *= chirp_[k];
+    }
+
+    std::size_t length_;
+    std::vector<Complex> halfTurns_, chirp_, kernel_, padded_, spectrum_;
     Eigen::FFT<double> fft_;
 };
 

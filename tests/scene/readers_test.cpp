@@ -175,6 +175,10 @@ TEST(Readers, DamagedGltfIsRefused) {
               "m/a.gltf: has index 3 behind its 3 positions; must be smaller");
     EXPECT_EQ(messageOf("\"count\": 4", "\"count\": 400"),
               "m/a.gltf: has a buffer of 60 bytes that is too short for what points into it");
+    EXPECT_EQ(messageOf("\"byteLength\": 60", "\"byteLength\": 0"),
+              "m/a.gltf: buffers.0.byteLength is 0; must be at least 1");
+    EXPECT_EQ(messageOf("\"asset\":", "\"asset\"="),
+              "m/a.gltf:1:10: invalid literal; last read: '\"asset\"='; expected ':'");
     EXPECT_EQ(messageOf("\"mesh\": 0", "\"mesh\": 7"), "m/a.gltf: points to mesh 7, which does not exist");
     EXPECT_EQ(messageOf("\"mesh\": 0", "\"mesh\": 0, \"children\": [0]"),
               "m/a.gltf: has nodes that hold each other; must form a tree");

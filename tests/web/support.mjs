@@ -99,7 +99,7 @@ export async function complete(page, selector = 'lucent-viewer') {
 }
 
 /** Waits until the page has asked for no animation frame for a while. */
-export async function quiet(page, rest = 300) {
+export async function quiet(page, rest = 200) {
     await page.evaluate(async (milliseconds) => {
         let before;
         do {

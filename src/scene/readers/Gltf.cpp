@@ -1,6 +1,7 @@
 #include "scene/readers/Gltf.h"
 
 #include "base/Log.h"
+#include "scene/Json.h"
 
 #include <fstream> // tinygltf names its types even where it opens no files
 
@@ -321,6 +322,30 @@ std::string firstLine(const std::string& text) {
     return line;
 }
 
+// The JSON text of either kind of file; empty when a binary file is too short to have one.
+std::span<const std::byte> jsonOf(std::span<const std::byte> bytes, bool binary) {
+    if (!binary) return bytes;
+    constexpr std::size_t kHeader = 20; // file: magic, version, length; chunk: length, kind
+    std::uint32_t length = 0;
+    if (bytes.size() < kHeader) return {};
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    return length <= bytes.size() - kHeader ? bytes.subspan(kHeader, length) : std::span<const std::byte>();
+}
+
+// tinygltf ends the program on what is refused here.
+Status checkJson(const std::string& name, std::span<const std::byte> text) {
+    const Result<Json> json = parseJson(text, name);
+    if (!json) return json.error();
+    const Json* buffers = json->find("buffers");
+    for (std::size_t i = 0; buffers && i < buffers->items.size(); ++i) {
+        const Json* length = buffers->items[i].find("byteLength");
+        if (!length || !(length->number >= 1))
+            return Error{name + ": buffers." + std::to_string(i) + ".byteLength is " +
+                         (length ? length->describe() : "missing") + "; must be at least 1"};
+    }
+    return Done{};
+}
+
 bool startsWith(std::span<const std::byte> bytes, std::string_view signature) {
     return bytes.size() >= signature.size() &&
            std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
@@ -333,6 +358,11 @@ bool isGltf(const std::string& name, std::span<const std::byte> bytes) {
 }
 
 Result<Mesh> readGltf(const std::string& name, std::span<const std::byte> bytes, const ReadFile& read) {
+    const bool binary = startsWith(bytes, "glTF");
+    const std::span<const std::byte> json = jsonOf(bytes, binary);
+    if (json.empty()) return Error{name + ": the file ends too early; must be a whole glTF 2.0 file"};
+    if (Status legal = checkJson(name, json); !legal) return legal.error();
+
     tinygltf::TinyGLTF loader;
     Files files{name, read, {}};
     loader.SetFsCallbacks({Files::exists, Files::expand, Files::readWhole, Files::write, &files});
@@ -342,7 +372,6 @@ Result<Mesh> readGltf(const std::string& name, std::span<const std::byte> bytes,
     std::string error, warning;
     const auto length = unsigned(bytes.size());
     const auto* text = reinterpret_cast<const char*>(bytes.data());
-    const bool binary = startsWith(bytes, "glTF");
     const bool loaded =
         binary ? loader.LoadBinaryFromMemory(&model, &error, &warning,
                                              reinterpret_cast<const unsigned char*>(text), length, "")
