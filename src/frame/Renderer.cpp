@@ -103,13 +103,14 @@ struct Renderer::State {
     graph::TexturePool pool;
     views::ImageCache images;
     relief::Relief relief;
-    graph::Texture surface, shown, sum, scratch, lightTable;
+    graph::Texture surface, shownSurface, shown, sum, scratch, lightTable;
 
     // the picture being made
     std::uint64_t revision = 0;
     ivec2 size{0};
-    bool started = false, coarse = false, surfaceDrawn = false;
-    std::vector<int> stages; // numbers of environment directions
+    bool started = false, coarse = false;
+    bool surfaceDrawn = false, surfaceShown = false; // of this picture
+    std::vector<int> stages;                         // numbers of environment directions
     std::size_t stage = 0;
     std::vector<relief::LightSource> lights; // of this stage
     int next = 0;                            // light
@@ -142,7 +143,7 @@ void Renderer::State::start(const scene::Scene& scene, std::uint64_t newRevision
     started = true;
     revision = newRevision;
     size = newSize;
-    surfaceDrawn = false;
+    surfaceDrawn = surfaceShown = false;
     stage = 0;
     workMs = 0;
     drawsBefore = context.device().drawCount();
@@ -164,6 +165,7 @@ void Renderer::State::makeTargets() {
     if (surface && surface.desc() == desc) return;
     gl::Device& device = context.device();
     surface = graph::Texture(device, desc, "frame.surface");
+    shownSurface = graph::Texture(device, desc, "frame.shownSurface");
     shown = graph::Texture(device, desc, "frame.shown");
     sum = graph::Texture(device, desc, "frame.sum");
     scratch = graph::Texture(); // made when a sum takes more than one slice
@@ -204,7 +206,7 @@ Status Renderer::State::recordSlice(graph::FrameGraph& graph, const scene::Scene
     const auto import = [&](const graph::Texture& texture) {
         return graph.import(texture.handle(), texture.desc(), texture.label());
     };
-    const graph::TextureId surfaceId = import(surface);
+    const graph::TextureId surfaceId = import(surfaceShown ? shownSurface : surface);
     const graph::TextureId targetId = import(next > 0 ? scratch : sum);
     graph.keep(targetId);
     if (!surfaceDrawn)
@@ -247,6 +249,8 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     next = end;
     if (more) return Done{};
     std::swap(sum, shown);
+    if (!surfaceShown) std::swap(surface, shownSurface);
+    surfaceShown = true;
     stats.lights = int(lights.size());
     ++stage;
     startStage(scene);
@@ -271,7 +275,8 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
         block.scale = vec4(1);
         block.shift = vec4(0);
     }
-    const graph::TextureId surfaceId = graph.import(surface.handle(), surface.desc(), surface.label());
+    const graph::TextureId surfaceId =
+        graph.import(shownSurface.handle(), shownSurface.desc(), shownSurface.label());
     const graph::TextureId shownId = graph.import(shown.handle(), shown.desc(), shown.label());
     graph.addPass("frame.display", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(linear ? "linear values for a file" : "exposure, clamp and sRGB curve for the display");
@@ -424,7 +429,7 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     const auto line = [&](const std::string& label, std::size_t bytes) {
         text += "  " + label + ", " + std::to_string(bytes) + " bytes\n";
     };
-    for (const graph::Texture* texture : {&s.surface, &s.shown, &s.sum, &s.lightTable})
+    for (const graph::Texture* texture : {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.lightTable})
         line(texture->label() + " " + std::to_string(texture->desc().size.x) + "x" +
                  std::to_string(texture->desc().size.y) + " " + graph::name(texture->desc().format),
              texture->desc().bytes());
@@ -435,7 +440,7 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
 
 void Renderer::release() {
     State& s = *state_;
-    for (graph::Texture* texture : {&s.surface, &s.shown, &s.sum, &s.scratch, &s.lightTable})
+    for (graph::Texture* texture : {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable})
         *texture = graph::Texture();
     s.images.clear();
     s.pool.trim();

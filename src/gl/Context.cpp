@@ -55,7 +55,18 @@ struct Context::Window {
     bool openOn(EGLDisplay candidate) {
         if (candidate == EGL_NO_DISPLAY || !eglInitialize(candidate, nullptr, nullptr)) return false;
         eglBindAPI(EGL_OPENGL_ES_API);
-        const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
+        const EGLint wanted[] = {EGL_RENDERABLE_TYPE,
+                                 EGL_OPENGL_ES3_BIT,
+                                 EGL_SURFACE_TYPE,
+                                 EGL_PBUFFER_BIT,
+                                 EGL_RED_SIZE,
+                                 8,
+                                 EGL_GREEN_SIZE,
+                                 8,
+                                 EGL_BLUE_SIZE,
+                                 8,
+                                 EGL_ALPHA_SIZE,
+                                 8,
                                  EGL_NONE};
         EGLConfig config = nullptr;
         EGLint count = 0;

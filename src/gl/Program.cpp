@@ -3,8 +3,8 @@
 #include "gl/Gl.h"
 #include "shaders/Shaders.h"
 
+#include <algorithm>
 #include <cctype>
-#include <sstream>
 
 namespace lucent::gl {
 
@@ -60,9 +60,11 @@ const shaders::Stage* findStage(const std::string& stem, const char* ending) {
 
 std::string translateLog(const std::string& log, const std::string& stagePath, int firstSourceLine) {
     const shaders::Stage* stage = shaders::find(stagePath);
-    std::istringstream lines(log);
-    std::string line, out;
-    while (std::getline(lines, line)) {
+    std::string out;
+    for (std::size_t at = 0; at < log.size();) {
+        const std::size_t lineEnd = std::min(log.find('\n', at), log.size());
+        std::string line = log.substr(at, lineEnd - at);
+        at = lineEnd + 1;
         // llvmpipe: "0:41(7): error: ..."; ANGLE: "ERROR: 0:41: ..."
         const std::size_t mark = line.find("0:");
         std::size_t end = mark + 2;

@@ -171,9 +171,10 @@ test('a dropped scene file is refused with the reason, a damaged picture too, an
 });
 
 test('the poster is shown until the first finished picture, and the text goes with it', async () => {
-    const page = await openViewers(stage, kDome.replace('alt', 'poster="made/small.png" alt'));
+    const page = await openViewers(stage, kDome.replace('src="made/dome.json"', 'poster="made/small.png"'));
     await resize(page, 400, 300);
     assert.equal(await page.locator('lucent-viewer .poster').isVisible(), true);
+    await page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/dome.json'));
     await complete(page);
     assert.equal(await page.locator('lucent-viewer .poster').isVisible(), false);
     assert.equal(await page.textContent('lucent-viewer .status'), '');
