@@ -33,12 +33,13 @@ step() {
   say "$name: done in $((SECONDS - start)) s"
 }
 
-# build PRESET: configures and builds with what is on this machine; ninja's own lines show the progress.
+# build PRESET [TARGET...]: configures and builds, all targets by default; ninja's own lines show the progress.
 build() {
   local preset=$1 start=$SECONDS
+  shift
   say "$preset: building"
   step "$preset-configure" cmake --preset "$preset"
-  cmake --build --preset "$preset" || fail "$preset: does not build; see the lines above"
+  cmake --build --preset "$preset" ${1:+--target "$@"} || fail "$preset: does not build; see the lines above"
   say "$preset: built in $((SECONDS - start)) s"
 }
 

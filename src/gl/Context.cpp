@@ -11,13 +11,16 @@ namespace lucent::gl {
 
 #ifdef __EMSCRIPTEN__
 
-struct Context::Window {};
+struct Context::Window {
+    std::string message; // browsers report on the console, and through glGetError
+};
 
 #else
 
 struct Context::Window {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
+    std::string message; // first error that the driver's debug output told
 
     ~Window() {
         if (context == EGL_NO_CONTEXT) return;
@@ -84,6 +87,37 @@ struct Context::Window {
     }
 };
 
+namespace {
+
+constexpr GLenum kDebugOutput = 0x92E0;            // DEBUG_OUTPUT_KHR
+constexpr GLenum kDebugOutputSynchronous = 0x8242; // DEBUG_OUTPUT_SYNCHRONOUS_KHR
+constexpr GLenum kDebugTypeError = 0x824C;         // DEBUG_TYPE_ERROR_KHR
+constexpr GLenum kDebugTypeUndefined = 0x824E;     // DEBUG_TYPE_UNDEFINED_BEHAVIOR_KHR
+
+constexpr GLenum kDebugSourceShaderCompiler = 0x8248; // Program reports those with our files and lines
+
+using DebugCallback = void (*)(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                               const char* text, const void* user);
+
+void noteError(GLenum source, GLenum type, GLuint, GLenum, GLsizei, const char* text, const void* user) {
+    auto& message = *const_cast<std::string*>(static_cast<const std::string*>(user));
+    const bool isError = type == kDebugTypeError || type == kDebugTypeUndefined;
+    if (message.empty() && isError && source != kDebugSourceShaderCompiler) message = text;
+}
+
+// Where the driver has KHR_debug it says what is wrong; glGetError only says that something is.
+void listenToDriver(std::string& message) {
+    const auto setCallback = reinterpret_cast<void (*)(DebugCallback, const void*)>(
+        eglGetProcAddress("glDebugMessageCallbackKHR"));
+    if (!setCallback) return;
+    glEnable(kDebugOutput);
+    glEnable(kDebugOutputSynchronous);
+    setCallback(noteError, &message);
+    glGetError(); // drivers that know the function but not the extension
+}
+
+} // namespace
+
 #endif
 
 Result<std::unique_ptr<Context>> Context::create() {
@@ -91,6 +125,7 @@ Result<std::unique_ptr<Context>> Context::create() {
     context->window_ = std::make_unique<Window>();
 #ifndef __EMSCRIPTEN__
     if (Status opened = context->window_->open(); !opened) return opened.error();
+    listenToDriver(context->window_->message);
 #endif
     context->caps_ = Caps::probe();
     if (!context->caps_.colorBufferFloat)
@@ -117,9 +152,11 @@ Result<const Program*> Context::program(const std::string& stem, const std::vect
 }
 
 std::string Context::takeError() {
-    if (std::string error = device_->takeError(); !error.empty()) return error;
-    const GLenum error = glGetError();
-    return error ? "gl: error " + std::to_string(error) : "";
+    const std::string said = std::exchange(window_->message, {});
+    std::string error = device_->takeError();
+    if (const GLenum code = glGetError(); code && error.empty()) error = "gl: error " + std::to_string(code);
+    if (said.empty()) return error;
+    return (error.empty() ? "gl" : error) + ": " + said;
 }
 
 } // namespace lucent::gl

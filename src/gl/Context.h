@@ -29,7 +29,8 @@ public:
     /// the first request, cached for the page. Error: the compiler's log against our files and lines.
     Result<const Program*> program(const std::string& stem, const std::vector<std::string>& defines = {});
 
-    /// The first thing that went wrong on the GPU since the last call, "" when nothing did.
+    /// What the driver's debug output, GL's error flag and the device's own checks found:
+    /// the first thing that went wrong on the GPU since the last call, "" when nothing did.
     std::string takeError();
 
     /// GL calls fail from here on until a new Context is made; objects need not be deleted.
