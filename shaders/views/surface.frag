@@ -1,12 +1,10 @@
 // views/surface.frag: the first point of a height field that an eye ray meets.
 //
-// in    vPosition [m]  where the ray leaves the box (its back faces are drawn, so the eye may stand inside)
-// out   oSurface       see surface_pixel.glsl
+// out   oSurface  see surface_pixel.glsl
 // model the bilinear field itself, met exactly; side walls down to field.bottom; open below
 #include "views/surface_block.glsl"
 #include "views/surface_pixel.glsl"
 uniform sampler2D uAlpha;
-in vec3 vPosition;
 layout(location = 0) out vec4 oSurface;
 
 // Coverage at g: the alpha image stretched over the footprint, bilinear between its texel centres.
@@ -35,11 +33,15 @@ int wallFace(vec2 g, vec3 direction) {
 }
 
 void main() {
-    vec3 direction = surface.eye.w == 0.0 ? surface.eye.xyz : normalize(vPosition - surface.eye.xyz);
-    float reach = surface.eye.w == 0.0 ? 1e6 * (1.0 + length(vPosition)) : distance(vPosition, surface.eye.xyz);
-    vec2 g = gridFromObject(vPosition.xy, surface.field);
+    // The ray from the pixel's own coordinates: what rasterisers interpolate carries their rounding of corners.
+    vec4 onFarPlane = surface.objectFromPixel * vec4(gl_FragCoord.xy - 0.5 * surface.size, 1.0, 1.0);
+    vec3 far = onFarPlane.xyz / onFarPlane.w;
+    bool parallel = surface.eye.w == 0.0;
+    vec3 direction = parallel ? surface.eye.xyz : normalize(far - surface.eye.xyz);
+    float reach = parallel ? 1e6 * (1.0 + length(far)) : distance(far, surface.eye.xyz);
+    vec2 g = gridFromObject(far.xy, surface.field);
     float reference = 0.5 * (surface.field.lowest + surface.field.highest);
-    float z0 = vPosition.z - reference * surface.field.heightScale;
+    float z0 = far.z - reference * surface.field.heightScale;
     Ray ray = rayFrom(g, z0, direction, reference, 0.0, surface.field);
     Crossing hit = walk(ray, surface.field, -reach, reach, 0.0);
     if (hit.entry > reach) discard;
@@ -47,7 +49,7 @@ void main() {
     vec2 hitG = vec2(ray.base) + ray.origin + hit.entry * ray.step;
     hitG = clamp(hitG, vec2(0.5), surface.field.texels + 0.5);
     bool isWall = hit.entry <= clipToFootprint(ray, surface.field, -reach, reach).x;
-    float z = isWall ? vPosition.z + hit.entry * direction.z
+    float z = isWall ? far.z + hit.entry * direction.z
                      : heightAt(hitG, surface.field) * surface.field.heightScale;
     if (isWall && (z < surface.field.bottom || direction.xy == vec2(0.0))) discard;
     float coverage = surface.hasAlpha != 0 ? clamp(coverageAt(hitG), 0.0, 1.0) : 1.0;

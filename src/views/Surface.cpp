@@ -7,16 +7,18 @@ namespace lucent::views {
 namespace {
 
 struct SurfaceBlock {
-    mat4 clipFromObject;
+    mat4 clipFromObject, objectFromPixel;
     vec4 eye;
     FieldBlock field;
+    vec2 size;
     int object, hasAlpha;
-    int padding[2] = {};
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
             auto list = fieldMembers(offsetof(SurfaceBlock, field));
             list.insert(list.end(), {{"clipFromObject", offsetof(SurfaceBlock, clipFromObject)},
+                                     {"objectFromPixel", offsetof(SurfaceBlock, objectFromPixel)},
+                                     {"size", offsetof(SurfaceBlock, size)},
                                      {"eye", offsetof(SurfaceBlock, eye)},
                                      {"object", offsetof(SurfaceBlock, object)},
                                      {"hasAlpha", offsetof(SurfaceBlock, hasAlpha)}});
@@ -97,11 +99,16 @@ Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& 
         if (objects.size() > 1) pass.createDepth("views.depth", size);
         pass.clear(vec4(0));
         return [=, program = *program](const graph::Resources&, graph::Commands& commands) {
+            const auto clipFromPixel = glm::scale(glm::dmat4(1), glm::dvec3(2.0 / size.x, 2.0 / size.y, 1));
             for (const DrawnObject& drawn : objects) {
                 const mat4 worldFromObject = drawn.object->transform.worldFromObject();
-                const SurfaceBlock block{.clipFromObject = eye.clipFromWorld * worldFromObject,
+                const mat4 clipFromObject = eye.clipFromWorld * worldFromObject;
+                const SurfaceBlock block{.clipFromObject = clipFromObject,
+                                         .objectFromPixel =
+                                             mat4(glm::inverse(glm::dmat4(clipFromObject)) * clipFromPixel),
                                          .eye = eye.inObject(worldFromObject),
                                          .field = drawn.field->block(drawn.object->shape),
+                                         .size = vec2(size),
                                          .object = drawn.index,
                                          .hasAlpha = drawn.alpha != graph::TextureHandle::None};
                 auto textures = drawn.field->bindings();

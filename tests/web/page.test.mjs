@@ -2,7 +2,10 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { boxOf, brightness, complete, difference, drawsOf, openPage, openStage, pictureOf, quiet, valueOf } from './support.mjs';
+import {
+    boxOf, brightness, complete, difference, drawsOf, eventOf, openPage, openStage, openViewers, pictureOf, quiet, shownBy,
+    valueOf,
+} from './support.mjs';
 
 const kGlow = 'objects.relief.material.forwardScatter';
 
@@ -109,9 +112,7 @@ test('dark pages get a dark panel', async () => {
         const page = await openPage(stage, 'index.html', { colorScheme });
         await complete(page);
         await quiet(page);
-        const shown = await page.evaluate(() => window.encode(document.querySelector('lucent-viewer').shadowRoot.querySelector('canvas')));
-        const pixels = new Uint8Array(Buffer.from(shown.base64, 'base64'));
-        corner[colorScheme] = brightness({ ...shown, pixels }, [0.85, 0.1, 0.95, 0.9]); // the panel is docked at the right
+        corner[colorScheme] = brightness(await shownBy(page), [0.85, 0.1, 0.95, 0.9]); // the panel is docked at the right
         await page.leave();
     }
     assert.ok(corner.light > corner.dark + 80, `light ${corner.light}, dark ${corner.dark}`);
@@ -128,15 +129,17 @@ test('the page of examples shows two scenes of the gallery with one context', as
 });
 
 test('every scene of the gallery comes to a finished picture', async () => {
-    const page = await openPage(stage, 'index.html', { gallery: 'own' });
-    const ids = await page.evaluate(async () => (await (await fetch('gallery/index.json')).json()).map(({ id }) => id));
-    assert.ok(ids.length >= 4, `${ids.length} scenes`);
-    for (const id of ids) {
-        await page.evaluate((name) => (location.hash = 'scene=' + name), id);
-        await page.waitForFunction((name) => document.querySelector('lucent-viewer').src.includes(`/${name}.json`), id);
+    const page = await openViewers(stage, '<lucent-viewer></lucent-viewer>', { gallery: 'own' });
+    const scenes = await page.evaluate(async () => {
+        Object.assign(document.querySelector('lucent-viewer').style, { width: '128px', height: '128px' });
+        return (await (await fetch('gallery/index.json')).json()).map(({ scene }) => scene);
+    });
+    assert.ok(scenes.length >= 4, `${scenes.length} scenes`);
+    for (const scene of scenes) {
+        await eventOf(page, 'load', () => page.evaluate((name) => (document.querySelector('lucent-viewer').src = 'gallery/' + name), scene));
         await complete(page);
         const range = spread(await pictureOf(page));
-        assert.ok(range > 40, `${id}: values spread over ${range} of 255`);
+        assert.ok(range > 40, `${scene}: values spread over ${range} of 255`);
     }
     assert.deepEqual(page.problems, []);
     await page.leave();

@@ -1,13 +1,14 @@
 /**
  * The browser against the native program: the same scenes, the same pixels.
  *
- * LUCENT_NATIVE names a folder with SCENE.png for scenes of the gallery, rendered by `lucent render`. Values that reach
+ * LUCENT_NATIVE names a folder with SCENE.png for scenes of the gallery and of hard_scenes.mjs, rendered by `lucent render`. Values that reach
  * the screen may differ by 1/255, in at most 0.1 % of the pixels by more.
  */
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+import { kHardScenes } from './hard_scenes.mjs';
 import { complete, decodePng, difference, kDriver, openStage, openViewers, pictureOf } from './support.mjs';
 
 const kFolder = process.env.LUCENT_NATIVE;
@@ -22,11 +23,13 @@ for (const file of readdirSync(kFolder).filter((name) => name.endsWith('.png')).
     test(`${id} looks in the browser as it does natively`, async () => {
         const png = readFileSync(join(kFolder, file));
         const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)]; // of the chunk IHDR
-        const markup = `<lucent-viewer src="gallery/${id}.json" view-light-dot="false"></lucent-viewer>`;
+        const folder = `${id}.json` in kHardScenes ? 'made' : 'gallery';
+        const markup = `<lucent-viewer src="${folder}/${id}.json" view-light-dot="false"></lucent-viewer>`;
         const page = await openViewers(stage, markup, { gallery: 'own', viewport: { width, height } });
         await page.evaluate(([w, h]) => {
             document.body.style.margin = '0';
-            Object.assign(document.querySelector('lucent-viewer').style, { width: `${w}px`, height: `${h}px` });
+            const style = { width: `${w}px`, height: `${h}px`, maxHeight: 'none' };
+            Object.assign(document.querySelector('lucent-viewer').style, style);
         }, [width, height]);
         await complete(page);
         const { max, mean, share } = difference(await decodePng(page, png), await pictureOf(page));

@@ -1,5 +1,6 @@
 /** Small scenes for the tests of the page, so that they do not depend on the gallery. File name -> content. */
 import { deflateSync } from 'node:zlib';
+import { kHardScenes } from './hard_scenes.mjs';
 
 const kSide = 96; // texels
 
@@ -36,6 +37,7 @@ const broken = structuredClone(dome);
 broken.objects[0].shape.heightScale = 'tall';
 
 export const kScenes = {
+    ...kHardScenes,
     'dome.json': JSON.stringify(dome),
     'dome.pfm': pfm((x, y) => Math.max(0, 1 - x * x - y * y)),
     'ridge.json': JSON.stringify(scene('A ridge', 'ridge.pfm')),

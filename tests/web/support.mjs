@@ -66,7 +66,7 @@ function watch() {
  *                 function that runs in the page first, `gallery: 'own'` for the site's gallery in place of scenes.mjs
  */
 export async function openPage(stage, path = 'index.html', { init, gallery = 'made', markup = '', ...options } = {}) {
-    const context = await stage.browser.newContext({ viewport: { width: 1100, height: 800 }, ...options });
+    const context = await stage.browser.newContext({ viewport: { width: 800, height: 600 }, ...options });
     const page = await context.newPage();
     const problems = [];
     page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
