@@ -23,34 +23,34 @@ const wasm = (name) => resolve(options.wasm, name);
 const out = (name) => resolve(options.out, name);
 
 function fail(message) {
-    console.error(`build_web: ${message}`);
-    process.exit(1);
+  console.error(`build_web: ${message}`);
+  process.exit(1);
 }
 
 /** `import css from './viewer.css'` gives the minified text. */
 const cssAsText = {
-    name: 'css-as-text',
-    setup(bundler) {
-        bundler.onLoad({ filter: /\.css$/ }, async ({ path }) => {
-            const { code } = await transform(readFileSync(path, 'utf8'), { loader: 'css', minify: true });
-            return { contents: code.trim(), loader: 'text' };
-        });
-    },
+  name: 'css-as-text',
+  setup(bundler) {
+    bundler.onLoad({ filter: /\.css$/ }, async ({ path }) => {
+      const { code } = await transform(readFileSync(path, 'utf8'), { loader: 'css', minify: true });
+      return { contents: code.trim(), loader: 'text' };
+    });
+  },
 };
 
 const common = { minify: true, format: 'esm', target: 'es2022', legalComments: 'none', logLevel: 'warning' };
 
 for (const name of ['lucent.mjs', 'lucent.wasm', 'lucent-readers.mjs', 'lucent-readers.wasm'])
-    if (!existsSync(wasm(name))) fail(`${wasm(name)}: is not there; the preset "web" builds it`);
+  if (!existsSync(wasm(name))) fail(`${wasm(name)}: is not there; the preset "web" builds it`);
 mkdirSync(options.out, { recursive: true });
 
 await build({
-    ...common,
-    bundle: true,
-    entryPoints: [web('lucent-viewer.js')],
-    outfile: out('lucent-viewer.js'),
-    alias: { 'lucent-wasm': wasm('lucent.mjs') },
-    plugins: [cssAsText],
+  ...common,
+  bundle: true,
+  entryPoints: [web('lucent-viewer.js')],
+  outfile: out('lucent-viewer.js'),
+  alias: { 'lucent-wasm': wasm('lucent.mjs') },
+  plugins: [cssAsText],
 });
 await build({ ...common, entryPoints: [wasm('lucent-readers.mjs')], outfile: out('lucent-readers.js') });
 await build({ ...common, entryPoints: [web('page.js')], outfile: out('page.js') });
@@ -58,12 +58,14 @@ await build({ minify: true, entryPoints: [web('page.css')], outfile: out('page.c
 for (const name of ['index.html', 'example.html']) copyFileSync(web(name), out(name));
 for (const name of ['lucent.wasm', 'lucent-readers.wasm']) copyFileSync(wasm(name), out(name));
 if (existsSync(kGallery)) {
-    rmSync(out('gallery'), { recursive: true, force: true });
-    cpSync(kGallery, out('gallery'), { recursive: true });
+  rmSync(out('gallery'), { recursive: true, force: true });
+  cpSync(kGallery, out('gallery'), { recursive: true });
 }
 
 const sizeOf = (name) => gzipSync(readFileSync(out(name)), { level: 9 }).length;
 for (const name of readdirSync(options.out).filter((name) => /\.(js|css|html|wasm)$/.test(name)))
-    console.log(`build_web: ${name}: ${readFileSync(out(name)).length} bytes, ${sizeOf(name)} compressed`);
+  console.log(`build_web: ${name}: ${readFileSync(out(name)).length} bytes, ${sizeOf(name)} compressed`);
 const first = ['index.html', 'page.css', 'page.js', 'lucent-viewer.js', 'lucent.wasm'];
-console.log(`build_web: before a relief is interactive: ${first.reduce((sum, name) => sum + sizeOf(name), 0)} bytes compressed`);
+console.log(
+  `build_web: before a relief is interactive: ${first.reduce((sum, name) => sum + sizeOf(name), 0)} bytes compressed`,
+);

@@ -12,61 +12,61 @@ import { pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 
 const kTypes = {
-    '.html': 'text/html; charset=utf-8',
-    '.js': 'text/javascript; charset=utf-8',
-    '.css': 'text/css; charset=utf-8',
-    '.json': 'application/json; charset=utf-8',
-    '.wasm': 'application/wasm',
-    '.png': 'image/png',
-    '.jpg': 'image/jpeg',
-    '.svg': 'image/svg+xml',
+  '.html': 'text/html; charset=utf-8',
+  '.js': 'text/javascript; charset=utf-8',
+  '.css': 'text/css; charset=utf-8',
+  '.json': 'application/json; charset=utf-8',
+  '.wasm': 'application/wasm',
+  '.png': 'image/png',
+  '.jpg': 'image/jpeg',
+  '.svg': 'image/svg+xml',
 };
 export const kPolicy =
-    "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:";
+  "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:";
 
 /** The file that an address names, or nothing when it lies outside of the folder, is not there or is no address. */
 function fileAt(root, address) {
-    let path;
-    try {
-        path = join(root, decodeURIComponent(new URL(address, 'http://localhost').pathname));
-    } catch {
-        return undefined;
-    }
-    if (path !== root && !path.startsWith(root + sep)) return undefined;
-    if (statSync(path, { throwIfNoEntry: false })?.isDirectory()) path = join(path, 'index.html');
-    return statSync(path, { throwIfNoEntry: false })?.isFile() ? path : undefined;
+  let path;
+  try {
+    path = join(root, decodeURIComponent(new URL(address, 'http://localhost').pathname));
+  } catch {
+    return undefined;
+  }
+  if (path !== root && !path.startsWith(root + sep)) return undefined;
+  if (statSync(path, { throwIfNoEntry: false })?.isDirectory()) path = join(path, 'index.html');
+  return statSync(path, { throwIfNoEntry: false })?.isFile() ? path : undefined;
 }
 
 /** @return {Promise<{address: string, close: () => void}>}  once the server listens on 127.0.0.1 */
 export function serve(folder, port = 0) {
-    const root = resolve(folder);
-    const server = createServer((request, response) => {
-        const path = fileAt(root, request.url);
-        if (!path) return response.writeHead(404, { 'Content-Type': 'text/plain' }).end('not found\n');
-        response.writeHead(200, {
-            'Content-Type': kTypes[extname(path)] ?? 'application/octet-stream',
-            'Content-Length': statSync(path).size,
-            'Content-Security-Policy': kPolicy,
-            'Access-Control-Allow-Origin': '*', // a sandboxed frame has no origin, and modules are fetched with one
-            'Cache-Control': 'no-cache',
-        });
-        createReadStream(path).pipe(response);
+  const root = resolve(folder);
+  const server = createServer((request, response) => {
+    const path = fileAt(root, request.url);
+    if (!path) return response.writeHead(404, { 'Content-Type': 'text/plain' }).end('not found\n');
+    response.writeHead(200, {
+      'Content-Type': kTypes[extname(path)] ?? 'application/octet-stream',
+      'Content-Length': statSync(path).size,
+      'Content-Security-Policy': kPolicy,
+      'Access-Control-Allow-Origin': '*', // a sandboxed frame has no origin, and modules are fetched with one
+      'Cache-Control': 'no-cache',
     });
-    return new Promise((done, failed) => {
-        server.on('error', failed);
-        server.listen(port, '127.0.0.1', () =>
-            done({ address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() }),
-        );
-    });
+    createReadStream(path).pipe(response);
+  });
+  return new Promise((done, failed) => {
+    server.on('error', failed);
+    server.listen(port, '127.0.0.1', () =>
+      done({ address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() }),
+    );
+  });
 }
 
 if (import.meta.url === pathToFileURL(process.argv[1]).href) {
-    const { values, positionals } = parseArgs({ options: { port: { type: 'string' } }, allowPositionals: true });
-    const folder = positionals[0] ?? 'build/web/site';
-    if (!statSync(join(folder, 'index.html'), { throwIfNoEntry: false })) {
-        console.error(`serve: ${folder}/index.html: is not there; scripts/run builds the page`);
-        process.exit(1);
-    }
-    const { address } = await serve(folder, Number(values.port ?? 0));
-    console.log(`serve: ${address}`);
+  const { values, positionals } = parseArgs({ options: { port: { type: 'string' } }, allowPositionals: true });
+  const folder = positionals[0] ?? 'build/web/site';
+  if (!statSync(join(folder, 'index.html'), { throwIfNoEntry: false })) {
+    console.error(`serve: ${folder}/index.html: is not there; scripts/run builds the page`);
+    process.exit(1);
+  }
+  const { address } = await serve(folder, Number(values.port ?? 0));
+  console.log(`serve: ${address}`);
 }

@@ -8,141 +8,167 @@ const kSteps = 200; // of a slider: half a percent a key press
 
 /** @return element with properties, attributes ("aria-…") and children */
 function make(tag, properties = {}, ...children) {
-    const element = document.createElement(tag);
-    for (const [name, value] of Object.entries(properties))
-        if (name.includes('-')) element.setAttribute(name, value);
-        else element[name] = value;
-    element.append(...children);
-    return element;
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties))
+    if (name.includes('-')) element.setAttribute(name, value);
+    else element[name] = value;
+  element.append(...children);
+  return element;
 }
 
 /** Between a value and its place on a slider, [0, kSteps]. */
 function scaleOf({ low, high, logarithmic, kind }) {
-    const [bend, unbend] = logarithmic ? [Math.log, Math.exp] : [(x) => x, (x) => x];
-    const start = bend(low);
-    const length = bend(high) - start;
-    const round = kind === 'integer' ? Math.round : (x) => Number(x.toPrecision(4));
-    return {
-        place: (value) => ((bend(Math.min(high, Math.max(low, value))) - start) / length) * kSteps,
-        value: (place) => round(unbend(start + (place / kSteps) * length)),
-    };
+  const [bend, unbend] = logarithmic ? [Math.log, Math.exp] : [(x) => x, (x) => x];
+  const start = bend(low);
+  const length = bend(high) - start;
+  const round = kind === 'integer' ? Math.round : (x) => Number(x.toPrecision(4));
+  return {
+    place: (value) => ((bend(Math.min(high, Math.max(low, value))) - start) / length) * kSteps,
+    value: (place) => round(unbend(start + (place / kSteps) * length)),
+  };
 }
 
 const withUnit = (text, control) => (control.unit ? `${text} ${control.unit}` : text);
 const described = (control) => ({ title: control.doc, 'aria-description': control.doc });
 
 function numberInput(control, name, commit) {
-    const input = make('input', { type: 'number', step: control.kind === 'integer' ? '1' : 'any', 'aria-label': name, ...described(control) });
-    if (control.min !== null) input.min = control.min;
-    if (control.max !== null) input.max = control.max;
-    input.addEventListener('change', () => commit(input.value));
-    return input;
+  const input = make('input', {
+    type: 'number',
+    step: control.kind === 'integer' ? '1' : 'any',
+    'aria-label': name,
+    ...described(control),
+  });
+  if (control.min !== null) input.min = control.min;
+  if (control.max !== null) input.max = control.max;
+  input.addEventListener('change', () => commit(input.value));
+  return input;
 }
 
 /** A slider and the number beside it. */
 function sliderPair(control, name, commit) {
-    const scale = scaleOf(control);
-    const slider = make('input', { type: 'range', min: 0, max: kSteps, step: 1, 'aria-label': name, ...described(control) });
-    const number = numberInput(control, name, commit);
-    slider.addEventListener('input', () => commit(String(scale.value(slider.valueAsNumber))));
-    const show = (value) => {
-        number.value = value;
-        slider.value = scale.place(value);
-        slider.setAttribute('aria-valuetext', withUnit(value, control));
-    };
-    return { nodes: [slider, number], show };
+  const scale = scaleOf(control);
+  const slider = make('input', {
+    type: 'range',
+    min: 0,
+    max: kSteps,
+    step: 1,
+    'aria-label': name,
+    ...described(control),
+  });
+  const number = numberInput(control, name, commit);
+  slider.addEventListener('input', () => commit(String(scale.value(slider.valueAsNumber))));
+  const show = (value) => {
+    number.value = value;
+    slider.value = scale.place(value);
+    slider.setAttribute('aria-valuetext', withUnit(value, control));
+  };
+  return { nodes: [slider, number], show };
 }
 
 /** Several inputs that make one value: each commit sends all of them. */
 function components(control, names, makeOne, commit) {
-    let values = [];
-    const parts = names.map((name, index) =>
-        makeOne(control, `${control.label} ${name}`, (text) => {
-            const next = [...values];
-            next[index] = text;
-            commit(next.join(' '));
-        }),
-    );
-    const show = (next) => {
-        values = next;
-        parts.forEach((part, index) => part.show(next[index]));
-    };
-    return { nodes: parts.flatMap((part) => part.nodes), show };
+  let values = [];
+  const parts = names.map((name, index) =>
+    makeOne(control, `${control.label} ${name}`, (text) => {
+      const next = [...values];
+      next[index] = text;
+      commit(next.join(' '));
+    }),
+  );
+  const show = (next) => {
+    values = next;
+    parts.forEach((part, index) => part.show(next[index]));
+  };
+  return { nodes: parts.flatMap((part) => part.nodes), show };
 }
 
 function plainNumber(control, name, commit) {
-    const input = numberInput(control, name, commit);
-    return { nodes: [input], show: (value) => (input.value = value) };
+  const input = numberInput(control, name, commit);
+  return { nodes: [input], show: (value) => (input.value = value) };
 }
 
 /** For each kind: (control, commit(text)) -> { nodes, show(value) } */
 const kEditors = {
-    number: (control, commit) => sliderPair(control, withUnit(control.label, control), commit),
-    integer: (control, commit) => sliderPair(control, withUnit(control.label, control), commit),
-    toggle(control, commit) {
-        const input = make('input', { type: 'checkbox', 'aria-label': control.label, ...described(control) });
-        input.addEventListener('change', () => commit(String(input.checked)));
-        return { nodes: [input], show: (value) => (input.checked = value) };
-    },
-    choice(control, commit) {
-        const options = control.choices.map((choice) => make('option', { value: choice, textContent: choice }));
-        const input = make('select', { 'aria-label': control.label, ...described(control) }, ...options);
-        input.addEventListener('change', () => commit(input.value));
-        return { nodes: [input], show: (value) => (input.value = value) };
-    },
-    color(control, commit) {
-        const input = make('input', { type: 'color', 'aria-label': control.label, ...described(control) });
-        input.addEventListener('input', () => commit(input.value));
-        return { nodes: [input], show: (value) => (input.value = hexOfLinear(value)) };
-    },
-    vector: (control, commit) => components(control, ['x', 'y', 'z'], plainNumber, commit),
-    range: (control, commit) => components(control, ['low end', 'high end'], sliderPair, commit),
+  number: (control, commit) => sliderPair(control, withUnit(control.label, control), commit),
+  integer: (control, commit) => sliderPair(control, withUnit(control.label, control), commit),
+  toggle(control, commit) {
+    const input = make('input', { type: 'checkbox', 'aria-label': control.label, ...described(control) });
+    input.addEventListener('change', () => commit(String(input.checked)));
+    return { nodes: [input], show: (value) => (input.checked = value) };
+  },
+  choice(control, commit) {
+    const options = control.choices.map((choice) => make('option', { value: choice, textContent: choice }));
+    const input = make('select', { 'aria-label': control.label, ...described(control) }, ...options);
+    input.addEventListener('change', () => commit(input.value));
+    return { nodes: [input], show: (value) => (input.value = value) };
+  },
+  color(control, commit) {
+    const input = make('input', { type: 'color', 'aria-label': control.label, ...described(control) });
+    input.addEventListener('input', () => commit(input.value));
+    return { nodes: [input], show: (value) => (input.value = hexOfLinear(value)) };
+  },
+  vector: (control, commit) => components(control, ['x', 'y', 'z'], plainNumber, commit),
+  range: (control, commit) => components(control, ['low end', 'high end'], sliderPair, commit),
 };
 
 export class Controls {
-    #actions;
-    #shows = new Map(); // path -> show(value)
-    element = make('div', { className: 'twin', role: 'group', 'aria-label': 'Controls' });
+  #actions;
+  #shows = new Map(); // path -> show(value)
+  element = make('div', { className: 'twin', role: 'group', 'aria-label': 'Controls' });
 
-    /** @param actions  set(path, text): true when it was taken; reset(path); focus(path), "" when none has it */
-    constructor(actions) {
-        this.#actions = actions;
-        const pathOf = (event) => event.target.closest('[data-path]')?.dataset.path ?? '';
-        this.element.addEventListener('focusin', (event) => actions.focus(pathOf(event)));
-        this.element.addEventListener('focusout', () => actions.focus(''));
-    }
+  /** @param actions  set(path, text): true when it was taken; reset(path); focus(path), "" when none has it */
+  constructor(actions) {
+    this.#actions = actions;
+    const pathOf = (event) => event.target.closest('[data-path]')?.dataset.path ?? '';
+    this.element.addEventListener('focusin', (event) => actions.focus(pathOf(event)));
+    this.element.addEventListener('focusout', () => actions.focus(''));
+  }
 
-    /** Makes all controls anew. @param controls  descriptors in the order of the panel; those without a group are left out */
-    build(controls) {
-        this.#shows.clear();
-        const groups = new Map();
-        for (const control of controls.filter(({ group }) => group)) {
-            if (!groups.has(control.group)) groups.set(control.group, make('fieldset', {}, make('legend', { textContent: control.group })));
-            groups.get(control.group).append(this.#row(control));
-        }
-        this.element.replaceChildren(...groups.values());
-        this.update(controls);
+  /**
+   * Makes all controls anew.
+   * @param controls  descriptors in the order of the panel; those without a group are left out
+   */
+  build(controls) {
+    this.#shows.clear();
+    const groups = new Map();
+    for (const control of controls.filter(({ group }) => group)) {
+      if (!groups.has(control.group))
+        groups.set(control.group, make('fieldset', {}, make('legend', { textContent: control.group })));
+      groups.get(control.group).append(this.#row(control));
     }
+    this.element.replaceChildren(...groups.values());
+    this.update(controls);
+  }
 
-    /** Shows the values of the same controls as they are now. */
-    update(controls) {
-        for (const control of controls) this.#shows.get(control.path)?.(valueOf(control, control.value));
-    }
+  /** Shows the values of the same controls as they are now. */
+  update(controls) {
+    for (const control of controls) this.#shows.get(control.path)?.(valueOf(control, control.value));
+  }
 
-    #row(control) {
-        const commit = (text) => {
-            if (!this.#actions.set(control.path, text)) show(valueOf(control, this.#actions.get(control.path)));
-        };
-        const { nodes, show } = kEditors[control.kind](control, commit);
-        this.#shows.set(control.path, show);
-        const unit = make('small', { textContent: control.unit });
-        const label = make('span', { className: 'label', title: control.doc, 'aria-hidden': 'true' }, `${control.label} `, unit);
-        const reset = make('button', { type: 'button', textContent: 'Reset', 'aria-label': `Reset ${control.label}` });
-        reset.addEventListener('click', () => this.#actions.reset(control.path));
-        const inputs = make('div', { className: `inputs ${control.kind}` }, ...nodes);
-        if (nodes.length > 1) for (const [name, value] of [['role', 'group'], ['aria-label', control.label]]) inputs.setAttribute(name, value);
-        const row = make('div', { className: 'row' }, label, inputs, reset);
-        row.dataset.path = control.path;
-        return row;
-    }
+  #row(control) {
+    const commit = (text) => {
+      if (!this.#actions.set(control.path, text)) show(valueOf(control, this.#actions.get(control.path)));
+    };
+    const { nodes, show } = kEditors[control.kind](control, commit);
+    this.#shows.set(control.path, show);
+    const unit = make('small', { textContent: control.unit });
+    const label = make(
+      'span',
+      { className: 'label', title: control.doc, 'aria-hidden': 'true' },
+      `${control.label} `,
+      unit,
+    );
+    const reset = make('button', { type: 'button', textContent: 'Reset', 'aria-label': `Reset ${control.label}` });
+    reset.addEventListener('click', () => this.#actions.reset(control.path));
+    const inputs = make('div', { className: `inputs ${control.kind}` }, ...nodes);
+    if (nodes.length > 1)
+      for (const [name, value] of [
+        ['role', 'group'],
+        ['aria-label', control.label],
+      ])
+        inputs.setAttribute(name, value);
+    const row = make('div', { className: 'row' }, label, inputs, reset);
+    row.dataset.path = control.path;
+    return row;
+  }
 }

@@ -4,26 +4,29 @@ import { LucentError, callWasm } from './runtime.js';
 const kForeign = /\.(exr|glb|gltf)$/i;
 
 async function fetchBytes(url, name) {
-    let response;
-    try {
-        response = await fetch(url);
-    } catch {
-        throw new LucentError('fetch', `${name}: cannot be fetched from ${url.origin}; must be a file that this page may read`);
-    }
-    if (!response.ok) throw new LucentError('fetch', `${name}: the server answers ${response.status}; must be there`);
-    return new Uint8Array(await response.arrayBuffer());
+  let response;
+  try {
+    response = await fetch(url);
+  } catch {
+    throw new LucentError(
+      'fetch',
+      `${name}: cannot be fetched from ${url.origin}; must be a file that this page may read`,
+    );
+  }
+  if (!response.ok) throw new LucentError('fetch', `${name}: the server answers ${response.status}; must be there`);
+  return new Uint8Array(await response.arrayBuffer());
 }
 
 let readers;
 /** The second module, which understands glTF and EXR; fetched when the first such file is met. */
 function loadReaders() {
-    const address = (name) => new URL(name, import.meta.url).href;
-    readers ??= import(address('lucent-readers.js'))
-        .then(({ default: create }) => create({ locateFile: address }))
-        .catch(({ message }) => {
-            throw new LucentError('fetch', `lucent-readers.js: ${message}; it must lie beside the script with its .wasm`);
-        });
-    return readers;
+  const address = (name) => new URL(name, import.meta.url).href;
+  readers ??= import(address('lucent-readers.js'))
+    .then(({ default: create }) => create({ locateFile: address }))
+    .catch(({ message }) => {
+      throw new LucentError('fetch', `lucent-readers.js: ${message}; it must lie beside the script with its .wasm`);
+    });
+  return readers;
 }
 
 /**
@@ -31,21 +34,22 @@ function loadReaders() {
  * @param base  URL against which the buffers that a .gltf names are resolved; without one it can have none
  */
 async function toPlain(name, bytes, base) {
-    if (!kForeign.test(name)) return bytes;
-    const wasm = await loadReaders();
-    if (!callWasm(wasm, 'reader_is_foreign', name, bytes)) return bytes;
-    const parts = new Map([[name, bytes]]);
-    callWasm(wasm, 'reader_file_put', name, bytes);
-    for (const needed of JSON.parse(wasm.UTF8ToString(callWasm(wasm, 'reader_needs', name)))) {
-        if (!base) throw new LucentError('file', `${name}: names ${needed}; must hold all its data (.glb) to be opened from disk`);
-        parts.set(needed, await fetchBytes(new URL(needed, base), needed));
-    }
-    // Without a pause from here on: the module forgets all files after a conversion.
-    for (const [part, content] of parts) callWasm(wasm, 'reader_file_put', part, content);
-    const message = wasm.UTF8ToString(callWasm(wasm, 'reader_to_plain', name));
-    if (message) throw new LucentError('scene', message);
-    const start = callWasm(wasm, 'reader_bytes');
-    return wasm.HEAPU8.slice(start, start + callWasm(wasm, 'reader_size'));
+  if (!kForeign.test(name)) return bytes;
+  const wasm = await loadReaders();
+  if (!callWasm(wasm, 'reader_is_foreign', name, bytes)) return bytes;
+  const parts = new Map([[name, bytes]]);
+  callWasm(wasm, 'reader_file_put', name, bytes);
+  for (const needed of JSON.parse(wasm.UTF8ToString(callWasm(wasm, 'reader_needs', name)))) {
+    if (!base)
+      throw new LucentError('file', `${name}: names ${needed}; must hold all its data (.glb) to be opened from disk`);
+    parts.set(needed, await fetchBytes(new URL(needed, base), needed));
+  }
+  // Without a pause from here on: the module forgets all files after a conversion.
+  for (const [part, content] of parts) callWasm(wasm, 'reader_file_put', part, content);
+  const message = wasm.UTF8ToString(callWasm(wasm, 'reader_to_plain', name));
+  if (message) throw new LucentError('scene', message);
+  const start = callWasm(wasm, 'reader_bytes');
+  return wasm.HEAPU8.slice(start, start + callWasm(wasm, 'reader_size'));
 }
 
 const fileName = (url) => decodeURIComponent(url.pathname.split('/').pop());
@@ -56,19 +60,19 @@ const fileName = (url) => decodeURIComponent(url.pathname.split('/').pop());
  * @return {Promise<{path: string, files: Map<string, Uint8Array>}>}  the scene's own name and all files by name
  */
 export async function fetchScene(starting, url) {
-    const path = fileName(url) || url.href;
-    const [runtime, scene] = await Promise.all([starting, fetchBytes(url, path)]);
-    runtime.call('file_put', path, scene);
-    const { files: names, error } = runtime.json('scene_dependencies', path);
-    runtime.call('file_forget', path);
-    if (error) throw new LucentError('scene', error);
-    const files = new Map([[path, scene]]);
-    const fetchOne = async (name) => {
-        const address = new URL(name, url);
-        return [name, await toPlain(name, await fetchBytes(address, name), address)];
-    };
-    for (const [name, bytes] of await Promise.all(names.map(fetchOne))) files.set(name, bytes);
-    return { path, files };
+  const path = fileName(url) || url.href;
+  const [runtime, scene] = await Promise.all([starting, fetchBytes(url, path)]);
+  runtime.call('file_put', path, scene);
+  const { files: names, error } = runtime.json('scene_dependencies', path);
+  runtime.call('file_forget', path);
+  if (error) throw new LucentError('scene', error);
+  const files = new Map([[path, scene]]);
+  const fetchOne = async (name) => {
+    const address = new URL(name, url);
+    return [name, await toPlain(name, await fetchBytes(address, name), address)];
+  };
+  for (const [name, bytes] of await Promise.all(names.map(fetchOne))) files.set(name, bytes);
+  return { path, files };
 }
 
 /**
@@ -76,23 +80,26 @@ export async function fetchScene(starting, url) {
  * @return {string}  "" or what is wrong
  */
 export function loadFiles(runtime, handle, { path, files }) {
-    for (const [name, bytes] of files) runtime.call('file_put', name, bytes);
-    const message = runtime.text('viewer_load', handle, path);
-    for (const name of files.keys()) runtime.call('file_forget', name);
-    return message;
+  for (const [name, bytes] of files) runtime.call('file_put', name, bytes);
+  const message = runtime.text('viewer_load', handle, path);
+  for (const name of files.keys()) runtime.call('file_forget', name);
+  return message;
 }
 
 /** What a dropped file is for. @param environmentWanted  the person pointed at that half, or held Alt */
 export function kindOfDrop(name, environmentWanted) {
-    return environmentWanted || /\.(hdr|exr)$/i.test(name) ? 'environment' : 'height';
+  return environmentWanted || /\.(hdr|exr)$/i.test(name) ? 'environment' : 'height';
 }
 
 /** Shows a picture that a person opened. @param kind 'height' or 'environment'. Throws a LucentError. */
 export async function openPicture(runtime, handle, file, kind) {
-    const { name } = file;
-    if (/\.json$/i.test(name))
-        throw new LucentError('file', `${name}: a scene names further files, which a page cannot read from disk; put it on a server and name it in src`);
-    const bytes = await toPlain(name, new Uint8Array(await file.arrayBuffer()));
-    const message = runtime.text('viewer_open_image', handle, name, bytes, kind === 'environment' ? 1 : 0);
-    if (message) throw new LucentError('file', message);
+  const { name } = file;
+  if (/\.json$/i.test(name))
+    throw new LucentError(
+      'file',
+      `${name}: a scene names further files, which a page cannot read from disk; put it on a server and name it in src`,
+    );
+  const bytes = await toPlain(name, new Uint8Array(await file.arrayBuffer()));
+  const message = runtime.text('viewer_open_image', handle, name, bytes, kind === 'environment' ? 1 : 0);
+  if (message) throw new LucentError('file', message);
 }

@@ -1,5 +1,5 @@
 /**
- * <lucent-viewer src="coin.json" controls poster="coin.jpg" loading="lazy" alt="A coin lit from the left"></lucent-viewer>
+ * <lucent-viewer src="coin.json" controls poster="coin.jpg" loading="lazy" alt="A coin"></lucent-viewer>
  *
  * Shows a scene that a person can light. Besides the attributes above every parameter of the scene is an attribute
  * and, in camel case, a property: light-intensity="2" is viewer.lightIntensity = 2.
@@ -16,8 +16,8 @@ const kNear = '300px'; // around the window: within it viewers load and draw
 const kReleaseAfter = 4000; // ms off screen until the GPU memory goes back
 const kHintTime = 1600; // ms
 const kKeys =
-    'Arrow keys move the light or turn the environment, page up and page down lift the light or zoom, shift with ' +
-    'arrow keys orbits the camera, 0 goes back, question mark lists all keys, Escape leaves.';
+  'Arrow keys move the light or turn the environment, page up and page down lift the light or zoom, shift with ' +
+  'arrow keys orbits the camera, 0 goes back, question mark lists all keys, Escape leaves.';
 
 const kStyle = new CSSStyleSheet();
 kStyle.replaceSync(css);
@@ -35,447 +35,489 @@ const kMarkup = `
 <div class="unseen" role="status"></div>`;
 
 export class LucentViewer extends HTMLElement {
-    static observedAttributes = ['src', 'controls', 'poster', 'alt'];
+  static observedAttributes = ['src', 'controls', 'poster', 'alt'];
 
-    #root;
-    #canvas;
-    #poster;
-    #status;
-    #hint;
-    #voice; // what a screen reader says
-    #twin;
-    #runtime = null;
-    #display = null; // the canvas's context
-    #handle = 0; // the module's viewer, 0: none yet
-    #task = 0; // number of the newest load: older ones give up
-    #src = null; // what is loaded or on its way
-    #near = false;
-    #size = { width: 0, height: 0, scale: 1 };
-    #controls = []; // descriptors with values
-    #revision = -1;
-    #properties = []; // names that the scene's parameters have here
-    #settled = []; // resolve functions that wait for the complete picture
-    #complete = false; // the picture shown is
-    #capturing = false; // the picture is drawn without the panel and for nobody to see
-    #timers = {};
-    #observers = [];
-    #themeChanged = () => this.#apply('viewer_dark', kDark.matches ? 1 : 0);
+  #root;
+  #canvas;
+  #poster;
+  #status;
+  #hint;
+  #voice; // what a screen reader says
+  #twin;
+  #runtime = null;
+  #display = null; // the canvas's context
+  #handle = 0; // the module's viewer, 0: none yet
+  #task = 0; // number of the newest load: older ones give up
+  #src = null; // what is loaded or on its way
+  #near = false;
+  #size = { width: 0, height: 0, scale: 1 };
+  #controls = []; // descriptors with values
+  #revision = -1;
+  #properties = []; // names that the scene's parameters have here
+  #settled = []; // resolve functions that wait for the complete picture
+  #complete = false; // the picture shown is
+  #capturing = false; // the picture is drawn without the panel and for nobody to see
+  #timers = {};
+  #observers = [];
+  #themeChanged = () => this.#apply('viewer_dark', kDark.matches ? 1 : 0);
 
-    constructor() {
-        super();
-        this.#root = this.attachShadow({ mode: 'open' });
-        this.#root.adoptedStyleSheets = [kStyle];
-        this.#root.innerHTML = kMarkup;
-        const find = (selector) => this.#root.querySelector(selector);
-        this.#canvas = find('canvas');
-        this.#poster = find('.poster');
-        this.#status = find('.status');
-        this.#hint = find('.hint');
-        this.#voice = find('[role=status]');
-        find('#keys').textContent = kKeys;
-        this.#twin = new Controls({
-            set: (path, text) => this.#set(path, text),
-            get: (path) => this.#runtime.text('viewer_get', this.#handle, path),
-            reset: (path) => this.reset(path),
-            focus: (path) => this.#apply('viewer_focus', path),
-        });
-        new Gestures(this.#canvas, {
-            pointer: (...event) => this.#apply('viewer_pointer', ...event),
-            wheel: (...event) => this.#apply('viewer_wheel', ...event),
-            pinch: (factor) => this.#apply('viewer_pinch', factor),
-            key: (...event) => this.#apply('viewer_key', ...event),
-            hint: (touch) => this.#showHint(touch),
-        });
-        this.#acceptDrops(find('.zones'));
+  constructor() {
+    super();
+    this.#root = this.attachShadow({ mode: 'open' });
+    this.#root.adoptedStyleSheets = [kStyle];
+    this.#root.innerHTML = kMarkup;
+    const find = (selector) => this.#root.querySelector(selector);
+    this.#canvas = find('canvas');
+    this.#poster = find('.poster');
+    this.#status = find('.status');
+    this.#hint = find('.hint');
+    this.#voice = find('[role=status]');
+    find('#keys').textContent = kKeys;
+    this.#twin = new Controls({
+      set: (path, text) => this.#set(path, text),
+      get: (path) => this.#runtime.text('viewer_get', this.#handle, path),
+      reset: (path) => this.reset(path),
+      focus: (path) => this.#apply('viewer_focus', path),
+    });
+    new Gestures(this.#canvas, {
+      pointer: (...event) => this.#apply('viewer_pointer', ...event),
+      wheel: (...event) => this.#apply('viewer_wheel', ...event),
+      pinch: (factor) => this.#apply('viewer_pinch', factor),
+      key: (...event) => this.#apply('viewer_key', ...event),
+      hint: (touch) => this.#showHint(touch),
+    });
+    this.#acceptDrops(find('.zones'));
+  }
+
+  connectedCallback() {
+    const attributes = new MutationObserver((records) => this.#attributesChanged(records));
+    attributes.observe(this, { attributes: true });
+    const size = new ResizeObserver(([entry]) => this.#resized(entry));
+    try {
+      size.observe(this.#canvas, { box: 'device-pixel-content-box' });
+    } catch {
+      size.observe(this.#canvas); // Safari
     }
+    const place = new IntersectionObserver(([entry]) => this.#moved(entry.isIntersecting), { rootMargin: kNear });
+    place.observe(this);
+    this.#observers = [attributes, size, place];
+    kDark.addEventListener('change', this.#themeChanged);
+    if (this.loading === 'lazy') return;
+    Runtime.shared().catch(() => {}); // starts before there is a src; whoever loads hears of errors
+    this.#loadSource();
+  }
 
-    connectedCallback() {
-        const attributes = new MutationObserver((records) => this.#attributesChanged(records));
-        attributes.observe(this, { attributes: true });
-        const size = new ResizeObserver(([entry]) => this.#resized(entry));
-        try {
-            size.observe(this.#canvas, { box: 'device-pixel-content-box' });
-        } catch {
-            size.observe(this.#canvas); // Safari
-        }
-        const place = new IntersectionObserver(([entry]) => this.#moved(entry.isIntersecting), { rootMargin: kNear });
-        place.observe(this);
-        this.#observers = [attributes, size, place];
-        kDark.addEventListener('change', this.#themeChanged);
-        if (this.loading === 'lazy') return;
-        Runtime.shared().catch(() => {}); // starts before there is a src; whoever loads hears of errors
-        this.#loadSource();
+  // Also called when the element is only moved within the page, hence the second look.
+  disconnectedCallback() {
+    this.#observers.forEach((observer) => observer.disconnect());
+    kDark.removeEventListener('change', this.#themeChanged);
+    this.#near = false;
+    queueMicrotask(() => this.isConnected || this.#destroy());
+  }
+
+  attributeChangedCallback(name, _, value) {
+    if (name === 'alt') this.#canvas.ariaLabel = value ?? '';
+    if (name === 'poster') value === null ? this.#poster.removeAttribute('src') : (this.#poster.src = value);
+    if (name === 'controls') this.#layout();
+    if (name !== 'src') return;
+    this.#src = null;
+    if (this.isConnected && (this.#near || this.loading !== 'lazy')) this.#loadSource();
+  }
+
+  get src() {
+    return this.getAttribute('src') ?? '';
+  }
+  set src(value) {
+    this.setAttribute('src', value);
+  }
+  get controls() {
+    return this.getAttribute('controls');
+  }
+  set controls(value) {
+    value === null || value === false
+      ? this.removeAttribute('controls')
+      : this.setAttribute('controls', value === true ? '' : value);
+  }
+  get poster() {
+    return this.getAttribute('poster') ?? '';
+  }
+  set poster(value) {
+    this.setAttribute('poster', value);
+  }
+  get loading() {
+    return this.getAttribute('loading') === 'lazy' ? 'lazy' : 'eager';
+  }
+  set loading(value) {
+    this.setAttribute('loading', value);
+  }
+  get alt() {
+    return this.getAttribute('alt') ?? '';
+  }
+  set alt(value) {
+    this.setAttribute('alt', value);
+  }
+
+  /** True once a scene is there: only then have parameters values. */
+  get loaded() {
+    return this.#controls.length > 0;
+  }
+  get sceneTitle() {
+    return this.#ask('viewer_title');
+  }
+  get caption() {
+    return this.#ask('viewer_caption');
+  }
+  /** The scene as a scene file, with its parameters as they are now. */
+  get sceneJson() {
+    return this.#ask('viewer_scene_json');
+  }
+  /** {path: text} of every parameter that differs from the loaded scene: what a link carries. */
+  get changes() {
+    return JSON.parse(this.#ask('viewer_changes') || '{}');
+  }
+
+  /** A parameter by path ("objects.0.material.depth"): number, boolean, text or array of numbers. */
+  get(path) {
+    const control = this.#controls.find((one) => one.path === path);
+    const text = this.#ask('viewer_get', path);
+    return control ? valueOf(control, text) : text;
+  }
+  /** Sets a parameter. A wrong value changes nothing, fires an error event and returns false. */
+  set(path, value) {
+    return this.#set(path, textOf(this.#controls.find((one) => one.path === path) ?? {}, value));
+  }
+  /** One parameter, or without a path all, as the scene has them. */
+  reset(path) {
+    for (const one of path === undefined ? Object.keys(this.changes) : [path]) this.#apply('viewer_reset', one);
+    this.#sync();
+  }
+  undo() {
+    return this.#step('viewer_undo');
+  }
+  redo() {
+    return this.#step('viewer_redo');
+  }
+
+  /** Milliseconds, passes, draws, lights, bytes, complete, frames, and where the panel's controls lie. */
+  stats() {
+    return JSON.parse(this.#ask('viewer_stats') || '{}');
+  }
+
+  /** The finished picture without the panel. */
+  async toBlob(type = 'image/png', quality) {
+    if (!this.loaded || !this.#size.width)
+      throw new LucentError('scene', 'toBlob(): no scene is shown; one must be loaded and have a size on the page');
+    this.#capturing = true;
+    this.#apply('viewer_panel', 0);
+    this.#apply('viewer_message', '');
+    await this.#whenComplete();
+    const copy = document.createElement('canvas');
+    copy.width = this.#canvas.width;
+    copy.height = this.#canvas.height;
+    copy.getContext('2d').drawImage(this.#canvas, 0, 0);
+    this.#capturing = false;
+    this.#layout();
+    if (!this.#near) this.#moved(false);
+    return new Promise((resolve) => copy.toBlob(resolve, type, quality));
+  }
+
+  /**
+   * Shows a picture that a person chose.
+   * @param file  File, or Blob with a name
+   * @param kind  'height' or 'environment'
+   */
+  async openFile(file, kind = 'height') {
+    const task = ++this.#task;
+    try {
+      await this.#start();
+      await openPicture(this.#runtime, this.#handle, file, kind);
+      if (task === this.#task) this.#takeScene(file.name);
+    } catch (error) {
+      if (task === this.#task) this.#fail(error);
     }
+  }
 
-    // Also called when the element is only moved within the page, hence the second look.
-    disconnectedCallback() {
-        this.#observers.forEach((observer) => observer.disconnect());
-        kDark.removeEventListener('change', this.#themeChanged);
-        this.#near = false;
-        queueMicrotask(() => this.isConnected || this.#destroy());
+  // ---- called by the runtime ----
+
+  /** @return {boolean}  true while another frame is wanted */
+  render(seconds) {
+    if (!this.#handle || !this.#size.width) return false;
+    if (!this.#near && !this.#settled.length) return false;
+    const { width, height } = this.#size;
+    const { more, drawn } = this.#runtime.draw(this.#handle, width, height, seconds);
+    this.#sync();
+    this.#takePicture(drawn);
+    return more;
+  }
+  contextLost() {
+    this.#poster.hidden = false;
+    this.#status.textContent = 'Waiting for the graphics card…';
+    this.#emit('contextlost');
+  }
+  contextRestored(message) {
+    if (message) this.#fail(new LucentError('gpu', message));
+    else this.#emit('contextrestored');
+  }
+
+  // ---- loading ----
+
+  async #start() {
+    this.#runtime ??= await Runtime.shared();
+    this.#display ??= this.#canvas.getContext(this.#runtime.displayContext);
+    if (this.#handle) return;
+    this.#handle = this.#runtime.call('viewer_create');
+    this.#runtime.add(this);
+    this.#themeChanged();
+    this.#layout();
+    this.#resizeViewer();
+  }
+
+  async #loadSource() {
+    if (!this.src || this.src === this.#src) return;
+    const task = ++this.#task;
+    this.#src = this.src;
+    this.#status.textContent = 'Loading…';
+    try {
+      const scene = await fetchScene(Runtime.shared(), new URL(this.src, document.baseURI));
+      await this.#start();
+      if (task !== this.#task) return;
+      const message = loadFiles(this.#runtime, this.#handle, scene);
+      if (message) throw new LucentError('scene', message);
+      this.#takeScene(this.src);
+    } catch (error) {
+      if (task === this.#task) this.#fail(error);
     }
+  }
 
-    attributeChangedCallback(name, _, value) {
-        if (name === 'alt') this.#canvas.ariaLabel = value ?? '';
-        if (name === 'poster') value === null ? this.#poster.removeAttribute('src') : (this.#poster.src = value);
-        if (name === 'controls') this.#layout();
-        if (name !== 'src') return;
-        this.#src = null;
-        if (this.isConnected && (this.#near || this.loading !== 'lazy')) this.#loadSource();
+  // A new scene is there: its parameters become attributes, properties and controls.
+  #takeScene(name) {
+    this.#status.textContent = 'Drawing…';
+    this.#complete = false;
+    this.#controls = this.#runtime.json('viewer_controls', this.#handle);
+    this.#defineProperties();
+    for (const control of this.#controls)
+      if (control.attribute && this.hasAttribute(control.attribute)) this.#setFromAttribute(control);
+    this.#controls = this.#runtime.json('viewer_controls', this.#handle);
+    this.#revision = this.#runtime.call('viewer_revision', this.#handle);
+    this.#twin.build(this.#controls);
+    this.#layout();
+    this.#request();
+    this.#emit('load', { src: name });
+  }
+
+  #fail(error) {
+    const code = error instanceof LucentError ? error.code : 'internal';
+    if (this.#handle) this.#apply('viewer_message', error.message);
+    const covered = !this.#handle || (this.poster && !this.#poster.hidden);
+    this.#status.textContent = covered ? error.message : '';
+    this.#say(error.message);
+    this.#emit('error', { code, message: error.message });
+  }
+
+  #destroy() {
+    this.#task++;
+    this.#src = null;
+    this.#controls = [];
+    if (!this.#handle) return;
+    this.#runtime.remove(this);
+    this.#runtime.call('viewer_destroy', this.#handle);
+    this.#handle = 0;
+    clearTimeout(this.#timers.release);
+  }
+
+  // ---- parameters ----
+
+  #defineProperties() {
+    for (const name of this.#properties) delete this[name];
+    this.#properties = [];
+    for (const control of this.#controls) {
+      const name = camelCase(control.attribute);
+      if (!name || name in HTMLElement.prototype) continue;
+      const early = Object.getOwnPropertyDescriptor(this, name)?.value; // set before the scene was there
+      Object.defineProperty(this, name, {
+        configurable: true,
+        enumerable: true,
+        get: () => this.get(control.path),
+        set: (value) => this.setAttribute(control.attribute, textOf(control, value)) ?? this.#setFromAttribute(control),
+      });
+      this.#properties.push(name);
+      if (early !== undefined) this.setAttribute(control.attribute, textOf(control, early));
     }
+  }
 
-    get src() { return this.getAttribute('src') ?? ''; }
-    set src(value) { this.setAttribute('src', value); }
-    get controls() { return this.getAttribute('controls'); }
-    set controls(value) { value === null || value === false ? this.removeAttribute('controls') : this.setAttribute('controls', value === true ? '' : value); }
-    get poster() { return this.getAttribute('poster') ?? ''; }
-    set poster(value) { this.setAttribute('poster', value); }
-    get loading() { return this.getAttribute('loading') === 'lazy' ? 'lazy' : 'eager'; }
-    set loading(value) { this.setAttribute('loading', value); }
-    get alt() { return this.getAttribute('alt') ?? ''; }
-    set alt(value) { this.setAttribute('alt', value); }
-
-    /** True once a scene is there: only then have parameters values. */
-    get loaded() { return this.#controls.length > 0; }
-    get sceneTitle() { return this.#ask('viewer_title'); }
-    get caption() { return this.#ask('viewer_caption'); }
-    /** The scene as a scene file, with its parameters as they are now. */
-    get sceneJson() { return this.#ask('viewer_scene_json'); }
-    /** {path: text} of every parameter that differs from the loaded scene: what a link carries. */
-    get changes() { return JSON.parse(this.#ask('viewer_changes') || '{}'); }
-
-    /** A parameter by path ("objects.0.material.depth"): number, boolean, text or array of numbers. */
-    get(path) {
-        const control = this.#controls.find((one) => one.path === path);
-        const text = this.#ask('viewer_get', path);
-        return control ? valueOf(control, text) : text;
+  #attributesChanged(records) {
+    for (const { attributeName } of records) {
+      const control = this.#controls.find((one) => one.attribute === attributeName);
+      if (control) this.#setFromAttribute(control);
     }
-    /** Sets a parameter. A wrong value changes nothing, fires an error event and returns false. */
-    set(path, value) {
-        return this.#set(path, textOf(this.#controls.find((one) => one.path === path) ?? {}, value));
+  }
+
+  #setFromAttribute(control) {
+    const value = this.getAttribute(control.attribute);
+    if (value === null) this.reset(control.path);
+    else this.#set(control.path, textOf(control, value));
+  }
+
+  #set(path, text) {
+    if (!this.loaded) {
+      this.#fail(new LucentError('value', `${path}: no scene is loaded; parameters come with a scene`));
+      return false;
     }
-    /** One parameter, or without a path all, as the scene has them. */
-    reset(path) {
-        for (const one of path === undefined ? Object.keys(this.changes) : [path]) this.#apply('viewer_reset', one);
-        this.#sync();
+    if (text === this.#ask('viewer_get', path)) return true;
+    const message = this.#runtime.text('viewer_set', this.#handle, path, text);
+    if (message) this.#fail(new LucentError('value', message));
+    this.#request();
+    this.#sync();
+    return !message;
+  }
+
+  #step(name) {
+    const done = this.#apply(name) === 1;
+    this.#sync();
+    return done;
+  }
+
+  // Takes over what changed in the module, by whatever road.
+  #sync() {
+    if (!this.loaded) return;
+    const revision = this.#runtime.call('viewer_revision', this.#handle);
+    if (revision === this.#revision) return;
+    this.#revision = revision;
+    const before = new Map(this.#controls.map((control) => [control.path, control.value]));
+    this.#controls = this.#runtime.json('viewer_controls', this.#handle);
+    this.#twin.update(this.#controls);
+    const changed = this.#controls.filter((control) => control.value !== before.get(control.path));
+    for (const control of changed) this.#emit('change', { path: control.path, value: valueOf(control, control.value) });
+    if (changed.length && this.#root.activeElement === this.#canvas) this.#sayLater(changed[0]);
+  }
+
+  // ---- drawing ----
+
+  #takePicture(drawn) {
+    const { complete } = this.stats();
+    if (drawn && (complete || !this.#capturing)) this.#runtime.show(this.#display);
+    this.#complete = complete;
+    if (complete) {
+      this.#poster.hidden = true;
+      this.#status.textContent = '';
+      this.#settled.splice(0).forEach((resolve) => resolve());
     }
-    undo() { return this.#step('viewer_undo'); }
-    redo() { return this.#step('viewer_redo'); }
+    if (drawn) this.#emit('frame', { complete });
+  }
 
-    /** Milliseconds, passes, draws, lights, bytes, complete, frames, and where the panel's controls lie. */
-    stats() {
-        return JSON.parse(this.#ask('viewer_stats') || '{}');
+  #whenComplete() {
+    return new Promise((resolve) => {
+      this.#settled.push(resolve);
+      this.#request();
+    });
+  }
+
+  #request() {
+    if (this.#handle) this.#runtime.request(this);
+  }
+
+  // Calls the module about this viewer when there is one; the picture may change by it.
+  #apply(name, ...values) {
+    if (!this.#handle) return 0;
+    const result = this.#runtime.call(name, this.#handle, ...values);
+    this.#request();
+    return result;
+  }
+
+  #ask(name, ...values) {
+    return this.#handle ? this.#runtime.text(name, this.#handle, ...values) : '';
+  }
+
+  // ---- size and place ----
+
+  #resized(entry) {
+    const css = entry.contentRect;
+    const scale = Math.min(devicePixelRatio, kMaxScale);
+    const box = entry.devicePixelContentBoxSize?.[0];
+    const exact = box && Math.abs(box.inlineSize - css.width * scale) <= 1; // not when capped or emulated
+    const width = exact ? box.inlineSize : Math.round(css.width * scale);
+    const height = exact ? box.blockSize : Math.round(css.height * scale);
+    this.#size = { width, height, scale };
+    this.#resizeViewer();
+  }
+
+  #resizeViewer() {
+    const { width, height, scale } = this.#size;
+    if (width && height) this.#apply('viewer_resize', width, height, scale);
+  }
+
+  // Where the controls are: on the canvas, below it, or nowhere.
+  #layout() {
+    const wanted = this.controls !== null;
+    const below = this.controls === 'html';
+    this.#twin.element.classList.toggle('shown', below);
+    if (wanted) this.#root.append(this.#twin.element);
+    else this.#twin.element.remove();
+    this.#apply('viewer_panel', wanted && !below ? 1 : 0);
+  }
+
+  #moved(near) {
+    this.#near = near;
+    clearTimeout(this.#timers.release);
+    if (near) {
+      this.#loadSource();
+      this.#request();
+    } else {
+      this.#timers.release = setTimeout(
+        () => this.#handle && this.#runtime.call('viewer_release', this.#handle),
+        kReleaseAfter,
+      );
     }
+  }
 
-    /** The finished picture without the panel. */
-    async toBlob(type = 'image/png', quality) {
-        if (!this.loaded || !this.#size.width)
-            throw new LucentError('scene', 'toBlob(): no scene is shown; one must be loaded and have a size on the page');
-        this.#capturing = true;
-        this.#apply('viewer_panel', 0);
-        this.#apply('viewer_message', '');
-        await this.#whenComplete();
-        const copy = document.createElement('canvas');
-        copy.width = this.#canvas.width;
-        copy.height = this.#canvas.height;
-        copy.getContext('2d').drawImage(this.#canvas, 0, 0);
-        this.#capturing = false;
-        this.#layout();
-        if (!this.#near) this.#moved(false);
-        return new Promise((resolve) => copy.toBlob(resolve, type, quality));
-    }
+  // ---- talking to the person ----
 
-    /**
-     * Shows a picture that a person chose.
-     * @param file  File, or Blob with a name
-     * @param kind  'height' or 'environment'
-     */
-    async openFile(file, kind = 'height') {
-        const task = ++this.#task;
-        try {
-            await this.#start();
-            await openPicture(this.#runtime, this.#handle, file, kind);
-            if (task === this.#task) this.#takeScene(file.name);
-        } catch (error) {
-            if (task === this.#task) this.#fail(error);
-        }
-    }
+  #showHint(touch) {
+    this.#hint.textContent = touch ? 'Tap to interact, or use two fingers' : 'Click to interact; Esc to leave';
+    this.#hint.classList.add('shown');
+    clearTimeout(this.#timers.hint);
+    this.#timers.hint = setTimeout(() => this.#hint.classList.remove('shown'), kHintTime);
+  }
 
-    // ---- called by the runtime ----
+  #say(text) {
+    this.#voice.textContent = text;
+  }
 
-    /** @return {boolean}  true while another frame is wanted */
-    render(seconds) {
-        if (!this.#handle || !this.#size.width) return false;
-        if (!this.#near && !this.#settled.length) return false;
-        const { width, height } = this.#size;
-        const { more, drawn } = this.#runtime.draw(this.#handle, width, height, seconds);
-        this.#sync();
-        this.#takePicture(drawn);
-        return more;
-    }
-    contextLost() {
-        this.#poster.hidden = false;
-        this.#status.textContent = 'Waiting for the graphics card…';
-        this.#emit('contextlost');
-    }
-    contextRestored(message) {
-        if (message) this.#fail(new LucentError('gpu', message));
-        else this.#emit('contextrestored');
-    }
+  // One word after a gesture, not a hundred during it.
+  #sayLater({ label, value, unit }) {
+    clearTimeout(this.#timers.voice);
+    this.#timers.voice = setTimeout(() => this.#say(`${label} ${value} ${unit}`), 400);
+  }
 
-    // ---- loading ----
+  #acceptDrops(zones) {
+    const [heightZone, environmentZone] = zones.children;
+    const aims = (event) => {
+      const box = this.getBoundingClientRect();
+      return event.altKey || event.clientX > box.left + box.width / 2;
+    };
+    this.addEventListener('dragover', (event) => {
+      if (!event.dataTransfer.types.includes('Files')) return;
+      event.preventDefault();
+      zones.classList.add('shown');
+      environmentZone.classList.toggle('aimed', aims(event));
+      heightZone.classList.toggle('aimed', !aims(event));
+    });
+    this.addEventListener(
+      'dragleave',
+      (event) => this.contains(event.relatedTarget) || zones.classList.remove('shown'),
+    );
+    this.addEventListener('drop', (event) => {
+      zones.classList.remove('shown');
+      const [file] = event.dataTransfer.files;
+      if (!file) return;
+      event.preventDefault();
+      this.openFile(file, kindOfDrop(file.name, aims(event)));
+    });
+  }
 
-    async #start() {
-        this.#runtime ??= await Runtime.shared();
-        this.#display ??= this.#canvas.getContext(this.#runtime.displayContext);
-        if (this.#handle) return;
-        this.#handle = this.#runtime.call('viewer_create');
-        this.#runtime.add(this);
-        this.#themeChanged();
-        this.#layout();
-        this.#resizeViewer();
-    }
-
-    async #loadSource() {
-        if (!this.src || this.src === this.#src) return;
-        const task = ++this.#task;
-        this.#src = this.src;
-        this.#status.textContent = 'Loading…';
-        try {
-            const scene = await fetchScene(Runtime.shared(), new URL(this.src, document.baseURI));
-            await this.#start();
-            if (task !== this.#task) return;
-            const message = loadFiles(this.#runtime, this.#handle, scene);
-            if (message) throw new LucentError('scene', message);
-            this.#takeScene(this.src);
-        } catch (error) {
-            if (task === this.#task) this.#fail(error);
-        }
-    }
-
-    // A new scene is there: its parameters become attributes, properties and controls.
-    #takeScene(name) {
-        this.#status.textContent = 'Drawing…';
-        this.#complete = false;
-        this.#controls = this.#runtime.json('viewer_controls', this.#handle);
-        this.#defineProperties();
-        for (const control of this.#controls)
-            if (control.attribute && this.hasAttribute(control.attribute)) this.#setFromAttribute(control);
-        this.#controls = this.#runtime.json('viewer_controls', this.#handle);
-        this.#revision = this.#runtime.call('viewer_revision', this.#handle);
-        this.#twin.build(this.#controls);
-        this.#layout();
-        this.#request();
-        this.#emit('load', { src: name });
-    }
-
-    #fail(error) {
-        const code = error instanceof LucentError ? error.code : 'internal';
-        if (this.#handle) this.#apply('viewer_message', error.message);
-        const covered = !this.#handle || (this.poster && !this.#poster.hidden);
-        this.#status.textContent = covered ? error.message : '';
-        this.#say(error.message);
-        this.#emit('error', { code, message: error.message });
-    }
-
-    #destroy() {
-        this.#task++;
-        this.#src = null;
-        this.#controls = [];
-        if (!this.#handle) return;
-        this.#runtime.remove(this);
-        this.#runtime.call('viewer_destroy', this.#handle);
-        this.#handle = 0;
-        clearTimeout(this.#timers.release);
-    }
-
-    // ---- parameters ----
-
-    #defineProperties() {
-        for (const name of this.#properties) delete this[name];
-        this.#properties = [];
-        for (const control of this.#controls) {
-            const name = camelCase(control.attribute);
-            if (!name || name in HTMLElement.prototype) continue;
-            const early = Object.getOwnPropertyDescriptor(this, name)?.value; // set before the scene was there
-            Object.defineProperty(this, name, {
-                configurable: true,
-                enumerable: true,
-                get: () => this.get(control.path),
-                set: (value) => this.setAttribute(control.attribute, textOf(control, value)) ?? this.#setFromAttribute(control),
-            });
-            this.#properties.push(name);
-            if (early !== undefined) this.setAttribute(control.attribute, textOf(control, early));
-        }
-    }
-
-    #attributesChanged(records) {
-        for (const { attributeName } of records) {
-            const control = this.#controls.find((one) => one.attribute === attributeName);
-            if (control) this.#setFromAttribute(control);
-        }
-    }
-
-    #setFromAttribute(control) {
-        const value = this.getAttribute(control.attribute);
-        if (value === null) this.reset(control.path);
-        else this.#set(control.path, textOf(control, value));
-    }
-
-    #set(path, text) {
-        if (!this.loaded) {
-            this.#fail(new LucentError('value', `${path}: no scene is loaded; parameters come with a scene`));
-            return false;
-        }
-        if (text === this.#ask('viewer_get', path)) return true;
-        const message = this.#runtime.text('viewer_set', this.#handle, path, text);
-        if (message) this.#fail(new LucentError('value', message));
-        this.#request();
-        this.#sync();
-        return !message;
-    }
-
-    #step(name) {
-        const done = this.#apply(name) === 1;
-        this.#sync();
-        return done;
-    }
-
-    // Takes over what changed in the module, by whatever road.
-    #sync() {
-        if (!this.loaded) return;
-        const revision = this.#runtime.call('viewer_revision', this.#handle);
-        if (revision === this.#revision) return;
-        this.#revision = revision;
-        const before = new Map(this.#controls.map((control) => [control.path, control.value]));
-        this.#controls = this.#runtime.json('viewer_controls', this.#handle);
-        this.#twin.update(this.#controls);
-        const changed = this.#controls.filter((control) => control.value !== before.get(control.path));
-        for (const control of changed) this.#emit('change', { path: control.path, value: valueOf(control, control.value) });
-        if (changed.length && this.#root.activeElement === this.#canvas) this.#sayLater(changed[0]);
-    }
-
-    // ---- drawing ----
-
-    #takePicture(drawn) {
-        const { complete } = this.stats();
-        if (drawn && (complete || !this.#capturing)) this.#runtime.show(this.#display);
-        this.#complete = complete;
-        if (complete) {
-            this.#poster.hidden = true;
-            this.#status.textContent = '';
-            this.#settled.splice(0).forEach((resolve) => resolve());
-        }
-        if (drawn) this.#emit('frame', { complete });
-    }
-
-    #whenComplete() {
-        return new Promise((resolve) => {
-            this.#settled.push(resolve);
-            this.#request();
-        });
-    }
-
-    #request() {
-        if (this.#handle) this.#runtime.request(this);
-    }
-
-    // Calls the module about this viewer when there is one; the picture may change by it.
-    #apply(name, ...values) {
-        if (!this.#handle) return 0;
-        const result = this.#runtime.call(name, this.#handle, ...values);
-        this.#request();
-        return result;
-    }
-
-    #ask(name, ...values) {
-        return this.#handle ? this.#runtime.text(name, this.#handle, ...values) : '';
-    }
-
-    // ---- size and place ----
-
-    #resized(entry) {
-        const css = entry.contentRect;
-        const scale = Math.min(devicePixelRatio, kMaxScale);
-        const box = entry.devicePixelContentBoxSize?.[0];
-        const exact = box && Math.abs(box.inlineSize - css.width * scale) <= 1; // not when capped or emulated
-        const width = exact ? box.inlineSize : Math.round(css.width * scale);
-        const height = exact ? box.blockSize : Math.round(css.height * scale);
-        this.#size = { width, height, scale };
-        this.#resizeViewer();
-    }
-
-    #resizeViewer() {
-        const { width, height, scale } = this.#size;
-        if (width && height) this.#apply('viewer_resize', width, height, scale);
-    }
-
-    // Where the controls are: on the canvas, below it, or nowhere.
-    #layout() {
-        const wanted = this.controls !== null;
-        const below = this.controls === 'html';
-        this.#twin.element.classList.toggle('shown', below);
-        if (wanted) this.#root.append(this.#twin.element);
-        else this.#twin.element.remove();
-        this.#apply('viewer_panel', wanted && !below ? 1 : 0);
-    }
-
-    #moved(near) {
-        this.#near = near;
-        clearTimeout(this.#timers.release);
-        if (near) {
-            this.#loadSource();
-            this.#request();
-        } else {
-            this.#timers.release = setTimeout(() => this.#handle && this.#runtime.call('viewer_release', this.#handle), kReleaseAfter);
-        }
-    }
-
-    // ---- talking to the person ----
-
-    #showHint(touch) {
-        this.#hint.textContent = touch ? 'Tap to interact, or use two fingers' : 'Click to interact; Esc to leave';
-        this.#hint.classList.add('shown');
-        clearTimeout(this.#timers.hint);
-        this.#timers.hint = setTimeout(() => this.#hint.classList.remove('shown'), kHintTime);
-    }
-
-    #say(text) {
-        this.#voice.textContent = text;
-    }
-
-    // One word after a gesture, not a hundred during it.
-    #sayLater({ label, value, unit }) {
-        clearTimeout(this.#timers.voice);
-        this.#timers.voice = setTimeout(() => this.#say(`${label} ${value} ${unit}`), 400);
-    }
-
-    #acceptDrops(zones) {
-        const [heightZone, environmentZone] = zones.children;
-        const aims = (event) => {
-            const box = this.getBoundingClientRect();
-            return event.altKey || event.clientX > box.left + box.width / 2;
-        };
-        this.addEventListener('dragover', (event) => {
-            if (!event.dataTransfer.types.includes('Files')) return;
-            event.preventDefault();
-            zones.classList.add('shown');
-            environmentZone.classList.toggle('aimed', aims(event));
-            heightZone.classList.toggle('aimed', !aims(event));
-        });
-        this.addEventListener('dragleave', (event) => this.contains(event.relatedTarget) || zones.classList.remove('shown'));
-        this.addEventListener('drop', (event) => {
-            zones.classList.remove('shown');
-            const [file] = event.dataTransfer.files;
-            if (!file) return;
-            event.preventDefault();
-            this.openFile(file, kindOfDrop(file.name, aims(event)));
-        });
-    }
-
-    #emit(type, detail) {
-        this.dispatchEvent(new CustomEvent(type, { detail }));
-    }
+  #emit(type, detail) {
+    this.dispatchEvent(new CustomEvent(type, { detail }));
+  }
 }
 
 customElements.define('lucent-viewer', LucentViewer);

@@ -11,76 +11,76 @@ let current = ''; // id of the gallery's scene that is shown
 let pending = {}; // parameters that a link sets once its scene is there
 
 function note(text) {
-    find('note').textContent = text;
-    clearTimeout(note.timer);
-    note.timer = setTimeout(() => (find('note').textContent = ''), kNoteTime);
+  find('note').textContent = text;
+  clearTimeout(note.timer);
+  note.timer = setTimeout(() => (find('note').textContent = ''), kNoteTime);
 }
 
 // ---- links: #scene=coin&light.intensity=2
 
 function readLink() {
-    const { scene, ...changes } = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
-    return { scene, changes };
+  const { scene, ...changes } = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
+  return { scene, changes };
 }
 
 function writeLink() {
-    const link = new URLSearchParams({ scene: current, ...viewer.changes });
-    history.replaceState(null, '', '#' + link);
+  const link = new URLSearchParams({ scene: current, ...viewer.changes });
+  history.replaceState(null, '', '#' + link);
 }
 
 function writeLinkSoon() {
-    clearTimeout(writeLink.timer);
-    writeLink.timer = setTimeout(writeLink, kLinkDelay);
+  clearTimeout(writeLink.timer);
+  writeLink.timer = setTimeout(writeLink, kLinkDelay);
 }
 
 function followLink() {
-    const { scene, changes } = readLink();
-    const wanted = gallery.find(({ id }) => id === scene) ?? gallery[0];
-    if (scene && wanted.id !== scene) note(`There is no scene "${scene}" here`);
-    if (wanted.id === current && viewer.loaded) {
-        viewer.reset();
-        applyChanges(changes);
-    } else showScene(wanted, changes);
+  const { scene, changes } = readLink();
+  const wanted = gallery.find(({ id }) => id === scene) ?? gallery[0];
+  if (scene && wanted.id !== scene) note(`There is no scene "${scene}" here`);
+  if (wanted.id === current && viewer.loaded) {
+    viewer.reset();
+    applyChanges(changes);
+  } else showScene(wanted, changes);
 }
 
 function applyChanges(changes) {
-    for (const [path, text] of Object.entries(changes)) viewer.set(path, text);
+  for (const [path, text] of Object.entries(changes)) viewer.set(path, text);
 }
 
 // ---- scenes
 
 function showScene({ id, title, scene, poster }, changes = {}) {
-    current = id;
-    pending = changes;
-    if (poster && !viewer.loaded) viewer.poster = 'gallery/' + poster;
-    viewer.alt = title;
-    viewer.src = 'gallery/' + scene;
-    for (const link of find('gallery').children) link.toggleAttribute('aria-current', link.dataset.id === id);
+  current = id;
+  pending = changes;
+  if (poster && !viewer.loaded) viewer.poster = 'gallery/' + poster;
+  viewer.alt = title;
+  viewer.src = 'gallery/' + scene;
+  for (const link of find('gallery').children) link.toggleAttribute('aria-current', link.dataset.id === id);
 }
 
 function galleryCard(entry) {
-    const { id, title, caption, thumbnail } = entry;
-    const card = document.createElement('a');
-    card.href = '#scene=' + encodeURIComponent(id);
-    card.dataset.id = id;
-    const image = Object.assign(new Image(), { src: 'gallery/' + thumbnail, alt: '', loading: 'lazy' });
-    const name = Object.assign(document.createElement('b'), { textContent: title });
-    const text = Object.assign(document.createElement('small'), { textContent: caption });
-    card.append(image, name, text);
-    card.addEventListener('click', () => {
-        if (id === current) showScene(entry); // as it was before the person opened files of their own
-        viewer.scrollIntoView({ block: 'nearest' });
-    });
-    return card;
+  const { id, title, caption, thumbnail } = entry;
+  const card = document.createElement('a');
+  card.href = '#scene=' + encodeURIComponent(id);
+  card.dataset.id = id;
+  const image = Object.assign(new Image(), { src: 'gallery/' + thumbnail, alt: '', loading: 'lazy' });
+  const name = Object.assign(document.createElement('b'), { textContent: title });
+  const text = Object.assign(document.createElement('small'), { textContent: caption });
+  card.append(image, name, text);
+  card.addEventListener('click', () => {
+    if (id === current) showScene(entry); // as it was before the person opened files of their own
+    viewer.scrollIntoView({ block: 'nearest' });
+  });
+  return card;
 }
 
 viewer.addEventListener('load', () => {
-    const changes = pending;
-    pending = {};
-    applyChanges(changes);
-    find('title').textContent = viewer.sceneTitle;
-    find('caption').textContent = viewer.caption;
-    writeLinkSoon();
+  const changes = pending;
+  pending = {};
+  applyChanges(changes);
+  find('title').textContent = viewer.sceneTitle;
+  find('caption').textContent = viewer.caption;
+  writeLinkSoon();
 });
 viewer.addEventListener('error', ({ detail }) => note(detail.message));
 viewer.addEventListener('change', writeLinkSoon);
@@ -89,35 +89,36 @@ viewer.addEventListener('frame', showCost);
 // ---- toolbar
 
 function showCost() {
-    const { milliseconds, passes, draws, lights, bytes } = find('time').checked && viewer.loaded ? viewer.stats() : {};
-    find('cost').textContent =
-        milliseconds === undefined
-            ? ''
-            : `${milliseconds.toFixed(1)} ms, ${passes} passes, ${draws} draws, ${lights} lights, ${(bytes / 1e6).toFixed(1)} MB`;
+  const { milliseconds, passes, draws, lights, bytes } = find('time').checked && viewer.loaded ? viewer.stats() : {};
+  find('cost').textContent =
+    milliseconds === undefined
+      ? ''
+      : `${milliseconds.toFixed(1)} ms, ${passes} passes, ${draws} draws, ${lights} lights, ` +
+        `${(bytes / 1e6).toFixed(1)} MB`;
 }
 
 function openWith(button, input, kind) {
-    find(button).addEventListener('click', () => find(input).click());
-    find(input).addEventListener('change', ({ target }) => {
-        if (target.files[0]) viewer.openFile(target.files[0], kind);
-        target.value = '';
-    });
+  find(button).addEventListener('click', () => find(input).click());
+  find(input).addEventListener('change', ({ target }) => {
+    if (target.files[0]) viewer.openFile(target.files[0], kind);
+    target.value = '';
+  });
 }
 
 async function savePicture() {
-    const address = URL.createObjectURL(await viewer.toBlob());
-    Object.assign(document.createElement('a'), { href: address, download: `${current || 'lucent'}.png` }).click();
-    URL.revokeObjectURL(address);
+  const address = URL.createObjectURL(await viewer.toBlob());
+  Object.assign(document.createElement('a'), { href: address, download: `${current || 'lucent'}.png` }).click();
+  URL.revokeObjectURL(address);
 }
 
 async function copyLink() {
-    writeLink();
-    try {
-        await navigator.clipboard.writeText(location.href);
-        note('Link copied');
-    } catch {
-        note('This browser keeps pages from copying: the link is in the address bar');
-    }
+  writeLink();
+  try {
+    await navigator.clipboard.writeText(location.href);
+    note('Link copied');
+  } catch {
+    note('This browser keeps pages from copying: the link is in the address bar');
+  }
 }
 
 find('undo').addEventListener('click', () => viewer.undo());
@@ -130,11 +131,11 @@ openWith('open-height', 'height-file', 'height');
 openWith('open-environment', 'environment-file', 'environment');
 
 async function start() {
-    const response = await fetch('gallery/index.json');
-    if (!response.ok) return note(`gallery/index.json: the server answers ${response.status}; scripts/run makes it`);
-    gallery = await response.json();
-    find('gallery').replaceChildren(...gallery.map(galleryCard));
-    addEventListener('hashchange', followLink);
-    followLink();
+  const response = await fetch('gallery/index.json');
+  if (!response.ok) return note(`gallery/index.json: the server answers ${response.status}; scripts/run makes it`);
+  gallery = await response.json();
+  find('gallery').replaceChildren(...gallery.map(galleryCard));
+  addEventListener('hashchange', followLink);
+  followLink();
 }
 start();

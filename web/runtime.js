@@ -8,181 +8,184 @@ import createLucent from 'lucent-wasm'; // the build names the file
 
 /** An error with a code that pages can test and a message that people can read. */
 export class LucentError extends Error {
-    /** @param {'fetch'|'scene'|'file'|'value'|'gpu'} code */
-    constructor(code, message) {
-        super(message);
-        this.code = code;
-    }
+  /** @param {'fetch'|'scene'|'file'|'value'|'gpu'} code */
+  constructor(code, message) {
+    super(message);
+    this.code = code;
+  }
 }
 
 /** Calls a compiled function: text and byte arrays (pointer and length) are lent to it for the call. */
 export function callWasm(wasm, name, ...values) {
-    const lent = [];
-    const lend = (size) => lent[lent.push(wasm._malloc(size || 1)) - 1];
-    const plain = values.flatMap((value) => {
-        if (typeof value === 'string') {
-            const size = wasm.lengthBytesUTF8(value) + 1;
-            const pointer = lend(size);
-            wasm.stringToUTF8(value, pointer, size);
-            return pointer;
-        }
-        if (value instanceof Uint8Array) {
-            const pointer = lend(value.length);
-            wasm.HEAPU8.set(value, pointer);
-            return [pointer, value.length];
-        }
-        return value;
-    });
-    const result = wasm['_' + name](...plain);
-    lent.forEach((pointer) => wasm._free(pointer));
-    return result;
+  const lent = [];
+  const lend = (size) => lent[lent.push(wasm._malloc(size || 1)) - 1];
+  const plain = values.flatMap((value) => {
+    if (typeof value === 'string') {
+      const size = wasm.lengthBytesUTF8(value) + 1;
+      const pointer = lend(size);
+      wasm.stringToUTF8(value, pointer, size);
+      return pointer;
+    }
+    if (value instanceof Uint8Array) {
+      const pointer = lend(value.length);
+      wasm.HEAPU8.set(value, pointer);
+      return [pointer, value.length];
+    }
+    return value;
+  });
+  const result = wasm['_' + name](...plain);
+  lent.forEach((pointer) => wasm._free(pointer));
+  return result;
 }
 
 /** A canvas that is never seen, with its context: off the page where the browser can, else one not attached. */
 function makeContext() {
-    const options = { antialias: false, depth: false, stencil: false };
-    const makers = [() => document.createElement('canvas')];
-    if (self.OffscreenCanvas?.prototype.transferToImageBitmap) makers.unshift(() => new OffscreenCanvas(1, 1));
-    for (const make of makers) {
-        const canvas = make();
-        const gl = canvas.getContext('webgl2', options);
-        if (gl) return { canvas, gl };
-    }
-    throw new LucentError('gpu', 'this browser: WebGL2 is not available; a browser with WebGL2 is needed');
+  const options = { antialias: false, depth: false, stencil: false };
+  const makers = [() => document.createElement('canvas')];
+  if (self.OffscreenCanvas?.prototype.transferToImageBitmap) makers.unshift(() => new OffscreenCanvas(1, 1));
+  for (const make of makers) {
+    const canvas = make();
+    const gl = canvas.getContext('webgl2', options);
+    if (gl) return { canvas, gl };
+  }
+  throw new LucentError('gpu', 'this browser: WebGL2 is not available; a browser with WebGL2 is needed');
 }
 
 // Setting a size empties a canvas, even when it stays the same.
 function resize(canvas, width, height) {
-    if (canvas.width !== width) canvas.width = width;
-    if (canvas.height !== height) canvas.height = height;
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
 }
 
 export class Runtime {
-    static #shared;
-    /** The page's runtime, started by the first viewer that asks. Rejects with a LucentError. */
-    static shared() {
-        return (this.#shared ??= this.#start());
-    }
+  static #shared;
+  /** The page's runtime, started by the first viewer that asks. Rejects with a LucentError. */
+  static shared() {
+    return (this.#shared ??= this.#start());
+  }
 
-    static async #start() {
-        const { canvas, gl } = makeContext();
-        const locateFile = (name) => new URL(name, import.meta.url).href;
-        let wasm;
-        try {
-            wasm = await createLucent({ locateFile });
-        } catch (reason) {
-            throw new LucentError('fetch', `lucent.wasm: ${reason.message ?? reason}; it must lie beside the script`);
-        }
-        const runtime = new Runtime(wasm, canvas, gl);
-        const message = runtime.#takeContext();
-        if (message) throw new LucentError('gpu', message);
-        return runtime;
+  static async #start() {
+    const { canvas, gl } = makeContext();
+    const locateFile = (name) => new URL(name, import.meta.url).href;
+    let wasm;
+    try {
+      wasm = await createLucent({ locateFile });
+    } catch (reason) {
+      throw new LucentError('fetch', `lucent.wasm: ${reason.message ?? reason}; it must lie beside the script`);
     }
+    const runtime = new Runtime(wasm, canvas, gl);
+    const message = runtime.#takeContext();
+    if (message) throw new LucentError('gpu', message);
+    return runtime;
+  }
 
-    #wasm;
-    #canvas;
-    #gl;
-    #frame = 0;
-    #lost = false;
-    #wanting = new Set(); // viewers that want the next frame
-    #viewers = new Set();
+  #wasm;
+  #canvas;
+  #gl;
+  #frame = 0;
+  #lost = false;
+  #wanting = new Set(); // viewers that want the next frame
+  #viewers = new Set();
 
-    constructor(wasm, canvas, gl) {
-        this.#wasm = wasm;
-        this.#canvas = canvas;
-        this.#gl = gl;
-        canvas.addEventListener('webglcontextlost', (event) => this.#lose(event));
-        canvas.addEventListener('webglcontextrestored', () => this.#restore());
-    }
+  constructor(wasm, canvas, gl) {
+    this.#wasm = wasm;
+    this.#canvas = canvas;
+    this.#gl = gl;
+    canvas.addEventListener('webglcontextlost', (event) => this.#lose(event));
+    canvas.addEventListener('webglcontextrestored', () => this.#restore());
+  }
 
-    call(name, ...values) {
-        return callWasm(this.#wasm, name, ...values);
-    }
-    text(name, ...values) {
-        return this.#wasm.UTF8ToString(this.call(name, ...values));
-    }
-    json(name, ...values) {
-        return JSON.parse(this.text(name, ...values));
-    }
+  call(name, ...values) {
+    return callWasm(this.#wasm, name, ...values);
+  }
+  text(name, ...values) {
+    return this.#wasm.UTF8ToString(this.call(name, ...values));
+  }
+  json(name, ...values) {
+    return JSON.parse(this.text(name, ...values));
+  }
 
-    /** The kind of context a viewer's own canvas must have for show(). */
-    get displayContext() {
-        return this.#canvas instanceof HTMLCanvasElement ? '2d' : 'bitmaprenderer';
-    }
+  /** The kind of context a viewer's own canvas must have for show(). */
+  get displayContext() {
+    return this.#canvas instanceof HTMLCanvasElement ? '2d' : 'bitmaprenderer';
+  }
 
-    /** @param viewer  has render(seconds), true while it wants another frame, and contextLost(), contextRestored(message) */
-    add(viewer) {
-        this.#viewers.add(viewer);
-    }
-    remove(viewer) {
-        this.#viewers.delete(viewer);
-        this.#wanting.delete(viewer);
-    }
+  /**
+   * @param viewer  has render(seconds), true while it wants another frame, and contextLost(),
+   *                contextRestored(message)
+   */
+  add(viewer) {
+    this.#viewers.add(viewer);
+  }
+  remove(viewer) {
+    this.#viewers.delete(viewer);
+    this.#wanting.delete(viewer);
+  }
 
-    /** Asks for a frame. Without such a wish nothing runs: an idle page draws nothing. */
-    request(viewer) {
-        this.#wanting.add(viewer);
-        this.#schedule();
-    }
+  /** Asks for a frame. Without such a wish nothing runs: an idle page draws nothing. */
+  request(viewer) {
+    this.#wanting.add(viewer);
+    this.#schedule();
+  }
 
-    /**
-     * Draws one viewer on the shared canvas.
-     * @return {{more: boolean, drawn: boolean}}  wants another frame; left a new picture for show(), until the task ends
-     */
-    draw(handle, width, height, seconds) {
-        if (this.#lost) return { more: false, drawn: false };
-        resize(this.#canvas, width, height);
-        const before = this.call('viewer_draw_count', handle);
-        const more = this.call('viewer_draw', handle, seconds) === 1;
-        return { more, drawn: this.call('viewer_draw_count', handle) !== before };
-    }
+  /**
+   * Draws one viewer on the shared canvas.
+   * @return {{more: boolean, drawn: boolean}}  wants another frame; left a new picture for show(), until the task ends
+   */
+  draw(handle, width, height, seconds) {
+    if (this.#lost) return { more: false, drawn: false };
+    resize(this.#canvas, width, height);
+    const before = this.call('viewer_draw_count', handle);
+    const more = this.call('viewer_draw', handle, seconds) === 1;
+    return { more, drawn: this.call('viewer_draw_count', handle) !== before };
+  }
 
-    /** Moves the picture that was just drawn to a context of the displayContext kind. */
-    show(context) {
-        const { width, height } = this.#canvas;
-        resize(context.canvas, width, height);
-        if (context.transferFromImageBitmap) {
-            context.transferFromImageBitmap(this.#canvas.transferToImageBitmap());
-            return;
-        }
-        context.clearRect(0, 0, width, height);
-        context.drawImage(this.#canvas, 0, 0);
+  /** Moves the picture that was just drawn to a context of the displayContext kind. */
+  show(context) {
+    const { width, height } = this.#canvas;
+    resize(context.canvas, width, height);
+    if (context.transferFromImageBitmap) {
+      context.transferFromImageBitmap(this.#canvas.transferToImageBitmap());
+      return;
     }
+    context.clearRect(0, 0, width, height);
+    context.drawImage(this.#canvas, 0, 0);
+  }
 
-    #schedule() {
-        if (this.#wanting.size && !this.#frame && !this.#lost)
-            this.#frame = requestAnimationFrame((now) => this.#tick(now));
-    }
+  #schedule() {
+    if (this.#wanting.size && !this.#frame && !this.#lost)
+      this.#frame = requestAnimationFrame((now) => this.#tick(now));
+  }
 
-    #tick(now) {
-        this.#frame = 0;
-        for (const viewer of [...this.#wanting]) if (!viewer.render(now / 1000)) this.#wanting.delete(viewer);
-        this.#schedule();
-    }
+  #tick(now) {
+    this.#frame = 0;
+    for (const viewer of [...this.#wanting]) if (!viewer.render(now / 1000)) this.#wanting.delete(viewer);
+    this.#schedule();
+  }
 
-    // Emscripten knows contexts by number; after a loss the restored one is registered anew with its extensions.
-    #takeContext() {
-        const { GL } = this.#wasm;
-        GL.makeContextCurrent(GL.registerContext(this.#gl, { majorVersion: 2, minorVersion: 0 }));
-        return this.text('lucent_start');
-    }
+  // Emscripten knows contexts by number; after a loss the restored one is registered anew with its extensions.
+  #takeContext() {
+    const { GL } = this.#wasm;
+    GL.makeContextCurrent(GL.registerContext(this.#gl, { majorVersion: 2, minorVersion: 0 }));
+    return this.text('lucent_start');
+  }
 
-    #lose(event) {
-        event.preventDefault(); // else the browser never gives it back
-        this.#lost = true;
-        cancelAnimationFrame(this.#frame);
-        this.#frame = 0;
-        this.call('lucent_context_lost');
-        for (const viewer of this.#viewers) viewer.contextLost();
-    }
+  #lose(event) {
+    event.preventDefault(); // else the browser never gives it back
+    this.#lost = true;
+    cancelAnimationFrame(this.#frame);
+    this.#frame = 0;
+    this.call('lucent_context_lost');
+    for (const viewer of this.#viewers) viewer.contextLost();
+  }
 
-    #restore() {
-        this.#lost = false;
-        const message = this.#takeContext();
-        for (const viewer of this.#viewers) {
-            viewer.contextRestored(message);
-            this.#wanting.add(viewer);
-        }
-        this.#schedule();
+  #restore() {
+    this.#lost = false;
+    const message = this.#takeContext();
+    for (const viewer of this.#viewers) {
+      viewer.contextRestored(message);
+      this.#wanting.add(viewer);
     }
+    this.#schedule();
+  }
 }

@@ -127,6 +127,9 @@ Result<std::unique_ptr<Context>> Context::create() {
     if (Status opened = context->window_->open(); !opened) return opened.error();
     listenToDriver(context->window_->message);
 #endif
+    // A restored context remembers the errors of what was deleted for the lost one.
+    for (int i = 0; i < 16 && glGetError(); ++i) {
+    }
     context->caps_ = Caps::probe();
     if (!context->caps_.colorBufferFloat)
         return Error{"caps: cannot draw into floating-point textures (EXT_color_buffer_float missing) on " +

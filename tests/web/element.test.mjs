@@ -3,8 +3,19 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { greyPng } from './scenes.mjs';
 import {
-    brightness, complete, decodePng, difference, drawsOf, eventOf, openPage, openStage, openViewers, pictureOf, quiet,
-    shownBy, valueOf,
+  brightness,
+  complete,
+  decodePng,
+  difference,
+  drawsOf,
+  eventOf,
+  openPage,
+  openStage,
+  openViewers,
+  pictureOf,
+  quiet,
+  shownBy,
+  valueOf,
 } from './support.mjs';
 
 const kDome = '<lucent-viewer src="made/dome.json" alt="A dome"></lucent-viewer>';
@@ -15,252 +26,304 @@ before(async () => (stage = await openStage()));
 after(() => stage.close());
 
 async function open(markup = kDome, options) {
-    const page = await openViewers(stage, markup, options);
-    await resize(page, 400, 300);
-    await complete(page);
-    return page;
+  const page = await openViewers(stage, markup, options);
+  await resize(page, 400, 300);
+  await complete(page);
+  return page;
 }
 
 async function resize(page, width, height) {
-    await page.evaluate(([w, h]) => {
-        for (const viewer of document.querySelectorAll('lucent-viewer')) Object.assign(viewer.style, { width: `${w}px`, height: `${h}px` });
-    }, [width, height]);
+  await page.evaluate(
+    ([w, h]) => {
+      for (const viewer of document.querySelectorAll('lucent-viewer'))
+        Object.assign(viewer.style, { width: `${w}px`, height: `${h}px` });
+    },
+    [width, height],
+  );
 }
 
 test('attributes and properties mirror the parameters', async () => {
-    const page = await open(kDome.replace('alt', 'material-depth="0.2" light="0.5 0 0.4" view-light-dot="false" alt'));
-    const values = () => page.evaluate(() => {
-        const viewer = document.querySelector('lucent-viewer');
-        return [viewer.materialDepth, viewer.light, viewer.viewLightDot];
+  const page = await open(kDome.replace('alt', 'material-depth="0.2" light="0.5 0 0.4" view-light-dot="false" alt'));
+  const values = () =>
+    page.evaluate(() => {
+      const viewer = document.querySelector('lucent-viewer');
+      return [viewer.materialDepth, viewer.light, viewer.viewLightDot];
     });
-    assert.deepEqual(await values(), [0.2, [0.5, 0, 0.4], false]);
-    await page.evaluate(() => document.querySelector('lucent-viewer').setAttribute('material-depth', '0.3'));
-    assert.equal(await valueOf(page, kDepth), 0.3);
-    const attribute = await page.evaluate(() => {
-        const viewer = document.querySelector('lucent-viewer');
-        viewer.light = [0.1, 0.2, 0.7];
-        return viewer.getAttribute('light');
-    });
-    assert.equal(attribute, '0.1 0.2 0.7');
-    assert.deepEqual(await values(), [0.3, [0.1, 0.2, 0.7], false]);
-    await page.evaluate(() => document.querySelector('lucent-viewer').removeAttribute('material-depth'));
-    assert.equal(await valueOf(page, kDepth), 0.01); // as the scene has it
-    await page.leave();
+  assert.deepEqual(await values(), [0.2, [0.5, 0, 0.4], false]);
+  await page.evaluate(() => document.querySelector('lucent-viewer').setAttribute('material-depth', '0.3'));
+  assert.equal(await valueOf(page, kDepth), 0.3);
+  const attribute = await page.evaluate(() => {
+    const viewer = document.querySelector('lucent-viewer');
+    viewer.light = [0.1, 0.2, 0.7];
+    return viewer.getAttribute('light');
+  });
+  assert.equal(attribute, '0.1 0.2 0.7');
+  assert.deepEqual(await values(), [0.3, [0.1, 0.2, 0.7], false]);
+  await page.evaluate(() => document.querySelector('lucent-viewer').removeAttribute('material-depth'));
+  assert.equal(await valueOf(page, kDepth), 0.01); // as the scene has it
+  await page.leave();
 });
 
 test('a wrong attribute fires error with the text of the loader and changes nothing', async () => {
-    const page = await open();
-    const detail = await eventOf(page, 'error', () => page.evaluate(() => document.querySelector('lucent-viewer').setAttribute('material-depth', '-1')));
-    assert.deepEqual(detail, { code: 'value', message: `${kDepth} is -1; must be in (0, 1000]` });
-    assert.equal(await valueOf(page, kDepth), 0.01);
-    await page.leave();
+  const page = await open();
+  const detail = await eventOf(page, 'error', () =>
+    page.evaluate(() => document.querySelector('lucent-viewer').setAttribute('material-depth', '-1')),
+  );
+  assert.deepEqual(detail, { code: 'value', message: `${kDepth} is -1; must be in (0, 1000]` });
+  assert.equal(await valueOf(page, kDepth), 0.01);
+  await page.leave();
 });
 
 test('two viewers share one context and keep out of each other', async () => {
-    const page = await open(kDome.replace('<lucent-viewer', '<lucent-viewer id="one"') + '<lucent-viewer id="two" src="made/ridge.json"></lucent-viewer>');
-    await complete(page, '#two');
-    const [one, two] = [await pictureOf(page, '#one'), await pictureOf(page, '#two')];
-    assert.ok(difference(one, two).share > 0.2, 'both show the same');
-    await page.evaluate((path) => document.querySelector('#two').set(path, 0.3), kDepth);
-    await complete(page, '#two');
-    assert.deepEqual(difference(one, await pictureOf(page, '#one')), { max: 0, mean: 0, share: 0 });
-    assert.equal(await page.evaluate(() => window.seen.contexts.length), 1);
-    await page.leave();
+  const page = await open(
+    kDome.replace('<lucent-viewer', '<lucent-viewer id="one"') +
+      '<lucent-viewer id="two" src="made/ridge.json"></lucent-viewer>',
+  );
+  await complete(page, '#two');
+  const [one, two] = [await pictureOf(page, '#one'), await pictureOf(page, '#two')];
+  assert.ok(difference(one, two).share > 0.2, 'both show the same');
+  await page.evaluate((path) => document.querySelector('#two').set(path, 0.3), kDepth);
+  await complete(page, '#two');
+  assert.deepEqual(difference(one, await pictureOf(page, '#one')), { max: 0, mean: 0, share: 0 });
+  assert.equal(await page.evaluate(() => window.seen.contexts.length), 1);
+  await page.leave();
 });
 
 test('a scene with an error fires error, says so on the canvas and keeps the old picture', async () => {
-    const page = await open();
-    const [picture, shown] = [await pictureOf(page), await shownBy(page)];
-    const detail = await eventOf(page, 'error', () => page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/broken.json')));
-    assert.equal(detail.code, 'scene');
-    assert.match(detail.message, /^broken\.json:\d+: objects\.relief\.shape\.heightScale is .*tall.*; must be a number$/);
-    await quiet(page);
-    const changed = difference(shown, await shownBy(page), 8).share;
-    assert.ok(changed > 0.02 && changed < 0.6, `the message covers ${changed}`);
-    assert.equal(await page.textContent('lucent-viewer [role=status]'), detail.message);
-    assert.deepEqual(difference(picture, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
-    await page.leave();
+  const page = await open();
+  const [picture, shown] = [await pictureOf(page), await shownBy(page)];
+  const detail = await eventOf(page, 'error', () =>
+    page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/broken.json')),
+  );
+  assert.equal(detail.code, 'scene');
+  assert.match(detail.message, /^broken\.json:\d+: objects\.relief\.shape\.heightScale is .*tall.*; must be a number$/);
+  await quiet(page);
+  const changed = difference(shown, await shownBy(page), 8).share;
+  assert.ok(changed > 0.02 && changed < 0.6, `the message covers ${changed}`);
+  assert.equal(await page.textContent('lucent-viewer [role=status]'), detail.message);
+  assert.deepEqual(difference(picture, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
+  await page.leave();
 });
 
 test('a file that is not there is named with the answer of the server', async () => {
-    const page = await open();
-    const detail = await eventOf(page, 'error', () => page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/missing.json')));
-    assert.deepEqual(detail, { code: 'fetch', message: 'nowhere.pfm: the server answers 404; must be there' });
-    await page.leave();
+  const page = await open();
+  const detail = await eventOf(page, 'error', () =>
+    page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/missing.json')),
+  );
+  assert.deepEqual(detail, { code: 'fetch', message: 'nowhere.pfm: the server answers 404; must be there' });
+  await page.leave();
 });
 
 test('a new scene takes the place of the old one and fires load', async () => {
-    const page = await open();
-    const before = await pictureOf(page);
-    await eventOf(page, 'load', () => page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/ridge.json')));
-    await complete(page);
-    assert.equal(await page.evaluate(() => document.querySelector('lucent-viewer').sceneTitle), 'A ridge');
-    assert.ok(difference(before, await pictureOf(page)).share > 0.2);
-    await page.leave();
+  const page = await open();
+  const before = await pictureOf(page);
+  await eventOf(page, 'load', () =>
+    page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/ridge.json')),
+  );
+  await complete(page);
+  assert.equal(await page.evaluate(() => document.querySelector('lucent-viewer').sceneTitle), 'A ridge');
+  assert.ok(difference(before, await pictureOf(page)).share > 0.2);
+  await page.leave();
 });
 
 test('toBlob gives a PNG of the size of the canvas, which follows size and pixel ratio', async () => {
-    for (const ratio of [1, 2]) {
-        const page = await open(kDome, { deviceScaleFactor: ratio });
-        let { width, height } = await pictureOf(page);
-        assert.deepEqual([width, height], [400 * ratio, 300 * ratio]);
-        await resize(page, 321, 217);
-        await quiet(page);
-        ({ width, height } = await pictureOf(page));
-        assert.deepEqual([width, height], [321 * ratio, 217 * ratio]);
-        await page.leave();
-    }
+  for (const ratio of [1, 2]) {
+    const page = await open(kDome, { deviceScaleFactor: ratio });
+    let { width, height } = await pictureOf(page);
+    assert.deepEqual([width, height], [400 * ratio, 300 * ratio]);
+    await resize(page, 321, 217);
+    await quiet(page);
+    ({ width, height } = await pictureOf(page));
+    assert.deepEqual([width, height], [321 * ratio, 217 * ratio]);
+    await page.leave();
+  }
 });
 
 test('pixels are never finer than two a CSS pixel', async () => {
-    const page = await open(kDome, { deviceScaleFactor: 3 });
-    const { width, height } = await pictureOf(page);
-    assert.deepEqual([width, height], [800, 600]);
-    await page.leave();
+  const page = await open(kDome, { deviceScaleFactor: 3 });
+  const { width, height } = await pictureOf(page);
+  assert.deepEqual([width, height], [800, 600]);
+  await page.leave();
 });
 
 // Drops a file at a place of the viewer, as a person does: first over it, then let go.
 async function drop(page, name, bytes, share) {
-    await page.evaluate(([fileName, text, part]) => {
-        const viewer = document.querySelector('lucent-viewer');
-        const transfer = new DataTransfer();
-        transfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], fileName));
-        const box = viewer.getBoundingClientRect();
-        const place = { clientX: box.left + part * box.width, clientY: box.top + 50, dataTransfer: transfer, bubbles: true, cancelable: true };
-        viewer.dispatchEvent(new DragEvent('dragover', place));
-        window.zones = [...viewer.shadowRoot.querySelectorAll('.zones.shown > *')].map((zone) => [zone.textContent, zone.className]);
-        viewer.dispatchEvent(new DragEvent('drop', place));
-    }, [name, Buffer.from(bytes).toString('base64'), share]);
-    return page.evaluate(() => window.zones);
+  await page.evaluate(
+    ([fileName, text, part]) => {
+      const viewer = document.querySelector('lucent-viewer');
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], fileName));
+      const box = viewer.getBoundingClientRect();
+      const place = {
+        clientX: box.left + part * box.width,
+        clientY: box.top + 50,
+        dataTransfer: transfer,
+        bubbles: true,
+        cancelable: true,
+      };
+      viewer.dispatchEvent(new DragEvent('dragover', place));
+      window.zones = [...viewer.shadowRoot.querySelectorAll('.zones.shown > *')].map((zone) => [
+        zone.textContent,
+        zone.className,
+      ]);
+      viewer.dispatchEvent(new DragEvent('drop', place));
+    },
+    [name, Buffer.from(bytes).toString('base64'), share],
+  );
+  return page.evaluate(() => window.zones);
 }
 
 test('a height map dropped on the left half takes the place of the relief', async () => {
-    const page = await open();
-    const slope = greyPng(64, 64, (x) => 4 * x); // rises to the right: away from the light on the left
-    let zones;
-    await eventOf(page, 'load', async () => (zones = await drop(page, 'slope.png', slope, 0.25)));
-    assert.deepEqual(zones, [['Height map', 'aimed'], ['Environment', '']]);
-    await complete(page);
-    const picture = await pictureOf(page);
-    const columns = [0.35, 0.45, 0.55].map((left) => brightness(picture, [left, 0.4, left + 0.1, 0.6]));
-    assert.ok(columns[0] > columns[1] && columns[1] > columns[2], `brightness from left to right: ${columns}`);
-    await page.leave();
+  const page = await open();
+  const slope = greyPng(64, 64, (x) => 4 * x); // rises to the right: away from the light on the left
+  let zones;
+  await eventOf(page, 'load', async () => (zones = await drop(page, 'slope.png', slope, 0.25)));
+  assert.deepEqual(zones, [
+    ['Height map', 'aimed'],
+    ['Environment', ''],
+  ]);
+  await complete(page);
+  const picture = await pictureOf(page);
+  const columns = [0.35, 0.45, 0.55].map((left) => brightness(picture, [left, 0.4, left + 0.1, 0.6]));
+  assert.ok(columns[0] > columns[1] && columns[1] > columns[2], `brightness from left to right: ${columns}`);
+  await page.leave();
 });
 
 test('a picture dropped on the right half becomes the environment', async () => {
-    const page = await open();
-    const before = await pictureOf(page);
-    await eventOf(page, 'load', () => drop(page, 'evening.png', greyPng(64, 32, (x, y) => 255 - 8 * y), 0.75));
-    await complete(page);
-    assert.equal(await valueOf(page, 'environment.enabled'), true);
-    assert.ok(difference(before, await pictureOf(page)).share > 0.2);
-    await page.leave();
+  const page = await open();
+  const before = await pictureOf(page);
+  await eventOf(page, 'load', () =>
+    drop(
+      page,
+      'evening.png',
+      greyPng(64, 32, (x, y) => 255 - 8 * y),
+      0.75,
+    ),
+  );
+  await complete(page);
+  assert.equal(await valueOf(page, 'environment.enabled'), true);
+  assert.ok(difference(before, await pictureOf(page)).share > 0.2);
+  await page.leave();
 });
 
 test('a dropped scene file is refused with the reason, a damaged picture too, and the old picture stays', async () => {
-    const page = await open();
-    const before = await pictureOf(page);
-    const scene = await eventOf(page, 'error', () => drop(page, 'coin.json', Buffer.from('{}'), 0.25));
-    assert.equal(scene.code, 'file');
-    assert.match(scene.message, /^coin\.json: a scene names further files, .*; put it on a server/);
-    const damaged = await eventOf(page, 'error', () => drop(page, 'half.png', greyPng(64, 64, (x) => x).subarray(0, 60), 0.25));
-    assert.equal(damaged.code, 'file');
-    assert.match(damaged.message, /^half\.png: .*;/);
-    assert.deepEqual(difference(before, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
-    await page.leave();
+  const page = await open();
+  const before = await pictureOf(page);
+  const scene = await eventOf(page, 'error', () => drop(page, 'coin.json', Buffer.from('{}'), 0.25));
+  assert.equal(scene.code, 'file');
+  assert.match(scene.message, /^coin\.json: a scene names further files, .*; put it on a server/);
+  const damaged = await eventOf(page, 'error', () =>
+    drop(page, 'half.png', greyPng(64, 64, (x) => x).subarray(0, 60), 0.25),
+  );
+  assert.equal(damaged.code, 'file');
+  assert.match(damaged.message, /^half\.png: .*;/);
+  assert.deepEqual(difference(before, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
+  await page.leave();
 });
 
 test('the poster is shown until the first finished picture, and the text goes with it', async () => {
-    const page = await openViewers(stage, kDome.replace('src="made/dome.json"', 'poster="made/small.png"'));
-    await resize(page, 400, 300);
-    assert.equal(await page.locator('lucent-viewer .poster').isVisible(), true);
-    await page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/dome.json'));
-    await complete(page);
-    assert.equal(await page.locator('lucent-viewer .poster').isVisible(), false);
-    assert.equal(await page.textContent('lucent-viewer .status'), '');
-    await page.leave();
+  const page = await openViewers(stage, kDome.replace('src="made/dome.json"', 'poster="made/small.png"'));
+  await resize(page, 400, 300);
+  assert.equal(await page.locator('lucent-viewer .poster').isVisible(), true);
+  await page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/dome.json'));
+  await complete(page);
+  assert.equal(await page.locator('lucent-viewer .poster').isVisible(), false);
+  assert.equal(await page.textContent('lucent-viewer .status'), '');
+  await page.leave();
 });
 
 test('a lazy viewer loads when it comes near', async () => {
-    const page = await openViewers(stage, '<br>'.repeat(200) + kDome.replace('alt', 'loading="lazy" alt'));
-    await resize(page, 400, 300);
-    await page.waitForTimeout(500);
-    assert.equal(await page.evaluate(() => document.querySelector('lucent-viewer').loaded), false);
-    await page.evaluate(() => document.querySelector('lucent-viewer').scrollIntoView());
-    await complete(page);
-    await page.leave();
+  const page = await openViewers(stage, '<br>'.repeat(200) + kDome.replace('alt', 'loading="lazy" alt'));
+  await resize(page, 400, 300);
+  await page.waitForTimeout(500);
+  assert.equal(await page.evaluate(() => document.querySelector('lucent-viewer').loaded), false);
+  await page.evaluate(() => document.querySelector('lucent-viewer').scrollIntoView());
+  await complete(page);
+  await page.leave();
 });
 
 test('a viewer off screen draws nothing, gives its memory back and comes back with the same picture', async () => {
-    const page = await open(kDome + '<div id="space"></div>');
-    const before = await pictureOf(page);
-    await page.evaluate(() => (document.querySelector('#space').style.height = '4000px'));
-    await page.evaluate(() => scrollTo(0, 4000));
-    await quiet(page);
-    const draws = await drawsOf(page);
-    await page.evaluate((path) => document.querySelector('lucent-viewer').set(path, 0.3), kDepth);
-    await page.waitForFunction(() => document.querySelector('lucent-viewer').stats().bytes === 0);
-    assert.equal(await drawsOf(page), draws);
-    await page.evaluate((path) => document.querySelector('lucent-viewer').reset(path), kDepth);
-    await page.evaluate(() => scrollTo(0, 0));
-    await complete(page);
-    assert.deepEqual(difference(before, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
-    await page.leave();
+  const page = await open(kDome + '<div id="space"></div>');
+  const before = await pictureOf(page);
+  await page.evaluate(() => (document.querySelector('#space').style.height = '4000px'));
+  await page.evaluate(() => scrollTo(0, 4000));
+  await quiet(page);
+  const draws = await drawsOf(page);
+  await page.evaluate((path) => document.querySelector('lucent-viewer').set(path, 0.3), kDepth);
+  await page.waitForFunction(() => document.querySelector('lucent-viewer').stats().bytes === 0);
+  assert.equal(await drawsOf(page), draws);
+  await page.evaluate((path) => document.querySelector('lucent-viewer').reset(path), kDepth);
+  await page.evaluate(() => scrollTo(0, 0));
+  await complete(page);
+  assert.deepEqual(difference(before, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
+  await page.leave();
 });
 
 test('an element that moves within the page keeps its scene and its settings', async () => {
-    const page = await open(kDome + '<section></section>');
-    await page.evaluate((path) => {
-        const viewer = document.querySelector('lucent-viewer');
-        viewer.set(path, 0.3);
-        document.querySelector('section').append(viewer);
-    }, kDepth);
-    await quiet(page);
-    assert.equal(await valueOf(page, kDepth), 0.3);
-    await page.leave();
+  const page = await open(kDome + '<section></section>');
+  await page.evaluate((path) => {
+    const viewer = document.querySelector('lucent-viewer');
+    viewer.set(path, 0.3);
+    document.querySelector('section').append(viewer);
+  }, kDepth);
+  await quiet(page);
+  assert.equal(await valueOf(page, kDepth), 0.3);
+  await page.leave();
 });
 
 test('without OffscreenCanvas the picture is the same', async () => {
-    const page = await open();
-    const plain = await pictureOf(page);
-    const old = await open(kDome, { init: () => delete window.OffscreenCanvas });
-    assert.deepEqual(difference(plain, await pictureOf(old)), { max: 0, mean: 0, share: 0 });
-    await page.leave();
-    await old.leave();
+  const page = await open();
+  const plain = await pictureOf(page);
+  const old = await open(kDome, { init: () => delete window.OffscreenCanvas });
+  assert.deepEqual(difference(plain, await pictureOf(old)), { max: 0, mean: 0, share: 0 });
+  await page.leave();
+  await old.leave();
 });
 
 test('without WebGL2 the reason stands over the poster', async () => {
-    const init = () => {
-        for (const kind of [OffscreenCanvas, HTMLCanvasElement]) {
-            const getContext = kind.prototype.getContext;
-            kind.prototype.getContext = function (type, ...rest) {
-                return type === 'webgl2' ? null : getContext.call(this, type, ...rest);
-            };
-        }
-    };
-    const page = await openViewers(stage, kDome, { init });
-    await page.waitForFunction(() => document.querySelector('lucent-viewer').shadowRoot.querySelector('.status').textContent.includes('WebGL2'));
-    assert.match(await page.textContent('lucent-viewer [role=status]'), /WebGL2 is not available/);
-    await page.leave();
+  const init = () => {
+    for (const kind of [OffscreenCanvas, HTMLCanvasElement]) {
+      const getContext = kind.prototype.getContext;
+      kind.prototype.getContext = function (type, ...rest) {
+        return type === 'webgl2' ? null : getContext.call(this, type, ...rest);
+      };
+    }
+  };
+  const page = await openViewers(stage, kDome, { init });
+  await page.waitForFunction(() =>
+    document.querySelector('lucent-viewer').shadowRoot.querySelector('.status').textContent.includes('WebGL2'),
+  );
+  assert.match(await page.textContent('lucent-viewer [role=status]'), /WebGL2 is not available/);
+  await page.leave();
 });
 
 test('it works in a sandboxed frame without an origin', async () => {
-    const page = await openPage(stage, 'blank.html', { markup: '<iframe sandbox="allow-scripts" width="400" height="300"></iframe>' });
-    const frameMarkup = kDome.replace('src="made/dome.json"', 'src="gallery/dome.json"');
-    await page.route('**/inner.html', (route) => route.fulfill({ contentType: 'text/html', body: `<script type="module" src="lucent-viewer.js"></script>${frameMarkup}` }));
-    await page.evaluate(() => (document.querySelector('iframe').src = 'inner.html'));
-    const frame = await (await page.waitForSelector('iframe')).contentFrame();
-    await frame.waitForFunction(() => document.querySelector('lucent-viewer')?.stats?.().complete);
-    await page.leave();
+  const page = await openPage(stage, 'blank.html', {
+    markup: '<iframe sandbox="allow-scripts" width="400" height="300"></iframe>',
+  });
+  const frameMarkup = kDome.replace('src="made/dome.json"', 'src="gallery/dome.json"');
+  await page.route('**/inner.html', (route) =>
+    route.fulfill({
+      contentType: 'text/html',
+      body: `<script type="module" src="lucent-viewer.js"></script>${frameMarkup}`,
+    }),
+  );
+  await page.evaluate(() => (document.querySelector('iframe').src = 'inner.html'));
+  const frame = await (await page.waitForSelector('iframe')).contentFrame();
+  await frame.waitForFunction(() => document.querySelector('lucent-viewer')?.stats?.().complete);
+  await page.leave();
 });
 
 test('a saved picture decodes to what toBlob drew', async () => {
-    const page = await open();
-    const bytes = Buffer.from(await page.evaluate(async () => {
-        const blob = await document.querySelector('lucent-viewer').toBlob();
-        const text = String.fromCharCode(...new Uint8Array(await blob.arrayBuffer()));
-        return btoa(text);
-    }), 'base64');
-    assert.deepEqual(difference(await decodePng(page, bytes), await pictureOf(page)), { max: 0, mean: 0, share: 0 });
-    await page.leave();
+  const page = await open();
+  const bytes = Buffer.from(
+    await page.evaluate(async () => {
+      const blob = await document.querySelector('lucent-viewer').toBlob();
+      const text = String.fromCharCode(...new Uint8Array(await blob.arrayBuffer()));
+      return btoa(text);
+    }),
+    'base64',
+  );
+  assert.deepEqual(difference(await decodePng(page, bytes), await pictureOf(page)), { max: 0, mean: 0, share: 0 });
+  await page.leave();
 });

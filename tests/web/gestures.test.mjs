@@ -1,7 +1,17 @@
 /** Real pointers, wheels, fingers and keys on a viewer, and the page's right to scroll. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { boxOf, brightness, complete, difference, openStage, openViewers, pictureOf, quiet, valueOf } from './support.mjs';
+import {
+  boxOf,
+  brightness,
+  complete,
+  difference,
+  openStage,
+  openViewers,
+  pictureOf,
+  quiet,
+  valueOf,
+} from './support.mjs';
 
 const kViewer = '<lucent-viewer src="made/dome.json" alt="A dome"></lucent-viewer><div id="tail"></div>';
 const kPanelViewer = kViewer.replace('alt', 'controls alt');
@@ -13,13 +23,16 @@ after(() => stage.close());
 
 // A viewer of 400 x 300 CSS pixels at the top of a page that is long enough to scroll.
 async function open(markup = kViewer, { width = 400, height = 300, ...options } = {}) {
-    const page = await openViewers(stage, markup, options);
-    await page.evaluate(([wide, high]) => {
-        Object.assign(document.querySelector('lucent-viewer').style, { width: `${wide}px`, height: `${high}px` });
-        document.querySelector('#tail').style.height = '3000px';
-    }, [width, height]);
-    await complete(page);
-    return page;
+  const page = await openViewers(stage, markup, options);
+  await page.evaluate(
+    ([wide, high]) => {
+      Object.assign(document.querySelector('lucent-viewer').style, { width: `${wide}px`, height: `${high}px` });
+      document.querySelector('#tail').style.height = '3000px';
+    },
+    [width, height],
+  );
+  await complete(page);
+  return page;
 }
 
 const scrollOf = (page) => page.evaluate(() => scrollY);
@@ -27,113 +40,116 @@ const leftBrightness = async (page) => brightness(await pictureOf(page), [0.2, 0
 const rightBrightness = async (page) => brightness(await pictureOf(page), [0.55, 0.2, 0.8, 0.8]);
 
 test('a wheel over a viewer scrolls the page and changes nothing', async () => {
-    const page = await open();
-    const before = await valueOf(page, kLight);
-    await page.mouse.move(200, 100);
-    await page.mouse.wheel(0, 100);
-    await page.waitForFunction(() => scrollY === 100);
-    assert.deepEqual(await valueOf(page, kLight), before);
-    assert.match(await page.textContent('lucent-viewer .hint'), /Click to interact/);
-    await page.leave();
+  const page = await open();
+  const before = await valueOf(page, kLight);
+  await page.mouse.move(200, 100);
+  await page.mouse.wheel(0, 100);
+  await page.waitForFunction(() => scrollY === 100);
+  assert.deepEqual(await valueOf(page, kLight), before);
+  assert.match(await page.textContent('lucent-viewer .hint'), /Click to interact/);
+  await page.leave();
 });
 
 test('after a click the wheel lifts the light and the page stays', async () => {
-    const page = await open();
-    const [, , before] = await valueOf(page, kLight);
-    await page.mouse.click(200, 150);
-    await page.mouse.wheel(0, -200);
-    await page.waitForFunction(([path, z]) => document.querySelector('lucent-viewer').get(path)[2] > z, [kLight, before]);
-    await quiet(page);
-    assert.equal(await scrollOf(page), 0);
-    await page.leave();
+  const page = await open();
+  const [, , before] = await valueOf(page, kLight);
+  await page.mouse.click(200, 150);
+  await page.mouse.wheel(0, -200);
+  await page.waitForFunction(([path, z]) => document.querySelector('lucent-viewer').get(path)[2] > z, [kLight, before]);
+  await quiet(page);
+  assert.equal(await scrollOf(page), 0);
+  await page.leave();
 });
 
 test('escape gives the wheel back to the page', async () => {
-    const page = await open();
-    await page.mouse.click(200, 150);
-    await page.keyboard.press('Escape');
-    const before = await valueOf(page, kLight);
-    await page.mouse.wheel(0, 200);
-    await page.waitForFunction(() => scrollY === 200);
-    assert.deepEqual(await valueOf(page, kLight), before);
-    await page.leave();
+  const page = await open();
+  await page.mouse.click(200, 150);
+  await page.keyboard.press('Escape');
+  const before = await valueOf(page, kLight);
+  await page.mouse.wheel(0, 200);
+  await page.waitForFunction(() => scrollY === 200);
+  assert.deepEqual(await valueOf(page, kLight), before);
+  await page.leave();
 });
 
 test('dragging the light across moves the bright side of the picture', async () => {
-    const page = await open();
-    assert.ok((await leftBrightness(page)) > (await rightBrightness(page)) + 20, 'lit from the left');
-    await page.mouse.move(60, 150);
-    await page.mouse.down();
-    await page.mouse.move(300, 150, { steps: 4 });
-    await page.mouse.move(540, 150, { steps: 4 }); // 480 pixels of 300 a metre: 1.6 m
-    await page.mouse.up();
-    await complete(page);
-    const [x] = await valueOf(page, kLight);
-    assert.ok(Math.abs(x - 0.8) < 0.01, `light at x = ${x}`);
-    assert.ok((await rightBrightness(page)) > (await leftBrightness(page)) + 20, 'lit from the right');
-    await page.leave();
+  const page = await open();
+  assert.ok((await leftBrightness(page)) > (await rightBrightness(page)) + 20, 'lit from the left');
+  await page.mouse.move(60, 150);
+  await page.mouse.down();
+  await page.mouse.move(300, 150, { steps: 4 });
+  await page.mouse.move(540, 150, { steps: 4 }); // 480 pixels of 300 a metre: 1.6 m
+  await page.mouse.up();
+  await complete(page);
+  const [x] = await valueOf(page, kLight);
+  assert.ok(Math.abs(x - 0.8) < 0.01, `light at x = ${x}`);
+  assert.ok((await rightBrightness(page)) > (await leftBrightness(page)) + 20, 'lit from the right');
+  await page.leave();
 });
 
 test('a drag fires change with path and value, and one undo takes it back', async () => {
-    const page = await open();
-    const before = await valueOf(page, kLight);
-    await page.evaluate(() => {
-        window.changes = [];
-        document.querySelector('lucent-viewer').addEventListener('change', ({ detail }) => window.changes.push(detail));
-    });
-    await page.mouse.move(100, 150);
-    await page.mouse.down();
-    await page.mouse.move(160, 150, { steps: 6 });
-    await page.mouse.up();
-    await complete(page);
-    const last = await page.evaluate(() => window.changes.at(-1));
-    assert.deepEqual(last, { path: kLight, value: await valueOf(page, kLight) });
-    await page.evaluate(() => document.querySelector('lucent-viewer').undo());
-    assert.deepEqual(await valueOf(page, kLight), before);
-    await page.leave();
+  const page = await open();
+  const before = await valueOf(page, kLight);
+  await page.evaluate(() => {
+    window.changes = [];
+    document.querySelector('lucent-viewer').addEventListener('change', ({ detail }) => window.changes.push(detail));
+  });
+  await page.mouse.move(100, 150);
+  await page.mouse.down();
+  await page.mouse.move(160, 150, { steps: 6 });
+  await page.mouse.up();
+  await complete(page);
+  const last = await page.evaluate(() => window.changes.at(-1));
+  assert.deepEqual(last, { path: kLight, value: await valueOf(page, kLight) });
+  await page.evaluate(() => document.querySelector('lucent-viewer').undo());
+  assert.deepEqual(await valueOf(page, kLight), before);
+  await page.leave();
 });
 
 test('arrow keys move the light, tab moves on', async () => {
-    const page = await open(kViewer + '<button id="next">next</button>');
-    const [before] = await valueOf(page, kLight);
-    await page.keyboard.press('Tab');
-    await page.keyboard.press('ArrowRight');
-    assert.ok((await valueOf(page, kLight))[0] > before);
-    await page.keyboard.press('Tab');
-    assert.equal(await page.evaluate(() => document.activeElement.id), 'next');
-    await page.leave();
+  const page = await open(kViewer + '<button id="next">next</button>');
+  const [before] = await valueOf(page, kLight);
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('ArrowRight');
+  assert.ok((await valueOf(page, kLight))[0] > before);
+  await page.keyboard.press('Tab');
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'next');
+  await page.leave();
 });
 
 test('in an environment a drag turns the map and the picture with it', async () => {
-    const page = await open(kViewer.replace('dome', 'sky'));
-    const before = await pictureOf(page);
-    await page.mouse.move(100, 150);
-    await page.mouse.down();
-    await page.mouse.move(250, 150, { steps: 4 }); // half of the shorter side: 90 degrees about y
-    await page.mouse.up();
-    await complete(page);
-    const [x, y, z] = await valueOf(page, 'environment.rotation');
-    assert.ok(Math.abs(Math.abs(y) - 90) < 1 && x === 0 && z === 0, `rotation ${x} ${y} ${z}`);
-    assert.ok(difference(before, await pictureOf(page)).share > 0.2);
-    await page.leave();
+  const page = await open(kViewer.replace('dome', 'sky'));
+  const before = await pictureOf(page);
+  await page.mouse.move(100, 150);
+  await page.mouse.down();
+  await page.mouse.move(250, 150, { steps: 4 }); // half of the shorter side: 90 degrees about y
+  await page.mouse.up();
+  await complete(page);
+  const [x, y, z] = await valueOf(page, 'environment.rotation');
+  assert.ok(Math.abs(Math.abs(y) - 90) < 1 && x === 0 && z === 0, `rotation ${x} ${y} ${z}`);
+  assert.ok(difference(before, await pictureOf(page)).share > 0.2);
+  await page.leave();
 });
 
 test('a slider of the panel follows a real pointer', async () => {
-    const page = await open(kPanelViewer, { width: 900, height: 700 });
-    const path = 'objects.relief.material.specularity';
-    const [x, y, width, height] = await page.evaluate((name) => document.querySelector('lucent-viewer').stats().panel[name], path);
-    const before = await pictureOf(page);
-    const box = await boxOf(page);
-    const middle = box.y + y + height / 2;
-    await page.mouse.move(box.x + x + 0.1 * width, middle);
-    await page.mouse.down();
-    await page.mouse.move(box.x + x + 0.8 * width, middle, { steps: 6 });
-    await page.mouse.up();
-    await complete(page);
-    const value = await valueOf(page, path);
-    assert.ok(Math.abs(value - 0.8) < 0.05, `specularity ${value}`); // its slider goes from 0 to 1
-    assert.ok(difference(before, await pictureOf(page)).share > 0.1);
-    await page.leave();
+  const page = await open(kPanelViewer, { width: 900, height: 700, viewport: { width: 1000, height: 760 } });
+  const path = 'objects.relief.material.specularity';
+  const [x, y, width, height] = await page.evaluate(
+    (name) => document.querySelector('lucent-viewer').stats().panel[name],
+    path,
+  );
+  const before = await pictureOf(page);
+  const box = await boxOf(page);
+  const middle = box.y + y + height / 2;
+  await page.mouse.move(box.x + x + 0.1 * width, middle);
+  await page.mouse.down();
+  await page.mouse.move(box.x + x + 0.8 * width, middle, { steps: 6 });
+  await page.mouse.up();
+  await complete(page);
+  const value = await valueOf(page, path);
+  assert.ok(Math.abs(value - 0.8) < 0.05, `specularity ${value}`); // its slider goes from 0 to 1
+  assert.ok(difference(before, await pictureOf(page)).share > 0.1);
+  await page.leave();
 });
 
 // ---- fingers
@@ -141,50 +157,54 @@ test('a slider of the panel follows a real pointer', async () => {
 const kPhone = { viewport: { width: 400, height: 700 }, hasTouch: true };
 
 async function touch(page, type, ...points) {
-    const session = (page.session ??= await page.context().newCDPSession(page));
-    await session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const session = (page.session ??= await page.context().newCDPSession(page));
+  await session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
 }
 
 async function swipe(page, from, to) {
-    await touch(page, 'touchStart', from);
-    for (let step = 1; step <= 8; ++step) {
-        await touch(page, 'touchMove', [0, 1].map((axis) => from[axis] + ((to[axis] - from[axis]) * step) / 8));
-        await page.waitForTimeout(20);
-    }
-    await touch(page, 'touchEnd');
+  await touch(page, 'touchStart', from);
+  for (let step = 1; step <= 8; ++step) {
+    await touch(
+      page,
+      'touchMove',
+      [0, 1].map((axis) => from[axis] + ((to[axis] - from[axis]) * step) / 8),
+    );
+    await page.waitForTimeout(20);
+  }
+  await touch(page, 'touchEnd');
 }
 
 test('one finger scrolls the page', async () => {
-    const page = await open(kViewer, kPhone);
-    const before = await valueOf(page, kLight);
-    await swipe(page, [200, 250], [200, 60]);
-    await page.waitForFunction(() => scrollY > 100);
-    assert.deepEqual(await valueOf(page, kLight), before);
-    await page.leave();
+  const page = await open(kViewer, kPhone);
+  const before = await valueOf(page, kLight);
+  await swipe(page, [200, 250], [200, 60]);
+  await page.waitForFunction(() => scrollY > 100);
+  assert.deepEqual(await valueOf(page, kLight), before);
+  await page.leave();
 });
 
 test('after a tap one finger moves the light and the page stays', async () => {
-    const page = await open(kViewer, kPhone);
-    await page.touchscreen.tap(200, 150);
-    const [, before] = await valueOf(page, kLight);
-    await swipe(page, [200, 250], [200, 100]); // upwards: half of the picture's metre
-    const [, y] = await valueOf(page, kLight);
-    assert.ok(Math.abs(y - before - 0.5) < 0.02, `light at y = ${y}, was ${before}`);
-    assert.equal(await scrollOf(page), 0);
-    await page.leave();
+  const page = await open(kViewer, kPhone);
+  await page.touchscreen.tap(200, 150);
+  const [, before] = await valueOf(page, kLight);
+  await swipe(page, [200, 250], [200, 100]); // upwards: half of the picture's metre
+  const [, y] = await valueOf(page, kLight);
+  assert.ok(Math.abs(y - before - 0.5) < 0.02, `light at y = ${y}, was ${before}`);
+  assert.equal(await scrollOf(page), 0);
+  await page.leave();
 });
 
 test('two fingers zoom at once and the page stays', async () => {
-    const page = await open(kViewer, kPhone);
-    const before = await valueOf(page, 'camera.height');
-    await touch(page, 'touchStart', [180, 150], [220, 150]);
-    for (let step = 1; step <= 5; ++step) {
-        await touch(page, 'touchMove', [180 - 8 * step, 150], [220 + 8 * step, 150]);
-        await page.waitForTimeout(20);
-    }
-    await touch(page, 'touchEnd');
-    const after = await valueOf(page, 'camera.height');
-    assert.ok(Math.abs(after - before / 3) < 0.03 * before, `height ${after}, was ${before}`); // 40 to 120 pixels apart
-    assert.equal(await scrollOf(page), 0);
-    await page.leave();
+  const page = await open(kViewer, kPhone);
+  const before = await valueOf(page, 'camera.height');
+  await touch(page, 'touchStart', [180, 150], [220, 150]);
+  for (let step = 1; step <= 5; ++step) {
+    await touch(page, 'touchMove', [180 - 8 * step, 150], [220 + 8 * step, 150]);
+    await page.waitForTimeout(20);
+  }
+  await touch(page, 'touchEnd');
+  const after = await valueOf(page, 'camera.height');
+  assert.ok(Math.abs(after - before / 3) < 0.03 * before, `height ${after}, was ${before}`); // 40 to 120 pixels apart
+  assert.equal(await scrollOf(page), 0);
+  await page.leave();
 });

@@ -1,8 +1,8 @@
 /**
  * The browser against the native program: the same scenes, the same pixels.
  *
- * LUCENT_NATIVE names a folder with SCENE.png for scenes of the gallery and of hard_scenes.mjs, rendered by `lucent render`. Values that reach
- * the screen may differ by 1/255, in at most 0.1 % of the pixels by more.
+ * LUCENT_NATIVE names a folder with SCENE.png for scenes of the gallery and of hard_scenes.mjs, rendered by `lucent
+ * render` in their own shape. Values that reach the screen may differ by 1/255, in at most 0.1 % of the pixels by more.
  */
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
@@ -18,25 +18,31 @@ let stage;
 before(async () => (stage = await openStage()));
 after(() => stage.close());
 
-for (const file of readdirSync(kFolder).filter((name) => name.endsWith('.png')).sort()) {
-    const id = file.replace('.png', '');
-    test(`${id} looks in the browser as it does natively`, async () => {
-        const png = readFileSync(join(kFolder, file));
-        const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)]; // of the chunk IHDR
-        const folder = `${id}.json` in kHardScenes ? 'made' : 'gallery';
-        const markup = `<lucent-viewer src="${folder}/${id}.json" view-light-dot="false"></lucent-viewer>`;
-        const page = await openViewers(stage, markup, { gallery: 'own', viewport: { width, height } });
-        await page.evaluate(([w, h]) => {
-            document.body.style.margin = '0';
-            const style = { width: `${w}px`, height: `${h}px`, maxHeight: 'none' };
-            Object.assign(document.querySelector('lucent-viewer').style, style);
-        }, [width, height]);
-        await complete(page);
-        const { max, mean, share } = difference(await decodePng(page, png), await pictureOf(page));
-        const found = `${kDriver}: ${id}: max ${max}/255, mean ${mean.toFixed(4)}/255, ${(100 * share).toFixed(3)} % above 1/255`;
-        console.log(found);
-        assert.ok(share <= kShare, found);
-        assert.deepEqual(page.problems, []);
-        await page.leave();
-    });
+for (const file of readdirSync(kFolder)
+  .filter((name) => name.endsWith('.png'))
+  .sort()) {
+  const id = file.replace('.png', '');
+  test(`${id} looks in the browser as it does natively`, async () => {
+    const png = readFileSync(join(kFolder, file));
+    const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)]; // of the chunk IHDR
+    const folder = `${id}.json` in kHardScenes ? 'made' : 'gallery';
+    const markup = `<lucent-viewer src="${folder}/${id}.json" view-light-dot="false"></lucent-viewer>`;
+    const page = await openViewers(stage, markup, { gallery: 'own', viewport: { width, height } });
+    await page.evaluate(
+      ([w, h]) => {
+        document.body.style.margin = '0';
+        const style = { width: `${w}px`, height: `${h}px`, maxHeight: 'none' };
+        Object.assign(document.querySelector('lucent-viewer').style, style);
+      },
+      [width, height],
+    );
+    await complete(page);
+    const { max, mean, share } = difference(await decodePng(page, png), await pictureOf(page));
+    const over = (100 * share).toFixed(3);
+    const found = `${kDriver}: ${id}: max ${max}/255, mean ${mean.toFixed(4)}/255, ${over} % above 1/255`;
+    console.log(found);
+    assert.ok(share <= kShare, found);
+    assert.deepEqual(page.problems, []);
+    await page.leave();
+  });
 }

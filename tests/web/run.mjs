@@ -18,46 +18,49 @@ const kFolder = dirname(fileURLToPath(import.meta.url));
 const kDrivers = ['swiftshader', 'llvmpipe'];
 
 const { values: options, positionals } = parseArgs({
-    options: { site: { type: 'string' }, native: { type: 'string' }, driver: { type: 'string' } },
-    allowPositionals: true,
+  options: { site: { type: 'string' }, native: { type: 'string' }, driver: { type: 'string' } },
+  allowPositionals: true,
 });
 if (!options.site) {
-    console.error('web tests: --site is missing; must be the folder of the finished page');
-    process.exit(1);
+  console.error('web tests: --site is missing; must be the folder of the finished page');
+  process.exit(1);
 }
 
 const files = readdirSync(kFolder)
-    .filter((name) => name.endsWith('.test.mjs'))
-    .filter((name) => options.native || name !== 'pictures.test.mjs')
-    .filter((name) => positionals.length === 0 || positionals.some((part) => name.includes(part)));
+  .filter((name) => name.endsWith('.test.mjs'))
+  .filter((name) => options.native || name !== 'pictures.test.mjs')
+  .filter((name) => positionals.length === 0 || positionals.some((part) => name.includes(part)));
 
 /** Runs one file and shows its results. @return {Promise<{passed: number, failed: number}>} */
 function runFile(file, driver) {
-    const env = { ...process.env, LUCENT_DRIVER: driver, LUCENT_SITE: options.site };
-    if (options.native) env.LUCENT_NATIVE = options.native;
-    const child = spawn(process.execPath, ['--test-reporter=tap', join(kFolder, file)], { env, stdio: ['ignore', 'pipe', 'inherit'] });
-    let output = '';
-    child.stdout.on('data', (data) => (output += data));
-    return new Promise((done) => {
-        child.on('close', (code) => {
-            const results = output.match(/^(not )?ok \d+ - .*/gm) ?? [];
-            const failed = results.filter((line) => line.startsWith('not')).length;
-            for (const line of results) console.log(`${driver}: ${file}: ${line}`);
-            for (const line of output.match(new RegExp(`^(# )?${driver}: .*`, 'gm')) ?? []) console.log(line);
-            const broken = code !== 0 && failed === 0; // the file itself ended early
-            if (failed || broken) console.log(output);
-            done({ passed: results.length - failed, failed: failed + (broken ? 1 : 0) });
-        });
+  const env = { ...process.env, LUCENT_DRIVER: driver, LUCENT_SITE: options.site };
+  if (options.native) env.LUCENT_NATIVE = options.native;
+  const child = spawn(process.execPath, ['--test-reporter=tap', join(kFolder, file)], {
+    env,
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
+  let output = '';
+  child.stdout.on('data', (data) => (output += data));
+  return new Promise((done) => {
+    child.on('close', (code) => {
+      const results = output.match(/^(not )?ok \d+ - .*/gm) ?? [];
+      const failed = results.filter((line) => line.startsWith('not')).length;
+      for (const line of results) console.log(`${driver}: ${file}: ${line}`);
+      for (const line of output.match(new RegExp(`^(# )?${driver}: .*`, 'gm')) ?? []) console.log(line);
+      const broken = code !== 0 && failed === 0; // the file itself ended early
+      if (failed || broken) console.log(output);
+      done({ passed: results.length - failed, failed: failed + (broken ? 1 : 0) });
     });
+  });
 }
 
 let passed = 0;
 let failed = 0;
 for (const driver of options.driver ? [options.driver] : kDrivers)
-    for (const file of files) {
-        const count = await runFile(file, driver);
-        passed += count.passed;
-        failed += count.failed;
-    }
+  for (const file of files) {
+    const count = await runFile(file, driver);
+    passed += count.passed;
+    failed += count.failed;
+  }
 console.log(`web tests: ${passed} passed, ${failed} failed`);
 process.exit(failed || !passed ? 1 : 0);

@@ -6,30 +6,30 @@ const kSide = 96; // texels
 
 /** One channel of floats as PFM; rows run upwards in that format. @param height  of x and y in (-1, 1), y up */
 function pfm(height) {
-    const texels = new Float32Array(kSide * kSide);
-    const place = (index) => (2 * (index + 0.5)) / kSide - 1;
-    for (let row = 0; row < kSide; ++row)
-        for (let column = 0; column < kSide; ++column) texels[row * kSide + column] = height(place(column), place(row));
-    return Buffer.concat([Buffer.from(`Pf\n${kSide} ${kSide}\n-1.0\n`), Buffer.from(texels.buffer)]);
+  const texels = new Float32Array(kSide * kSide);
+  const place = (index) => (2 * (index + 0.5)) / kSide - 1;
+  for (let row = 0; row < kSide; ++row)
+    for (let column = 0; column < kSide; ++column) texels[row * kSide + column] = height(place(column), place(row));
+  return Buffer.concat([Buffer.from(`Pf\n${kSide} ${kSide}\n-1.0\n`), Buffer.from(texels.buffer)]);
 }
 
 /** A relief of 1 m under one lamp that stands to the left, seen from above. */
 const scene = (title, heights, changes = {}) => ({
-    lucent: 1,
-    title,
-    caption: `${title}, lit from the left.`,
-    size: [200, 200],
-    camera: { type: 'orthographic', eye: [0, 0, 2], target: [0, 0, 0], up: [0, 1, 0], height: 1 },
-    technique: { relief: { environmentLights: 16 } }, // software drivers are slow
-    lights: [{ type: 'point', position: [-0.8, 0, 0.6], color: [1, 1, 1], intensity: 1 }],
-    objects: [
-        {
-            name: 'relief',
-            shape: { type: 'heightfield', heights, heightScale: 0.3 },
-            material: { diffuse: [0.9, 0.8, 0.6], depth: 0.01 },
-        },
-    ],
-    ...changes,
+  lucent: 1,
+  title,
+  caption: `${title}, lit from the left.`,
+  size: [200, 200],
+  camera: { type: 'orthographic', eye: [0, 0, 2], target: [0, 0, 0], up: [0, 1, 0], height: 1 },
+  technique: { relief: { environmentLights: 16 } }, // software drivers are slow
+  lights: [{ type: 'point', position: [-0.8, 0, 0.6], color: [1, 1, 1], intensity: 1 }],
+  objects: [
+    {
+      name: 'relief',
+      shape: { type: 'heightfield', heights, heightScale: 0.3 },
+      material: { diffuse: [0.9, 0.8, 0.6], depth: 0.01 },
+    },
+  ],
+  ...changes,
 });
 
 const dome = scene('A dome', 'dome.pfm');
@@ -37,52 +37,61 @@ const broken = structuredClone(dome);
 broken.objects[0].shape.heightScale = 'tall';
 
 export const kScenes = {
-    ...kHardScenes,
-    'dome.json': JSON.stringify(dome),
-    'dome.pfm': pfm((x, y) => Math.max(0, 1 - x * x - y * y)),
-    'ridge.json': JSON.stringify(scene('A ridge', 'ridge.pfm')),
-    'ridge.pfm': pfm((x) => 1 - Math.abs(x)),
-    'sky.json': JSON.stringify(scene('A dome under a sky', 'dome.pfm', { lights: [], environment: { source: 'direction' } })),
-    'broken.json': JSON.stringify(broken, null, 1),
-    'missing.json': JSON.stringify(scene('Nothing', 'nowhere.pfm')),
-    'index.json': JSON.stringify([
-        { id: 'dome', title: 'A dome', caption: 'Round.', scene: 'dome.json', thumbnail: 'small.png', poster: 'small.png' },
-        { id: 'ridge', title: 'A ridge', caption: 'Sharp.', scene: 'ridge.json', thumbnail: 'small.png', poster: 'small.png' },
-    ]),
+  ...kHardScenes,
+  'dome.json': JSON.stringify(dome),
+  'dome.pfm': pfm((x, y) => Math.max(0, 1 - x * x - y * y)),
+  'ridge.json': JSON.stringify(scene('A ridge', 'ridge.pfm')),
+  'ridge.pfm': pfm((x) => 1 - Math.abs(x)),
+  'sky.json': JSON.stringify(
+    scene('A dome under a sky', 'dome.pfm', { lights: [], environment: { source: 'direction' } }),
+  ),
+  'broken.json': JSON.stringify(broken, null, 1),
+  'missing.json': JSON.stringify(scene('Nothing', 'nowhere.pfm')),
+  'index.json': JSON.stringify([
+    { id: 'dome', title: 'A dome', caption: 'Round.', scene: 'dome.json', thumbnail: 'small.png', poster: 'small.png' },
+    {
+      id: 'ridge',
+      title: 'A ridge',
+      caption: 'Sharp.',
+      scene: 'ridge.json',
+      thumbnail: 'small.png',
+      poster: 'small.png',
+    },
+  ]),
 };
 
 /** An 8-bit grey PNG. @param value  of column x and row y, [0, 255] */
 export function greyPng(width, height, value) {
-    const chunk = (type, data) => {
-        const body = Buffer.concat([Buffer.from(type), data]);
-        const length = Buffer.alloc(4);
-        length.writeUInt32BE(data.length);
-        const check = Buffer.alloc(4);
-        check.writeUInt32BE(crc32(body));
-        return Buffer.concat([length, body, check]);
-    };
-    const header = Buffer.alloc(13);
-    header.writeUInt32BE(width, 0);
-    header.writeUInt32BE(height, 4);
-    header[8] = 8; // bits; colour type 0 is grey
-    const rows = Buffer.alloc((width + 1) * height); // each row starts with its filter: none
-    for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) rows[y * (width + 1) + 1 + x] = value(x, y);
-    return Buffer.concat([
-        Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
-        chunk('IHDR', header),
-        chunk('IDAT', deflateSync(rows)),
-        chunk('IEND', Buffer.alloc(0)),
-    ]);
+  const chunk = (type, data) => {
+    const body = Buffer.concat([Buffer.from(type), data]);
+    const length = Buffer.alloc(4);
+    length.writeUInt32BE(data.length);
+    const check = Buffer.alloc(4);
+    check.writeUInt32BE(crc32(body));
+    return Buffer.concat([length, body, check]);
+  };
+  const header = Buffer.alloc(13);
+  header.writeUInt32BE(width, 0);
+  header.writeUInt32BE(height, 4);
+  header[8] = 8; // bits; colour type 0 is grey
+  const rows = Buffer.alloc((width + 1) * height); // each row starts with its filter: none
+  for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) rows[y * (width + 1) + 1 + x] = value(x, y);
+  return Buffer.concat([
+    Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
+    chunk('IHDR', header),
+    chunk('IDAT', deflateSync(rows)),
+    chunk('IEND', Buffer.alloc(0)),
+  ]);
 }
 
 // Cyclic redundancy check of PNG (ISO 3309), bit by bit; Node.js 18 has none.
 function crc32(bytes) {
-    let crc = ~0;
-    for (const byte of bytes) {
-        crc ^= byte;
-        for (let bit = 0; bit < 8; ++bit) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
-    }
-    return ~crc >>> 0;
+  let crc = ~0;
+  for (const byte of bytes) {
+    crc ^= byte;
+    for (let bit = 0; bit < 8; ++bit) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
+  }
+  return ~crc >>> 0;
 }
 
 kScenes['small.png'] = greyPng(8, 6, () => 128);
