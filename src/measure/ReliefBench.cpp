@@ -204,7 +204,7 @@ std::string ReliefReport::text() const {
         out += formatted("  %-10s %-12s %9.2f ms a light (%.2f to %.2f), RMSE of d %.2e", point.field.c_str(),
                          name.c_str(), point.perLight.median, point.perLight.low, point.perLight.high,
                          point.rmse);
-        if (&point != exact) {
+        if (exact && &point != exact) {
             out +=
                 formatted(": hierarchy is %.1f times faster", point.perLight.median / exact->perLight.median);
             if (point.steps == 256) out += " (target 10)";
