@@ -7,7 +7,7 @@
  * --out   folder of the finished page; the gallery is copied from assets/generated/gallery when it is there
  */
 import { build, transform } from 'esbuild';
-import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
@@ -61,6 +61,13 @@ if (existsSync(kGallery)) {
   rmSync(out('gallery'), { recursive: true, force: true });
   cpSync(kGallery, out('gallery'), { recursive: true });
 }
+
+// The terms of what the page carries, as the packages state them.
+const kCarried = ['emscripten', 'fonts-inter', 'libeigen3-dev', 'libglm-dev', 'libstb-dev', 'libtinyexr-dev', 'libtinygltf-dev', 'nlohmann-json3-dev', 'zlib1g-dev'];
+const terms = kCarried.map((name) => [name, `/usr/share/doc/${name}/copyright`]);
+terms.push(['imgui', join(kRoot, 'build/packages/imgui/LICENSE.txt')], ['lucent', join(kRoot, 'LICENSE')]);
+const notices = terms.filter(([, file]) => existsSync(file)).map(([name, file]) => `==== ${name}\n\n${readFileSync(file, 'utf8')}`);
+writeFileSync(out('licences.txt'), notices.join('\n'));
 
 const sizeOf = (name) => gzipSync(readFileSync(out(name)), { level: 9 }).length;
 for (const name of readdirSync(options.out).filter((name) => /\.(js|css|html|wasm)$/.test(name)))
