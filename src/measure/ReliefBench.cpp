@@ -167,7 +167,8 @@ Result<ReliefReport> benchRelief(gl::Context& context, const std::vector<BenchFi
         Stopwatch stopwatch(context);
         const auto measure = [&](const char* method, int steps) -> Status {
             say(field.name + ": " + method + (steps ? " " + std::to_string(steps) : ""));
-            BenchPoint point{field.name, method, steps, stopwatch.perLight(scene, repeats), 0};
+            BenchPoint point{
+                field.name, method, field.heights->size(), steps, stopwatch.perLight(scene, repeats), 0};
             const Result<Image> image = stopwatch.illumination(scene);
             if (!image) return image.error();
             const Result<Metrics> metrics = compare(*image, method, *exact, "truth");
@@ -201,9 +202,9 @@ std::string ReliefReport::text() const {
     for (const BenchPoint& point : points) {
         if (point.method == "hierarchy") exact = &point;
         const std::string name = point.method + (point.steps ? " " + std::to_string(point.steps) : "");
-        out += formatted("  %-10s %-12s %9.2f ms a light (%.2f to %.2f), RMSE of d %.2e", point.field.c_str(),
-                         name.c_str(), point.perLight.median, point.perLight.low, point.perLight.high,
-                         point.rmse);
+        out += formatted("  %-8s %4dx%-4d %-12s %9.2f ms a light (%.2f to %.2f), RMSE of d %.2e",
+                         point.field.c_str(), point.size.x, point.size.y, name.c_str(), point.perLight.median,
+                         point.perLight.low, point.perLight.high, point.rmse);
         if (exact && &point != exact) {
             out +=
                 formatted(": hierarchy is %.1f times faster", point.perLight.median / exact->perLight.median);
@@ -224,11 +225,11 @@ std::string ReliefReport::json() const {
     std::string out = "{\n  \"driver\": \"" + driver + "\",\n  \"methods\": [";
     for (const BenchPoint& point : points) {
         out += &point == points.data() ? "\n" : ",\n";
-        out += formatted(
-            "    {\"field\": \"%s\", \"method\": \"%s\", \"steps\": %d, \"ms\": %.4f, \"msLow\": %.4f, "
-            "\"msHigh\": %.4f, \"rmse\": %.4e}",
-            point.field.c_str(), point.method.c_str(), point.steps, point.perLight.median, point.perLight.low,
-            point.perLight.high, point.rmse);
+        out += formatted("    {\"field\": \"%s\", \"width\": %d, \"height\": %d, \"method\": \"%s\", "
+                         "\"steps\": %d, \"ms\": %.4f, \"msLow\": %.4f, "
+                         "\"msHigh\": %.4f, \"rmse\": %.4e}",
+                         point.field.c_str(), point.method.c_str(), point.steps, point.perLight.median,
+                         point.perLight.low, point.perLight.high, point.rmse);
     }
     out += "\n  ],\n  \"sizes\": [";
     for (const SizePoint& point : sizes) {

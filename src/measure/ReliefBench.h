@@ -25,6 +25,7 @@ struct Timing {
 /// One method at one setting on one field.
 struct BenchPoint {
     std::string field, method;
+    ivec2 size{0}; ///< texels of the field, and pixels of the picture
     int steps = 0; ///< 0: none
     Timing perLight;
     double rmse = 0; ///< of d against the exact model in double precision
