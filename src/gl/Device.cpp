@@ -63,12 +63,7 @@ public:
         const auto& program = static_cast<const Program&>(*draw.program);
         glUseProgram(program.id());
         if (!bindBlock(program, draw.block)) return;
-        for (const graph::Binding& binding : draw.textures) {
-            const int unit = program.unit(binding.sampler);
-            if (unit < 0) continue; // this variant of the shader does not look at it
-            glActiveTexture(GLenum(GL_TEXTURE0 + unit));
-            glBindTexture(GL_TEXTURE_2D, device_.record(binding.texture).id);
-        }
+        bindTextures(program, draw.textures);
         setState(GL_DEPTH_TEST, draw.depthTest);
         setState(GL_CULL_FACE, draw.cullFront);
         glCullFace(GL_FRONT);
@@ -77,6 +72,18 @@ public:
     }
 
 private:
+    // A sampler that this draw does not need is unbound: what an earlier draw left there may be this pass's
+    // target, and WebGL refuses the loop even when the shader never looks.
+    void bindTextures(const Program& program, const std::vector<graph::Binding>& bindings) {
+        for (std::size_t unit = 0; unit < program.samplers().size(); ++unit) {
+            const auto bound =
+                std::find_if(bindings.begin(), bindings.end(), [&](const graph::Binding& binding) {
+                    return binding.sampler == program.samplers()[unit];
+                });
+            glActiveTexture(GLenum(GL_TEXTURE0 + unit));
+            glBindTexture(GL_TEXTURE_2D, bound == bindings.end() ? 0 : device_.record(bound->texture).id);
+        }
+    }
     bool bindBlock(const Program& program, const graph::Block& block) {
         if (!block.layout) return true;
         if (Status status = program.checkBlock(*block.layout); !status) {

@@ -133,12 +133,6 @@ void Program::bindSamplers() {
     glUseProgram(0);
 }
 
-int Program::unit(std::string_view sampler) const {
-    for (std::size_t i = 0; i < samplers_.size(); ++i)
-        if (samplers_[i] == sampler) return int(i);
-    return -1;
-}
-
 Status Program::checkBlock(const graph::BlockLayout& layout) const {
     if (checked_ == &layout) return Done{};
     const std::string blockName(layout.name);

@@ -22,8 +22,7 @@ public:
     ~Program() override;
 
     unsigned id() const { return id_; }
-    /// Texture unit of a sampler; -1 when the program does not use it.
-    int unit(std::string_view sampler) const;
+    /// The samplers that the program uses; the index is the texture unit.
     const std::vector<std::string>& samplers() const { return samplers_; }
 
     /// Compares a block of C++ with what GL made of it, once.
@@ -36,7 +35,7 @@ private:
     void bindSamplers();
     unsigned id_ = 0;
     std::string stem_;
-    std::vector<std::string> samplers_; ///< the index is the texture unit
+    std::vector<std::string> samplers_;
     mutable const graph::BlockLayout* checked_ = nullptr;
 };
 
