@@ -182,7 +182,6 @@ export class Runtime {
   #restore() {
     this.#lost = false;
     const message = this.#takeContext();
-    while (this.#gl.getError()); // it complains about the lost context's objects, which were deleted just now
     for (const viewer of this.#viewers) {
       viewer.contextRestored(message);
       this.#wanting.add(viewer);

@@ -10,7 +10,8 @@ endif()
 include(${EMSCRIPTEN_TOOLCHAIN})
 
 # Debian's emcc finds acorn, which it needs at -O2 and above when it links, only with this path.
-if(NOT DEFINED ENV{NODE_PATH} AND EXISTS /usr/share/nodejs)
+# Always written into the build: the shell that configures may know it and the one that links may not.
+if(EXISTS /usr/share/nodejs)
   foreach(language C CXX)
     set(CMAKE_${language}_LINKER_LAUNCHER ${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs)
   endforeach()
