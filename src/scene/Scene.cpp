@@ -212,6 +212,15 @@ const ParamTable& pointLightParams() {
                  .group = Group::Light,
                  .doc = "Whether the light fades with the square of the distance, as lamps do.",
                  .choices = kFalloffNames}),
+        declare(&PointLight::radius,
+                {.id = "radius",
+                 .label = "Light radius",
+                 .unit = "m",
+                 .min = 0,
+                 .max = kFar,
+                 .high = 0.5f,
+                 .group = Group::Light,
+                 .doc = "Radius of the lamp, a disc that faces what it lights: soft shadows."}),
     };
     static const ParamTable table = makeTable<PointLight>("light", params);
     return table;
@@ -238,6 +247,15 @@ const ParamTable& distantLightParams() {
                                             .high = 4,
                                             .group = Group::Light,
                                             .doc = "Light on a surface that faces it."}),
+        declare(&DistantLight::angle,
+                {.id = "angle",
+                 .label = "Light angle",
+                 .unit = "deg",
+                 .min = 0,
+                 .max = 90,
+                 .high = 20,
+                 .group = Group::Light,
+                 .doc = "How wide the light is seen, as a disc: soft shadows. The sun has 0.53."}),
     };
     static const ParamTable table = makeTable<DistantLight>("light", params);
     return table;

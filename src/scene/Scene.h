@@ -90,12 +90,15 @@ struct PointLight {
     vec3 color{1};
     float intensity = 1; ///< plain factor; W/sr with inverse-square falloff
     LightFalloff falloff = LightFalloff::None;
+    float radius = 0; ///< m, >= 0: a disc that faces what it lights; 0: a point
 };
 
 struct DistantLight {
     vec3 direction{0, 0, -1}; ///< the way the light travels; any length > 0
     vec3 color{1};
     float irradiance = 1; ///< on a facing surface; plain factor in relief
+    float angle =
+        0; ///< degrees across, [0,90]: an even disc of directions; the sun has 0.53; 0: one direction
 };
 
 using Light = std::variant<PointLight, DistantLight>;
