@@ -250,7 +250,7 @@ const ParamTable& distantLightParams() {
         declare(&DistantLight::angle,
                 {.id = "angle",
                  .label = "Light angle",
-                 .unit = "deg",
+                 .unit = "degrees",
                  .min = 0,
                  .max = 90,
                  .high = 20,
