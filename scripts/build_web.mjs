@@ -3,10 +3,11 @@
  *
  *   node scripts/build_web.mjs --wasm build/web --out build/web/site
  *
- * --wasm  folder with lucent.mjs, lucent.wasm, lucent-readers.mjs and lucent-readers.wasm
+ * --wasm  folder with the modules lucent, lucent-readers, lucent-truth, lucent-check and lucent-bench, .mjs and .wasm each
  * --out   folder of the finished page; the gallery is copied from assets/generated/gallery when it is there
  */
 import { build, transform } from 'esbuild';
+import { spawnSync } from 'node:child_process';
 import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -27,6 +28,12 @@ function fail(message) {
   process.exit(1);
 }
 
+/** Of the sources; "unknown" where they are no checkout. */
+function commit() {
+  const asked = spawnSync('git', ['rev-parse', '--short', 'HEAD'], { cwd: kRoot, encoding: 'utf8' });
+  return asked.status === 0 ? asked.stdout.trim() : 'unknown';
+}
+
 /** `import css from './viewer.css'` gives the minified text. */
 const cssAsText = {
   name: 'css-as-text',
@@ -40,7 +47,8 @@ const cssAsText = {
 
 const common = { minify: true, format: 'esm', target: 'es2022', legalComments: 'none', logLevel: 'warning' };
 
-for (const name of ['lucent.mjs', 'lucent.wasm', 'lucent-readers.mjs', 'lucent-readers.wasm'])
+const kModules = ['lucent', 'lucent-readers', 'lucent-truth', 'lucent-check', 'lucent-bench'];
+for (const name of kModules.flatMap((module) => [`${module}.mjs`, `${module}.wasm`]))
   if (!existsSync(wasm(name))) fail(`${wasm(name)}: is not there; the preset "web" builds it`);
 mkdirSync(options.out, { recursive: true });
 
@@ -50,13 +58,38 @@ await build({
   entryPoints: [web('lucent-viewer.js')],
   outfile: out('lucent-viewer.js'),
   alias: { 'lucent-wasm': wasm('lucent.mjs') },
+  external: ['./selfcheck.js'], // fetched when asked for
+  plugins: [cssAsText],
+});
+await build({
+  ...common,
+  bundle: true,
+  entryPoints: [web('selfcheck.js')],
+  outfile: out('selfcheck.js'),
+  alias: { 'lucent-check-wasm': wasm('lucent-check.mjs') },
   plugins: [cssAsText],
 });
 await build({ ...common, entryPoints: [wasm('lucent-readers.mjs')], outfile: out('lucent-readers.js') });
+await build({ ...common, entryPoints: [wasm('lucent-bench.mjs')], outfile: out('lucent-bench.js') });
+await build({
+  ...common,
+  bundle: true,
+  entryPoints: [web('bench.js')],
+  outfile: out('bench.js'),
+  external: ['./lucent-bench.js'],
+  define: { LUCENT_COMMIT: JSON.stringify(commit()) },
+});
+await build({
+  ...common,
+  bundle: true,
+  entryPoints: [web('truth_job.js')],
+  outfile: out('lucent-truth.js'),
+  alias: { 'lucent-truth-wasm': wasm('lucent-truth.mjs') },
+});
 await build({ ...common, entryPoints: [web('page.js')], outfile: out('page.js') });
 await build({ minify: true, entryPoints: [web('page.css')], outfile: out('page.css') });
-for (const name of ['index.html', 'example.html']) copyFileSync(web(name), out(name));
-for (const name of ['lucent.wasm', 'lucent-readers.wasm']) copyFileSync(wasm(name), out(name));
+for (const name of ['index.html', 'example.html', 'bench.html']) copyFileSync(web(name), out(name));
+for (const module of kModules) copyFileSync(wasm(`${module}.wasm`), out(`${module}.wasm`));
 if (existsSync(kGallery)) {
   rmSync(out('gallery'), { recursive: true, force: true });
   cpSync(kGallery, out('gallery'), { recursive: true });

@@ -38,6 +38,10 @@ GALLERY, MESHES, FIELDS = OUT / "gallery", OUT / "meshes", OUT / "fields"
 SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-backlit", "weave", "coin-sunset",
           "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff"]
 
+# What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
+RENDERING = ["shaders", "src/scene", "src/views", "src/relief", "src/frame"]
+TRUTH = ["src/scene", "src/truth"]
+
 
 class Stamps:
     """Remembers from what each file was made."""
@@ -65,18 +69,16 @@ class Stamps:
         self.made += 1
 
     def make_with_program(self, build: Callable, inputs: list[Path], outputs: list[Path],
-                          reads: list[Path] = ()) -> None:
-        """As make(), for build(program, *inputs, *outputs): made again when the code that renders has changed."""
+                          reads: list[Path] = (), folders: list[str] = RENDERING) -> None:
+        """As make(), for build(program, *inputs, *outputs): made again when code in these folders has changed."""
         def run(*paths: Path) -> None:
             build(self.program, *paths)
 
         build_code = Path(inspect.getsourcefile(build))
-        self.make(run, inputs, outputs, [*reads, build_code, *rendering_code()])
+        self.make(run, inputs, outputs, [*reads, build_code, *files_in(folders)])
 
 
-def rendering_code() -> list[Path]:
-    """What decides how a picture looks. The program's own bytes change with every line of its help."""
-    folders = ["shaders", "src/scene", "src/views", "src/relief", "src/frame"]
+def files_in(folders: list[str]) -> list[Path]:
     return sorted(path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file())
 
 
@@ -110,7 +112,11 @@ def make_gallery(stamps: Stamps) -> None:
         stamps.make_with_program(gallery.pictures_of, [scene],
                                  [scene.with_name(f"{scene.stem}-512.jpg"), scene.with_name(f"{scene.stem}-256.jpg")],
                                  gallery.files_of(scene))
-    stamps.make(gallery.write_index, copies, [GALLERY / "index.json"])
+    truths = [scene.with_name(gallery.truth_name(scene)) for scene in copies]
+    facts = [truth.with_name(truth.name + ".json") for truth in truths]
+    for scene, truth, fact in zip(copies, truths, facts):
+        stamps.make_with_program(gallery.truth_of, [scene], [truth, fact], gallery.files_of(scene), TRUTH)
+    stamps.make(gallery.write_index, copies, [GALLERY / "index.json"], facts)
 
 
 def main() -> int:

@@ -1,5 +1,6 @@
 /** Brings files to the module: scenes with everything they name, and pictures that a person opens. */
-import { LucentError, callWasm } from './runtime.js';
+import { LucentError } from './runtime.js';
+import { callWasm } from './wasm.js';
 
 const kForeign = /\.(exr|glb|gltf)$/i;
 
@@ -84,6 +85,12 @@ export function loadFiles(runtime, handle, { path, files }) {
   const message = runtime.text('viewer_load', handle, path);
   for (const name of files.keys()) runtime.call('file_forget', name);
   return message;
+}
+
+/** The name and the bytes of one picture, in a form that the module reads. */
+export async function fetchPicture(url) {
+  const name = fileName(url);
+  return { name, bytes: await toPlain(name, await fetchBytes(url, name), url) };
 }
 
 /** What a dropped file is for. @param environmentWanted  the person pointed at that half, or held Alt */

@@ -3,11 +3,15 @@
  *
  * Shows a scene that a person can light. Besides the attributes above every parameter of the scene is an attribute
  * and, in camel case, a property: light-intensity="2" is viewer.lightIntensity = 2.
+ *
+ * compare="truth" or "error" shows the picture beside its exact truth: that of the file which `truth` names (with its
+ * own error in `truth-noise`), which belongs to the scene as src has it, or one that is computed when a person asks.
  */
 import { Controls } from './controls.js';
 import { fetchScene, kindOfDrop, loadFiles, openPicture } from './files.js';
 import { Gestures } from './gestures.js';
 import { LucentError, Runtime } from './runtime.js';
+import { TruthBar } from './truth.js';
 import { camelCase, textOf, valueOf } from './values.js';
 import css from './viewer.css';
 
@@ -28,6 +32,8 @@ const kMarkup = `
   <canvas tabindex="0" role="img" aria-describedby="keys"></canvas>
   <img class="poster" part="poster" alt="">
   <div class="zones"><div>Height map</div><div>Environment</div></div>
+  <input class="unseen" id="divider" type="range" min="0" max="1" step="0.01" hidden
+    aria-label="Divider: share of the picture left of it">
   <div class="hint"></div>
   <div class="status"></div>
 </div>
@@ -35,13 +41,17 @@ const kMarkup = `
 <div class="unseen" role="status"></div>`;
 
 export class LucentViewer extends HTMLElement {
-  static observedAttributes = ['src', 'controls', 'poster', 'alt'];
+  static observedAttributes = ['src', 'controls', 'poster', 'alt', 'truth'];
 
   #root;
   #canvas;
   #poster;
   #status;
   #hint;
+  #divider; // what the keyboard moves the divider with
+  #truth; // TruthBar
+  #rmse; // that was said last
+  #truthFetched = false; // the file was asked for since the scene was loaded
   #voice; // what a screen reader says
   #twin;
   #runtime = null;
@@ -79,6 +89,19 @@ export class LucentViewer extends HTMLElement {
       reset: (path) => this.reset(path),
       focus: (path) => this.#apply('viewer_focus', path),
     });
+    this.#divider = find('#divider');
+    this.#divider.addEventListener('input', () => this.#set('divider', this.#divider.value));
+    this.#divider.addEventListener('focus', () => this.#apply('viewer_focus', 'divider'));
+    this.#divider.addEventListener('blur', () => this.#apply('viewer_focus', ''));
+    this.#truth = new TruthBar({
+      ask: () => this.#runtime.askTruth(this.#handle),
+      take: ({ pixels, width, height, noise }) =>
+        this.#takeTruth('viewer_take_truth', new Uint8Array(pixels.buffer), width, height, noise),
+      open: ({ name, bytes }, noise) => this.#takeTruth('viewer_open_truth', name, bytes, noise ?? -1),
+      fail: (error) => this.#fail(error),
+      changed: () => this.#truth.update(this.comparison()),
+    });
+    find('.stage').append(this.#truth.element);
     new Gestures(this.#canvas, {
       pointer: (...event) => this.#apply('viewer_pointer', ...event),
       wheel: (...event) => this.#apply('viewer_wheel', ...event),
@@ -119,6 +142,10 @@ export class LucentViewer extends HTMLElement {
     if (name === 'alt') this.#canvas.ariaLabel = value ?? '';
     if (name === 'poster') value === null ? this.#poster.removeAttribute('src') : (this.#poster.src = value);
     if (name === 'controls') this.#layout();
+    if (name === 'truth') {
+      this.#truthFetched = false;
+      this.#compareChanged();
+    }
     if (name !== 'src') return;
     this.#src = null;
     if (this.isConnected && (this.#near || this.loading !== 'lazy')) this.#loadSource();
@@ -143,6 +170,21 @@ export class LucentViewer extends HTMLElement {
   }
   set poster(value) {
     this.setAttribute('poster', value);
+  }
+  get truth() {
+    return this.getAttribute('truth') ?? '';
+  }
+  set truth(value) {
+    value ? this.setAttribute('truth', value) : this.removeAttribute('truth');
+  }
+  /** RMSE that the truth in the file has itself; null: not known. */
+  get truthNoise() {
+    return this.hasAttribute('truth-noise') ? Number(this.getAttribute('truth-noise')) : null;
+  }
+  set truthNoise(value) {
+    value === null || value === undefined
+      ? this.removeAttribute('truth-noise')
+      : this.setAttribute('truth-noise', value);
   }
   get loading() {
     return this.getAttribute('loading') === 'lazy' ? 'lazy' : 'eager';
@@ -201,6 +243,27 @@ export class LucentViewer extends HTMLElement {
   /** Milliseconds, passes, draws, lights, bytes, complete, frames, and where the panel's controls lie. */
   stats() {
     return JSON.parse(this.#ask('viewer_stats') || '{}');
+  }
+
+  /**
+   * How the picture stands to its truth: mode, divider, truth ('none', 'stale', 'fresh'), size, noise; of a finished
+   * picture of the same scene rmse, relRmse, max, bias, p99, full; milliseconds, passes, place.
+   */
+  comparison() {
+    return JSON.parse(this.#ask('viewer_comparison') || '{"mode": "off", "truth": "none"}');
+  }
+  /** Computes the truth of the scene as it is now, in a worker; it is shown while compare is on. */
+  computeTruth() {
+    return this.#truth.compute();
+  }
+
+  /**
+   * Closed forms and capabilities on this device. @param options  signal to cancel, progress(share)
+   * @return {Promise<object>}  device, passed, checks, capabilities
+   */
+  async selfCheck(options) {
+    const { runSelfCheck } = await import('./selfcheck.js');
+    return runSelfCheck(options);
   }
 
   /** The finished picture without the panel. */
@@ -302,6 +365,9 @@ export class LucentViewer extends HTMLElement {
     this.#twin.build(this.#controls);
     this.#layout();
     this.#request();
+    this.#truth.cancel();
+    this.#truthFetched = false;
+    this.#compareChanged();
     this.#emit('load', { src: name });
   }
 
@@ -316,6 +382,7 @@ export class LucentViewer extends HTMLElement {
 
   #destroy() {
     this.#task++;
+    this.#truth.cancel();
     this.#src = null;
     this.#controls = [];
     if (!this.#handle) return;
@@ -387,8 +454,38 @@ export class LucentViewer extends HTMLElement {
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#twin.update(this.#controls);
     const changed = this.#controls.filter((control) => control.value !== before.get(control.path));
+    this.#compareChanged();
     for (const control of changed) this.#emit('change', { path: control.path, value: valueOf(control, control.value) });
     if (changed.length && this.#root.activeElement === this.#canvas) this.#sayLater(changed[0]);
+  }
+
+  // ---- the truth ----
+
+  // Whatever decides about the comparison may have changed.
+  #compareChanged() {
+    if (!this.loaded) return;
+    const comparison = this.comparison();
+    const { mode, divider, truth } = comparison;
+    this.#divider.hidden = mode === 'off' || truth === 'none';
+    this.#divider.value = divider;
+    if (mode !== 'off' && truth === 'none' && this.truth && !this.#truthFetched && !this.#truth.busy) {
+      this.#truthFetched = true;
+      this.#truth.fetch(new URL(this.truth, document.baseURI), this.truthNoise);
+    }
+    this.#truth.update(comparison);
+  }
+
+  #sayNumbers() {
+    const { rmse } = this.comparison();
+    if (rmse !== undefined && rmse !== this.#rmse) this.#say(`Root mean square error ${rmse.toPrecision(2)}`);
+    this.#rmse = rmse;
+  }
+
+  #takeTruth(name, ...values) {
+    const message = this.#runtime.text(name, this.#handle, ...values);
+    if (message) throw new LucentError('scene', message);
+    this.#request();
+    this.#compareChanged();
   }
 
   // ---- drawing ----
@@ -400,6 +497,7 @@ export class LucentViewer extends HTMLElement {
     if (complete) {
       this.#poster.hidden = true;
       this.#status.textContent = '';
+      this.#sayNumbers();
       this.#settled.splice(0).forEach((resolve) => resolve());
     }
     if (drawn) this.#emit('frame', { complete });

@@ -49,11 +49,13 @@ function applyChanges(changes) {
 
 // ---- scenes
 
-function showScene({ id, title, scene, poster }, changes = {}) {
+function showScene({ id, title, scene, poster, truth }, changes = {}) {
   current = id;
   pending = changes;
   if (poster && !viewer.loaded) viewer.poster = 'gallery/' + poster;
   viewer.alt = title;
+  viewer.truth = truth && 'gallery/' + truth.file;
+  viewer.truthNoise = truth?.noise;
   viewer.src = 'gallery/' + scene;
   for (const link of find('gallery').children) link.toggleAttribute('aria-current', link.dataset.id === id);
 }
@@ -84,9 +86,15 @@ viewer.addEventListener('load', () => {
 });
 viewer.addEventListener('error', ({ detail }) => note(detail.message));
 viewer.addEventListener('change', writeLinkSoon);
+viewer.addEventListener('change', showCompare);
+viewer.addEventListener('load', showCompare);
 viewer.addEventListener('frame', showCost);
 
 // ---- toolbar
+
+function showCompare() {
+  find('compare').value = viewer.get('compare');
+}
 
 function showCost() {
   const { milliseconds, passes, draws, lights, bytes } = find('time').checked && viewer.loaded ? viewer.stats() : {};
@@ -126,7 +134,9 @@ find('redo').addEventListener('click', () => viewer.redo());
 find('reset').addEventListener('click', () => viewer.reset());
 find('save').addEventListener('click', () => savePicture().catch((error) => note(error.message)));
 find('copy').addEventListener('click', copyLink);
+find('compare').addEventListener('change', ({ target }) => viewer.set('compare', target.value));
 find('time').addEventListener('change', showCost);
+find('check').addEventListener('click', async () => (await import('./selfcheck.js')).openSelfCheck(viewer));
 openWith('open-height', 'height-file', 'height');
 openWith('open-environment', 'environment-file', 'environment');
 

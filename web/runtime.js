@@ -5,6 +5,7 @@
  * away as a bitmap.
  */
 import createLucent from 'lucent-wasm'; // the build names the file
+import { callWasm } from './wasm.js';
 
 /** An error with a code that pages can test and a message that people can read. */
 export class LucentError extends Error {
@@ -13,29 +14,6 @@ export class LucentError extends Error {
     super(message);
     this.code = code;
   }
-}
-
-/** Calls a compiled function: text and byte arrays (pointer and length) are lent to it for the call. */
-export function callWasm(wasm, name, ...values) {
-  const lent = [];
-  const lend = (size) => lent[lent.push(wasm._malloc(size || 1)) - 1];
-  const plain = values.flatMap((value) => {
-    if (typeof value === 'string') {
-      const size = wasm.lengthBytesUTF8(value) + 1;
-      const pointer = lend(size);
-      wasm.stringToUTF8(value, pointer, size);
-      return pointer;
-    }
-    if (value instanceof Uint8Array) {
-      const pointer = lend(value.length);
-      wasm.HEAPU8.set(value, pointer);
-      return [pointer, value.length];
-    }
-    return value;
-  });
-  const result = wasm['_' + name](...plain);
-  lent.forEach((pointer) => wasm._free(pointer));
-  return result;
 }
 
 /** A canvas that is never seen, with its context: off the page where the browser can, else one not attached. */
@@ -103,6 +81,12 @@ export class Runtime {
   }
   json(name, ...values) {
     return JSON.parse(this.text(name, ...values));
+  }
+
+  /** The scene that a viewer shows as files, for truth_job.js. @return {Map<string, Uint8Array>} */
+  askTruth(handle) {
+    const files = this.json('viewer_ask_truth', handle);
+    return new Map(files.map(({ name, at, size }) => [name, this.#wasm.HEAPU8.slice(at, at + size)]));
   }
 
   /** The kind of context a viewer's own canvas must have for show(). */

@@ -9,6 +9,11 @@ from PIL import Image
 POSTER = 512     # pixels, the longer side
 THUMBNAIL = 256  # pixels, the longer side
 
+# Of truths: pixels of the longer side, directions that stand for an environment. Lamps are one question a pixel, light
+# from all around is one for each direction.
+TRUTH_UNDER_LAMPS = 192, 1
+TRUTH_UNDER_SKY = 128, 256
+
 
 def files_of(scene: Path) -> list[Path]:
     """Files that a scene names: every text in it that is the name of a file beside it."""
@@ -45,6 +50,27 @@ def pictures_of(program: Path, scene: Path, poster: Path, thumbnail: Path) -> No
     save_small(picture.convert("RGB"), THUMBNAIL, thumbnail)
 
 
+def truth_name(scene: Path) -> str:
+    return f"{scene.stem}-truth.pfm"
+
+
+def truth_of(program: Path, scene: Path, truth: Path, _facts: Path) -> None:
+    """The exact picture of a scene, linear. The program writes beside it what it is and how far it may be off."""
+    content = json.loads(scene.read_text())
+    side, directions = TRUTH_UNDER_SKY if "environment" in content else TRUTH_UNDER_LAMPS
+    width, height = (round(length * side / max(content["size"])) for length in content["size"])
+    subprocess.run([program, "truth", scene, "-o", truth, "--size", f"{width}x{height}", "--directions", str(directions)],
+                   check=True, stdout=subprocess.DEVNULL)
+
+
+def index_of_truth(scene: Path) -> dict:
+    """What the page must know of a truth."""
+    truth = scene.with_name(truth_name(scene))
+    facts = json.loads(truth.with_name(truth.name + ".json").read_text())
+    return {"file": truth.name, "size": [facts["width"], facts["height"]], "noise": facts["standardError"],
+            "directions": facts["directions"]}
+
+
 def write_index(*paths: Path) -> None:
     """The list that the page shows: of the scenes in the order given, written to the last path."""
     *scenes, out = paths
@@ -52,5 +78,6 @@ def write_index(*paths: Path) -> None:
     for scene in scenes:
         content = json.loads(scene.read_text())
         entries.append({"id": scene.stem, "title": content["title"], "caption": content["caption"],
-                        "scene": scene.name, "thumbnail": f"{scene.stem}-256.jpg", "poster": f"{scene.stem}-512.jpg"})
+                        "scene": scene.name, "thumbnail": f"{scene.stem}-256.jpg", "poster": f"{scene.stem}-512.jpg",
+                        "truth": index_of_truth(scene)})
     out.write_text(json.dumps(entries, indent=2, ensure_ascii=False) + "\n")

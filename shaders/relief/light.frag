@@ -1,36 +1,19 @@
 // relief/light.frag: light that some of the lights bring to each visible point of one height field, added to
 // what earlier lights brought.
 //
-// in    uSurface  the visible points (views/surface_pixel.glsl)
-//       uSum      light summed so far; not looked at in the first slice
-//       uLights   512 lights a row, two texels each: (world position, or direction to it | kind), (colour | weight); kind 0 is
-//                 a direction, 1 a position, 2 a position whose light fades with the square of the distance
-// out   oSum.rgb  light towards the eye, linear Rec. 709, the thesis's units (no pi)
-//       oSum.a    weighted sum of d, or of the quantity that SHOW_... names
-// model height-field thesis 2017, 3.5, with the corrections in README "Where the thesis is loose"
-#include "lib/quadratic.glsl"
-#include "views/field.glsl"
+// in    uSurface     the visible points (views/surface_pixel.glsl)
+//       uSum         light summed so far; not looked at in the first slice
+//       uLights      the lights (relief/model.glsl)
+//       uIrradiance  USE_TRANSFER: the environment's light on each texel, times the forward scatter, and the mean of d
+//                    (relief/gather.frag); texels may be fewer than the field's. Walls have none: there all lights are summed
+//       uGloss       USE_TRANSFER: the environment's part in the specular term by the direction of reflection
+//       LIGHTLESS    no light in this slice and no gloss: the point is not shaded
+// out   oSum.rgb     light towards the eye, linear Rec. 709, the thesis's units (no pi)
+//       oSum.a       weighted sum of d, or of the quantity that SHOW_... names
+// model height-field thesis 2017, 3.5
+#include "relief/model.glsl"
 #include "views/surface_pixel.glsl"
-#include "lib/shading.glsl"
-layout(std140) uniform ReliefBlock {
-    Field field;
-    vec4 eye;       // object space: position with w = 1, or direction of all eye rays with w = 0
-    vec4 base;      // cB | ks
-    vec4 diffuse;   // cD | kf
-    vec4 specular;  // cS | t in object space
-    vec4 falloffs;  // s_min, s_max, f_min, f_max
-    mat4 objectFromWorld;
-    float metres;   // world metres a metre of object space
-    float radius;   // where the thesis's method puts lights that have no place
-    int object;
-    int firstLight;
-    int endLight;
-    int isFirst;    // nothing summed yet: start with the base colour
-    int exponential;
-    int steps;      // of methods with a fixed step
-} relief;
 uniform sampler2D uSum;
-uniform sampler2D uLights;
 #ifdef USE_BASE_MAP
 uniform sampler2D uBaseMap;
 #endif
@@ -40,113 +23,37 @@ uniform sampler2D uDiffuseMap;
 #ifdef USE_SPECULAR_MAP
 uniform sampler2D uSpecularMap;
 #endif
+#ifdef USE_TRANSFER
+uniform sampler2D uIrradiance;
+uniform sampler2D uGloss;
+
+// Bilinear between texel centres, the edges clamped: 32-bit textures need not be filtered by the GPU.
+vec4 irradianceAt(vec2 uv) {
+    ivec2 size = textureSize(uIrradiance, 0);
+    vec2 at = clamp(uv * vec2(size) - 0.5, vec2(0.0), vec2(size) - 1.0);
+    ivec2 low = ivec2(at);
+    ivec2 high = min(low + 1, size - 1);
+    vec2 f = at - vec2(low);
+    return mix(mix(texelFetch(uIrradiance, low, 0), texelFetch(uIrradiance, ivec2(high.x, low.y), 0), f.x),
+               mix(texelFetch(uIrradiance, ivec2(low.x, high.y), 0), texelFetch(uIrradiance, high, 0), f.x), f.y);
+}
+
+// uGloss is a map of directions in object space: columns by azimuth, all around; rows by height z.
+vec3 glossAt(vec3 direction) {
+    ivec2 size = textureSize(uGloss, 0);
+    float azimuth = direction.x == 0.0 && direction.y == 0.0 ? 0.0 : atan(direction.y, direction.x);
+    vec2 at = vec2(azimuth / 6.283185307 + 0.5, 0.5 + 0.5 * direction.z) * vec2(size) - 0.5;
+    at.y = clamp(at.y, 0.0, float(size.y) - 1.0);
+    ivec2 low = ivec2(floor(at));
+    ivec2 high = ivec2((low.x + 1) % size.x, min(low.y + 1, size.y - 1));
+    vec2 f = at - vec2(low);
+    low.x = (low.x + size.x) % size.x;
+    vec4 south = mix(texelFetch(uGloss, low, 0), texelFetch(uGloss, ivec2(high.x, low.y), 0), f.x);
+    vec4 north = mix(texelFetch(uGloss, ivec2(low.x, high.y), 0), texelFetch(uGloss, high, 0), f.x);
+    return mix(south, north, f.y).rgb;
+}
+#endif
 layout(location = 0) out vec4 oSum;
-
-// The shading point: on the surface, and moved below it along the real normal (4.3.1 moves along z).
-struct Shading {
-    vec2 g;
-    float z;         // m, object space
-    vec3 normal;
-    vec3 position;   // object space
-    float reference; // stored height at the point, with ...
-    float offset;    // ... what it stands above that, m: 0 on the field
-};
-
-struct Light {
-    vec3 toLight;   // unit, from the moved point
-    float distance; // m, object space; 1e30: without a place
-    vec3 color;
-    float weight;
-};
-
-Light lightAt(int index, Shading p) {
-    ivec2 at = ivec2(2 * (index % 512), index / 512);
-    vec4 place = texelFetch(uLights, at, 0);
-    vec4 color = texelFetch(uLights, at + ivec2(1, 0), 0);
-    vec3 local = (relief.objectFromWorld * vec4(place.xyz, place.w == 0.0 ? 0.0 : 1.0)).xyz;
-    if (place.w == 0.0) return Light(normalize(local), 1e30, color.rgb, color.a);
-    vec3 way = local - p.position + relief.specular.a * p.normal;
-    float far = max(length(way), 1e-30);
-    float fade = place.w == 1.0 ? 1.0 : 1.0 / max(far * far * relief.metres * relief.metres, 1e-30);
-    return Light(way / far, far, color.rgb * fade, color.a);
-}
-
-// Ray from the point moved by `depth` along `inward` towards the light; z is relative to the point.
-Ray rayToLight(Shading p, vec3 inward, vec3 toLight) {
-    vec2 g = p.g + vec2(inward.x, -inward.y) / relief.field.texelSize;
-    return rayFrom(g, inward.z, toLight, p.reference, p.offset, relief.field);
-}
-
-// 1 where the point sees the light past what lies within one texel.
-float visibility(Shading p, Light light, out int steps) {
-    float across = length(light.toLight.xy);
-    float from = across > 0.0 ? relief.field.texelSize / across : 1e30;
-    steps = 0;
-    if (from >= light.distance) return 1.0;
-    Crossing crossing = walk(rayToLight(p, vec3(0.0), light.toLight), relief.field, from, light.distance, 0.0);
-    steps = crossing.steps;
-    return crossing.inside > 0.0 ? 0.0 : 1.0;
-}
-
-// Length inside the solid from N equal steps over the ray clipped to the field's box, samples in mid-step.
-float marchedLength(Ray ray, float far) {
-    vec2 span = clipToFootprint(ray, relief.field, 0.0, far);
-    float ceiling = relativeHeight(relief.field.highest, ray, relief.field);
-    if (ray.rise > 0.0) span.y = min(span.y, (ceiling - ray.z0) / ray.rise);
-    if (span.x >= span.y) return 0.0;
-    float stepLength = (span.y - span.x) / float(relief.steps);
-    int inside = 0;
-    for (int i = 0; i < relief.steps; ++i) {
-        float s = span.x + (float(i) + 0.5) * stepLength;
-        vec2 g = vec2(ray.base) + (ray.origin + s * ray.step);
-        if (ray.z0 + s * ray.rise < relativeHeight(heightAt(g, relief.field), ray, relief.field)) inside += 1;
-    }
-    return float(inside) * stepLength;
-}
-
-// The thesis's loop word for word (4.3.1): points at a fixed step from below the surface to the light, one more
-// for each that lies inside; d = 1 / s. The point is moved along z, and more steps do not make it converge.
-float countedIllumination(Shading p, Light light) {
-    float t = relief.specular.a;
-    vec3 start = p.position - vec3(0.0, 0.0, t);
-    vec3 lamp = light.distance < 1e30 ? p.position - t * p.normal + light.distance * light.toLight
-                                      : relief.radius * light.toLight;
-    vec3 increment = (lamp - start) / float(relief.steps);
-    float s = 1.0;
-    for (int i = 0; i <= relief.steps; ++i) {
-        vec3 at = start + float(i) * increment;
-        vec2 g = gridFromObject(at.xy, relief.field);
-        bool over = all(greaterThanEqual(g, vec2(0.5))) && all(lessThanEqual(g, relief.field.texels + 0.5));
-        if (over && at.z < heightAt(g, relief.field) * relief.field.heightScale) s += 1.0;
-    }
-    return 1.0 / s;
-}
-
-// d of the model: t over the length inside the solid. Below half a texel the bilinear facets would answer for
-// the surface; there its limit for t -> 0 holds: Lambert's cosine on what the light sees.
-float illumination(Shading p, Light light, out int steps) {
-    steps = relief.steps;
-#ifdef METHOD_COUNTING
-    return countedIllumination(p, light);
-#else
-    float t = relief.specular.a;
-    bool exponential = relief.exponential != 0;
-    if (t < 0.5 * relief.field.texelSize) {
-        float cosine = dot(p.normal, light.toLight);
-        steps = 0;
-        return cosine > 0.0 ? attenuate(1.0 / cosine, exponential) * visibility(p, light, steps) : 0.0;
-    }
-    Ray ray = rayToLight(p, -t * p.normal, light.toLight);
-#ifdef METHOD_MARCH
-    float inside = marchedLength(ray, light.distance);
-#else
-    Crossing crossing = walk(ray, relief.field, 0.0, light.distance, 1e30);
-    steps = crossing.steps;
-    float inside = crossing.inside;
-#endif
-    return attenuate(inside / t, exponential);
-#endif
-}
 
 Shading shadingAt(SurfacePixel pixel) {
     Shading p;
@@ -163,9 +70,7 @@ Shading shadingAt(SurfacePixel pixel) {
 void main() {
     SurfacePixel pixel = readSurface();
     if (pixel.object != relief.object) discard;
-    Shading p = shadingAt(pixel);
     float ks = relief.base.a;
-    float kf = relief.diffuse.a;
     vec3 base = relief.base.rgb;
     vec3 diffuse = relief.diffuse.rgb;
     vec3 specular = relief.specular.rgb;
@@ -179,13 +84,29 @@ void main() {
 #ifdef USE_SPECULAR_MAP
     specular *= textureLod(uSpecularMap, uv, 0.0).rgb;
 #endif
+    vec4 sum = relief.isFirst != 0 ? vec4((1.0 - ks) * base, 0.0)
+                                   : texelFetch(uSum, ivec2(gl_FragCoord.xy), 0);
+#ifdef USE_TRANSFER
+    bool transferred = pixel.face == 1;
+    if (transferred && relief.isFirst != 0) {
+        vec4 light = irradianceAt(uv);
+        sum += vec4((1.0 - ks) * diffuse * light.rgb, light.a);
+    }
+#endif
+#ifndef LIGHTLESS
+    Shading p = shadingAt(pixel);
     vec3 below = p.position - relief.specular.a * p.normal;
     vec3 v = relief.eye.w == 0.0 ? relief.eye.xyz : normalize(below - relief.eye.xyz);
     vec3 r = reflect(v, p.normal); // the text's sign slips in 3.4; 4.3.5.2 has it right
-
-    vec4 sum = relief.isFirst != 0 ? vec4((1.0 - ks) * base, 0.0)
-                                   : texelFetch(uSum, ivec2(gl_FragCoord.xy), 0);
-    for (int i = relief.firstLight; i < relief.endLight; ++i) {
+    int end = relief.endLight;
+#ifdef USE_TRANSFER
+    if (transferred) {
+        end = min(end, relief.placed);
+        if (relief.isFirst != 0) sum.rgb += ks * specular * glossAt(r);
+    }
+#endif
+    float kf = relief.diffuse.a;
+    for (int i = relief.firstLight; i < end; ++i) {
         Light light = lightAt(i, p);
         int steps;
         float d = illumination(p, light, steps);
@@ -201,5 +122,6 @@ void main() {
         sum.a += light.weight * d;
 #endif
     }
+#endif
     oSum = sum;
 }

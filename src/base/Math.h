@@ -12,6 +12,7 @@ namespace lucent {
 using glm::dvec2;
 using glm::dvec3;
 using glm::ivec2;
+using glm::ivec4;
 using glm::mat3;
 using glm::mat4;
 using glm::vec2;

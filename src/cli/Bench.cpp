@@ -1,70 +1,235 @@
 // lucent bench: speed against error, side by side in one run.
 #include "cli/Command.h"
 #include "cli/Files.h"
+#include "cli/ProgressBar.h"
+#include "cli/ReportPage.h"
+#include "cli/TruthCache.h"
 
+#include "BuildInfo.h"
+#include "base/Text.h"
 #include "frame/Renderer.h"
 #include "gl/Context.h"
-#include "measure/ReliefBench.h"
+#include "measure/BudgetProof.h"
+#include "measure/ReliefPlan.h"
 #include "scene/Load.h"
 #include "scene/readers/Readers.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <memory>
+#include <thread>
 
 namespace lucent::cli {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-struct Options {
-    std::vector<std::string> scenes;
+struct BenchOptions {
+    std::vector<std::string> parts;
     bool quick = false;
     std::string output;
+    std::string gallery = "assets/generated/gallery";
+    std::string truths;
+    std::string commit = LUCENT_COMMIT;
 };
 
-/// Resident memory of this process in bytes, as the kernel counts it.
-std::size_t residentBytes(const char* key) {
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);)
-        if (line.rfind(key, 0) == 0) return std::stoul(line.substr(line.find_first_of("0123456789"))) * 1024;
-    return 0;
+constexpr std::string_view kParts[] = {"relief", "environment", "scaling", "hard", "all", "budget"};
+
+// --- the machine
+
+/// The rest of the first line of a file of the kernel that begins with `key`, from its value on; "" without.
+std::string kernelValue(const char* file, const std::string& key) {
+    std::ifstream lines(file);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.rfind(key, 0) != 0) continue;
+        const std::size_t value = line.find_first_not_of(" \t:", key.size());
+        return value == std::string::npos ? "" : line.substr(value);
+    }
+    return "";
 }
 
-// The heights of a scene's first object, for a field 1 m wide.
-Result<measure::BenchField> fieldOf(const std::string& path) {
+/// A figure in kB of the kernel, in MB; 0 when it is not there.
+double megabytes(const char* file, const std::string& key) {
+    return std::strtod(kernelValue(file, key).c_str(), nullptr) / 1024;
+}
+
+void describeMachine(measure::Machine& machine) {
+    machine.cpu = kernelValue("/proc/cpuinfo", "model name");
+    machine.cores = int(std::thread::hardware_concurrency());
+    machine.memoryMB = megabytes("/proc/meminfo", "MemTotal");
+}
+
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    char date[16];
+    std::strftime(date, sizeof date, "%F", std::gmtime(&now));
+    return date;
+}
+
+// --- what is measured
+
+Result<measure::ReliefParts> parseParts(const std::vector<std::string>& names) {
+    if (names.empty()) return measure::ReliefParts{};
+    measure::ReliefParts parts{false, false, false, false};
+    for (const std::string& name : names) {
+        if (std::find(std::begin(kParts), std::end(kParts), name) == std::end(kParts)) {
+            std::string known;
+            for (const std::string_view part : kParts)
+                known += (known.empty() ? "" : ", ") + std::string(part);
+            return Error{"NAMES: is " + inQuotes(name) + "; must be one of " + known};
+        }
+        const bool all = name == "all";
+        parts.relief |= all || name == "relief";
+        parts.environment |= all || name == "environment";
+        parts.scaling |= all || name == "scaling";
+        parts.hard |= all || name == "hard";
+        parts.budget |= name == "budget";
+    }
+    return parts;
+}
+
+// The field halved by leaving samples out until it fits.
+std::shared_ptr<const Image> thinned(std::shared_ptr<const Image> heights, int side) {
+    while (std::max(heights->width, heights->height) > side) {
+        auto half = std::make_shared<Image>((heights->width + 1) / 2, (heights->height + 1) / 2, 1);
+        for (int y = 0; y < half->height; ++y)
+            for (int x = 0; x < half->width; ++x)
+                *half->at(x, y) = *heights->at(2 * x, 2 * y);
+        heights = std::move(half);
+    }
+    return heights;
+}
+
+// The heights of a gallery scene's first object, for a field 1 m wide.
+Result<measure::BenchField> fieldOf(const std::string& path, bool quick) {
     const Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), frame::techniques());
     if (!scene) return scene.error();
-    const scene::Object& object = scene->objects.front();
-    return measure::BenchField{object.name, object.shape.heights,
-                               object.shape.heightScale / object.shape.width};
+    const scene::HeightField& shape = scene->objects.front().shape;
+    return measure::BenchField{fs::path(path).stem().string(),
+                               quick ? thinned(shape.heights, 256) : shape.heights,
+                               shape.heightScale / shape.width};
 }
 
-Status bench(const Options& options) {
-    const Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
-    if (!context) return context.error();
-    const std::size_t empty = residentBytes("VmRSS:");
-    std::vector<measure::BenchField> fields{{"noise", measure::benchNoise(512), 0.12f}};
-    for (const std::string& path : options.scenes) {
-        Result<measure::BenchField> field = fieldOf(path);
+Result<measure::BenchEnvironment> environmentOf(const std::string& path) {
+    const Result<Bytes> bytes = scene::plainFiles()(path);
+    if (!bytes) return bytes.error();
+    const auto map = scene::loadEnvironmentMap(path, *bytes);
+    if (!map) return map.error();
+    return measure::BenchEnvironment{fs::path(path).filename().string(), *map};
+}
+
+Result<measure::Plan> makePlan(const BenchOptions& options, const measure::ReliefParts& parts) {
+    std::vector<measure::BenchField> fields;
+    std::vector<measure::BenchEnvironment> environments;
+    if (!fs::is_directory(options.gallery)) {
+        std::fprintf(stderr, "bench: %s: is no folder; elevation, dragon and sunset are left out\n",
+                     options.gallery.c_str());
+        return measure::reliefPlan(parts, fields, environments, options.quick);
+    }
+    for (const char* name : {"elevation.json", "dragon.json"}) {
+        Result<measure::BenchField> field = fieldOf(options.gallery + "/" + name, options.quick);
         if (!field) return field.error();
         fields.push_back(std::move(*field));
     }
-    {
-        // One picture of 512 x 512 pixels before anything larger touches the memory.
-        const Status drawn = measure::drawOnce(**context, fields.front());
-        if (!drawn) return drawn;
+    Result<measure::BenchEnvironment> sunset = environmentOf(options.gallery + "/sunset.hdr");
+    if (!sunset) return sunset.error();
+    environments.push_back(std::move(*sunset));
+    return measure::reliefPlan(parts, fields, environments, options.quick);
+}
+
+// --- the run
+
+/// Memory that one picture of a relief of 512 x 512 texels takes: before anything larger touches any.
+Status drawOnce(gl::Context& context) {
+    scene::Scene scene = measure::fieldScene(measure::benchNoise(512), 0.03f);
+    scene.lights.push_back(scene::PointLight{});
+    frame::Renderer renderer(context);
+    if (Status done = renderer.finish(scene, 1, scene.size); !done) return done;
+    renderer.wait();
+    return Done{};
+}
+
+measure::BenchReport runPlan(gl::Context& context, measure::Plan plan, const std::string& truths) {
+    plan.truthParts = 1;
+    const auto solve = [&](const scene::Scene& scene, int directions, const truth::Tile& rows) {
+        return cachedTruth(truthPath(truths, scene, directions),
+                           [&] { return measure::solveRelief(scene, directions, rows, 0); });
+    };
+    const auto start = std::chrono::steady_clock::now();
+    std::unique_ptr<measure::Sweep> sweep;
+    const auto say = [&](const std::string& what) {
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        std::fprintf(stderr, "bench: %s  %s\n", progressLine(sweep->share(), elapsed.count()).c_str(),
+                     what.c_str());
+    };
+    sweep = std::make_unique<measure::Sweep>(context, std::move(plan), solve, say);
+    while (sweep->step())
+        ;
+    return sweep->report();
+}
+
+// The proof of quality.maxError on the gallery's fields and light probes and on synthetic ones; its totals go
+// into the report, each result into budget.json.
+Status proveBudget(gl::Context& context, const BenchOptions& options, measure::BenchReport& report) {
+    constexpr int kSide = 96; // pixels
+    std::vector<measure::BenchField> fields;
+    for (const char* name : {"elevation", "dragon", "coin", "weave", "bunny"}) {
+        Result<measure::BenchField> field = fieldOf(options.gallery + "/" + name + ".json", false);
+        if (!field) return field.error();
+        fields.push_back(std::move(*field));
     }
-    const std::size_t drawn = residentBytes("VmHWM:");
-    const Result<measure::ReliefReport> report =
-        measure::benchRelief(**context, fields, options.quick, [](const std::string& line) {
-            std::fprintf(stderr, "bench: %s\n", line.c_str());
-        });
-    if (!report) return report.error();
-    std::printf("%s  memory: %.0f MB resident with a context alone, %.0f MB at most with a 512^2 relief "
-                "(target 256)\n",
-                report->text().c_str(), double(empty) / (1 << 20), double(drawn) / (1 << 20));
-    if (options.output.empty()) return Done{};
-    return writeAll({{options.output, toBytes(report->json())}});
+    Result<measure::BenchEnvironment> window = environmentOf(options.gallery + "/window.exr");
+    if (!window) return window.error();
+    const auto say = [](const std::string& line) {
+        std::fprintf(stderr, "bench: budget: %s\n", line.c_str());
+    };
+    const Result<measure::BudgetReport> proof = measure::proveBudget(context, fields, {*window}, kSide, say);
+    if (!proof) return proof.error();
+    std::fputs(proof->text().c_str(), stdout);
+    const std::vector<measure::Ratio> totals = proof->totals();
+    report.ratios.insert(report.ratios.end(), totals.begin(), totals.end());
+    return writeAll({{options.output + "/budget.json", toBytes(proof->json())}});
+}
+
+Status bench(const BenchOptions& options) {
+    const Result<measure::ReliefParts> parts = parseParts(options.parts);
+    if (!parts) return parts.error();
+    Result<measure::Plan> plan = makePlan(options, *parts);
+    if (!plan) return plan.error();
+    const fs::path folder = options.output;
+    const std::string truths = options.truths.empty() ? (folder / "truths").string() : options.truths;
+    for (const fs::path& needed : {folder, fs::path(truths)}) {
+        std::error_code failed;
+        fs::create_directories(needed, failed);
+        if (failed) return Error{needed.string() + ": cannot be made (" + failed.message() + ")"};
+    }
+
+    const Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
+    if (!context) return context.error();
+    const double contextMB = megabytes("/proc/self/status", "VmRSS");
+    if (Status drawn = drawOnce(**context); !drawn) return drawn;
+    const double peakMB = megabytes("/proc/self/status", "VmHWM");
+
+    measure::BenchReport report = runPlan(**context, std::move(*plan), truths);
+    describeMachine(report.machine);
+    report.date = today();
+    report.commit = options.commit;
+    report.contextMB = contextMB;
+    report.peakMB = peakMB;
+    if (parts->budget)
+        if (Status proved = proveBudget(**context, options, report); !proved) return proved;
+    report.ratios.push_back({"MB resident with a relief of 512^2 texels", peakMB, 256, false});
+    std::fputs(report.text().c_str(), stdout);
+    const std::string json = report.json();
+    const Result<std::string> page = reportPage({json});
+    if (!page) return page.error();
+    return writeAll({{(folder / "bench.json").string(), toBytes(json)},
+                     {(folder / "report.html").string(), toBytes(*page)}});
 }
 
 } // namespace
@@ -72,14 +237,26 @@ Status bench(const Options& options) {
 Command addBench(CLI::App& program) {
     CLI::App* parser =
         program.add_subcommand("bench", "Measures speed against error, all methods in one run");
-    const auto options = std::make_shared<Options>();
-    parser->add_option("SCENE", options->scenes,
-                       "Scenes whose height fields are measured beside synthetic noise");
-    parser->add_flag("--quick", options->quick, "Fewer repeats, no field above 2048 texels");
-    parser->add_option("-o,--output", options->output, "Also writes the figures as JSON");
+    const auto options = std::make_shared<BenchOptions>();
+    parser->add_option("NAMES", options->parts,
+                       "Parts: relief, environment, scaling, hard, all of them without; budget");
+    parser->add_flag("--quick", options->quick, "Smaller scenes, fewer repeats: two minutes without a GPU");
+    parser->add_option("-o,--output", options->output, "Folder for bench.json and report.html")
+        ->required()
+        ->type_name("DIR");
+    parser->add_option("--gallery", options->gallery, "Folder with elevation, dragon and sunset")
+        ->capture_default_str()
+        ->type_name("DIR");
+    parser
+        ->add_option("--truths", options->truths,
+                     "Folder where exact solutions are kept for the next run; else truths in the output's")
+        ->type_name("DIR");
+    parser->add_option("--commit", options->commit, "What was built, for the report's header")
+        ->capture_default_str();
     parser->footer("Examples:\n"
-                   "  lucent bench --quick\n"
-                   "  lucent bench elevation.json dragon.json -o relief.json");
+                   "  lucent bench --quick -o build/bench\n"
+                   "  lucent bench relief environment -o build/bench\n"
+                   "  lucent bench budget -o build/budget   # proves quality.maxError: half an hour");
     return {parser, [options] { return bench(*options); }};
 }
 

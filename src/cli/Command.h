@@ -16,11 +16,14 @@ struct Command {
 
 Command addRender(CLI::App& program);
 Command addTruth(CLI::App& program);
+Command addMerge(CLI::App& program);
 Command addCompare(CLI::App& program);
 Command addExplain(CLI::App& program);
 Command addList(CLI::App& program);
 Command addConvert(CLI::App& program);
 Command addSchema(CLI::App& program);
 Command addBench(CLI::App& program);
+Command addReport(CLI::App& program);
+Command addSelfCheck(CLI::App& program);
 
 } // namespace lucent::cli

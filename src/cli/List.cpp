@@ -36,6 +36,7 @@ std::vector<Section> sections() {
     all.push_back({"environment", "environment", &scene::environmentParams()});
     all.push_back({"camera", "camera", &scene::cameraParams()});
     all.push_back({"view", "view", &scene::viewParams()});
+    all.push_back({"quality", "quality", &scene::qualityParams()});
     return all;
 }
 

@@ -1,7 +1,9 @@
 #include "frame/Renderer.h"
 
+#include "frame/Budget.h"
 #include "graph/FrameGraph.h"
 #include "relief/Relief.h"
+#include "relief/Transfer.h"
 #include "views/Surface.h"
 
 #include <algorithm>
@@ -31,6 +33,50 @@ struct DisplayBlock {
         return layout;
     }
 };
+
+struct BesideBlock {
+    vec4 scale{1}, shift{0};
+    vec2 corner{0};
+    float pixelsPerTexel = 1, divider = 0, full = 1;
+    int encode = 0, right = 0;
+    int padding = 0;
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {
+            {"scale", offsetof(BesideBlock, scale)},
+            {"shift", offsetof(BesideBlock, shift)},
+            {"corner", offsetof(BesideBlock, corner)},
+            {"pixelsPerTexel", offsetof(BesideBlock, pixelsPerTexel)},
+            {"divider", offsetof(BesideBlock, divider)},
+            {"full", offsetof(BesideBlock, full)},
+            {"encode", offsetof(BesideBlock, encode)},
+            {"right", offsetof(BesideBlock, right)}};
+        static const graph::BlockLayout layout{"BesideBlock", sizeof(BesideBlock), members};
+        return layout;
+    }
+};
+
+bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
+
+// Light itself, which may be found in several ways, not how one of them finds it.
+bool showsLight(const scene::Scene& scene) {
+    return scene.view.show == Aov::Color || scene.view.show == Aov::Illumination;
+}
+
+// Whether the scene wants an error kept that settings could miss.
+bool limited(const scene::Scene& scene) {
+    return scene.quality.maxError > 0 && showsLight(scene) && Budget::matters(scene);
+}
+
+// Only an eye that looks straight down on every field sees no side wall.
+bool seesWalls(const scene::Scene& scene) {
+    if (scene.camera.type == scene::Camera::Type::Perspective) return true;
+    const vec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+        const vec3 down = rotationFromDegrees(object.transform.rotate) * vec3(0, 0, -1);
+        return object.visible && glm::length(forward - down) > 1e-6f;
+    });
+}
 
 bool isGeometric(Aov aov) { return aov == Aov::Normal || aov == Aov::Depth || aov == Aov::Position; }
 
@@ -78,6 +124,29 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
     return block;
 }
 
+// What the surface image depends on.
+struct SurfaceKey {
+    struct Object {
+        std::shared_ptr<const Image> heights, alpha;
+        float width, heightScale;
+        mat4 worldFromObject;
+        bool visible;
+        bool operator==(const Object&) const = default;
+    };
+    std::vector<Object> objects;
+    mat4 clipFromWorld;
+    ivec2 size;
+    bool operator==(const SurfaceKey&) const = default;
+};
+
+SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size) {
+    SurfaceKey key{{}, views::makeEye(scene, float(size.x) / float(size.y)).clipFromWorld, size};
+    for (const scene::Object& object : scene.objects)
+        key.objects.push_back({object.shape.heights, object.shape.alpha, object.shape.width,
+                               object.shape.heightScale, object.transform.worldFromObject(), object.visible});
+    return key;
+}
+
 double now() {
     using namespace std::chrono;
     return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
@@ -96,36 +165,61 @@ struct Renderer::State {
     static constexpr double kSliceMs = 40;
     static constexpr int kFirstStage = 20; // directions
     static constexpr int kStageFactor = 4;
+    static constexpr float kTransferError = 0.005f; // RMSE over the mean, when none is wanted
 
-    explicit State(gl::Context& gl) : context(gl), pool(gl.device()), images(gl), relief(gl) {}
+    struct Stage {
+        int directions; // of the environment
+        bool transfer;  // they only light walls; the rest comes from the transfers
+    };
+
+    enum class Effort { Coarse, Progressive, Final }; // one first look; looks, then all; all at once
+
+    explicit State(gl::Context& gl)
+        : context(gl), pool(gl.device()), images(gl), relief(gl), budget(gl, pool, images, relief) {}
 
     gl::Context& context;
     graph::TexturePool pool;
     views::ImageCache images;
     relief::Relief relief;
     graph::Texture surface, shownSurface, shown, sum, scratch, lightTable;
+    std::vector<std::unique_ptr<relief::Transfer>> transfers; // of the visible objects
+    Budget budget;
+    std::optional<Budget::Choice> choice; // the budget's, for the last picture that had one
+    graph::Texture truth;                 // beside the picture
+    std::uint64_t truthNumber = 0;
 
     // the picture being made
     std::uint64_t revision = 0;
     ivec2 size{0};
     bool started = false, coarse = false;
+    bool dragged = false;
+    bool planning = false;                           // the settings are still to be chosen
+    relief::Settings settings;                       // that this picture is made with
     bool surfaceDrawn = false, surfaceShown = false; // of this picture
-    std::vector<int> stages;                         // numbers of environment directions
+    std::optional<SurfaceKey> shownKey;              // what shownSurface was drawn for
+    std::vector<Stage> stages;
     std::size_t stage = 0;
     std::vector<relief::LightSource> lights; // of this stage
+    int placed = 0;                          // so many of them have a place or a direction of their own
     int next = 0;                            // light
     double msPerLight = 0;
-    double workMs = 0;
+    double workMs = 0, planMs = 0;
     int drawsBefore = 0, passes = 0;
     Stats stats;
 
-    static const relief::Settings& settings(const scene::Scene& scene) {
-        return scene.technique.at("relief").as<relief::Settings>();
-    }
-
-    void start(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize, bool isCoarse);
+    void start(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize, Effort effort);
+    void chooseSettings(const scene::Scene& scene, Effort effort);
+    void addStages(const scene::Scene& scene, Effort effort);
+    Status plan(const scene::Scene& scene);
+    Result<Progress> advance(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
+                             Effort effort);
     void makeTargets();
     void startStage(const scene::Scene& scene);
+    bool transfersReady(const scene::Scene& scene) const;
+    Result<bool> makeTransfers(const std::vector<views::DrawnObject>& objects);
+    void lightTransfers(const scene::Scene& scene, const std::vector<views::DrawnObject>& objects);
+    Result<bool> prepareTransfers(const scene::Scene& scene, const std::vector<views::DrawnObject>& objects);
+    Result<std::vector<relief::Transferred>> recordTransfers(graph::FrameGraph& graph) const;
     Status slice(const scene::Scene& scene);
     Status recordSlice(graph::FrameGraph& graph, const scene::Scene& scene, const views::Eye& eye,
                        const std::vector<views::DrawnObject>& objects, int end);
@@ -134,36 +228,197 @@ struct Renderer::State {
     Result<Image> display(const scene::Scene& scene, bool linear);
     Status recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target,
                          bool linear);
-    bool complete() const { return started && stage >= stages.size(); }
+    Status recordBeside(graph::FrameGraph& graph, const scene::Scene& scene, const Beside& beside,
+                        const graph::Texture& linear);
+    void takeTruth(const Beside& beside);
+    float work(const Stage& of) const;
+    float shareOfStage() const;
+    bool complete() const { return started && !planning && stage >= stages.size(); }
     int sliceEnd() const;
 };
 
 void Renderer::State::start(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
-                            bool isCoarse) {
+                            Effort effort) {
     started = true;
     revision = newRevision;
     size = newSize;
-    surfaceDrawn = surfaceShown = false;
+    makeTargets();
+    surfaceDrawn = surfaceShown = shownKey == surfaceKey(scene, newSize); // light alone may have changed
     stage = 0;
-    workMs = 0;
+    workMs = planMs = 0;
     drawsBefore = context.device().drawCount();
     passes = 0;
     stages.clear();
-    const bool manyLights = scene.environment && scene.environment->enabled && !isGeometric(scene.view.show);
-    const int wanted = settings(scene).environmentLights;
-    for (int count = kFirstStage; manyLights && count * 2 < wanted; count *= kStageFactor)
-        stages.push_back(count);
-    stages.push_back(wanted);
-    coarse = isCoarse && stages.size() > 1;
-    if (coarse) stages.resize(1);
-    makeTargets();
+    coarse = false;
+    chooseSettings(scene, effort);
+    if (!planning)
+        addStages(scene, effort);
+    else if (effort == Effort::Progressive)
+        stages.push_back({kFirstStage, false});
     startStage(scene);
 }
+
+// The scene's own settings; or, with an error to keep, those the budget chooses: at once where a transfer is
+// there already, because then it is the cheapest.
+void Renderer::State::chooseSettings(const scene::Scene& scene, Effort effort) {
+    settings = scene.technique.at("relief").as<relief::Settings>();
+    dragged = effort == Effort::Coarse;
+    planning = limited(scene) && !dragged;
+    if (!limited(scene)) {
+        choice.reset();
+        return;
+    }
+    const relief::Settings own = settings;
+    settings.method = relief::Method::Transfer;
+    settings.terms = relief::kMostTerms;
+    if (planning) budget.start(scene, size);
+    if (hasEnvironment(scene) && transfersReady(scene)) {
+        planning = false;
+    } else if (effort == Effort::Coarse && choice) {
+        settings = choice->settings;
+    } else {
+        settings = own;
+        settings.method = relief::Method::Hierarchy;
+    }
+}
+
+void Renderer::State::addStages(const scene::Scene& scene, Effort effort) {
+    const bool manyLights = hasEnvironment(scene) && !isGeometric(scene.view.show);
+    const int wanted = settings.environmentLights;
+    const bool transfer = manyLights && settings.method == relief::Method::Transfer && showsLight(scene);
+    const bool atOnce = effort == Effort::Final || (transfer && transfersReady(scene));
+    const int summed = transfer ? kFirstStage * kStageFactor : wanted; // while the transfer is made
+    for (int count = kFirstStage; manyLights && !atOnce && count * 2 < summed; count *= kStageFactor)
+        stages.push_back({count, false});
+    if (transfer)
+        stages.push_back({seesWalls(scene) ? wanted : 0, true});
+    else
+        stages.push_back({wanted, false});
+    coarse = effort == Effort::Coarse && stages.size() > 1;
+    if (coarse) stages.resize(1);
+}
+
+// Chooses the settings for one slice of time, and goes on with them when they are known.
+Status Renderer::State::plan(const scene::Scene& scene) {
+    const double before = now();
+    while (!budget.done() && now() - before < kSliceMs)
+        if (Status stepped = budget.step(scene); !stepped) return stepped;
+    workMs += now() - before;
+    planMs += now() - before;
+    if (!budget.done()) return Done{};
+    choice = budget.choice();
+    settings = choice->settings;
+    planning = false;
+    addStages(scene, Effort::Final);
+    startStage(scene);
+    return Done{};
+}
+
+// --- transfers
+
+bool Renderer::State::transfersReady(const scene::Scene& scene) const {
+    std::size_t next = 0;
+    for (const scene::Object& object : scene.objects) {
+        if (!object.visible) continue;
+        if (next == transfers.size() || !transfers[next]->ready() ||
+            transfers[next]->key() != relief::Transfer::keyOf(object, settings))
+            return false;
+        ++next;
+    }
+    return true;
+}
+
+// Works on the transfers for one slice of time. @return whether all are ready
+Result<bool> Renderer::State::makeTransfers(const std::vector<views::DrawnObject>& objects) {
+    transfers.resize(objects.size());
+    const double start = now();
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        relief::Transfer::Key key = relief::Transfer::keyOf(*objects[i].object, settings);
+        if (!transfers[i] || transfers[i]->key() != key)
+            transfers[i] = std::make_unique<relief::Transfer>(context, std::move(key));
+        while (!transfers[i]->ready()) {
+            if (now() - start > kSliceMs) {
+                workMs += now() - start;
+                return false;
+            }
+            if (Status made = transfers[i]->step(pool, objects[i]); !made) return made.error();
+        }
+    }
+    workMs += now() - start;
+    return true;
+}
+
+// Brings the scene's environment onto the transfers, with as many terms as the error asks for.
+void Renderer::State::lightTransfers(const scene::Scene& scene,
+                                     const std::vector<views::DrawnObject>& objects) {
+    const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
+    const std::vector<relief::SmallLight> environment = relief::smallLights(scene, settings);
+    const float wanted = scene.quality.maxError > 0 ? scene.quality.maxError : kTransferError;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const scene::Object& object = *objects[i].object;
+        const vec4 from = eye.inObject(object.transform.worldFromObject());
+        vec3 view[4];
+        for (int corner = 0; corner < 4; ++corner) {
+            const vec2 sign(corner % 2 ? 1 : -1, corner / 2 ? -1 : 1);
+            const vec3 at(0.5f * sign * object.shape.footprint(), 0);
+            view[corner] = from.w == 0 ? vec3(from) : glm::normalize(at - vec3(from));
+        }
+        transfers[i]->setEnvironment(object, environment, view, Budget::kTransferShare * wanted);
+    }
+}
+
+// Works until the transfers are there and show this scene's environment, for one slice of time. With an error
+// to keep they must keep it on the budget's sample, else the budget goes on without them. @return whether
+// they are ready
+Result<bool> Renderer::State::prepareTransfers(const scene::Scene& scene,
+                                               const std::vector<views::DrawnObject>& objects) {
+    const Result<bool> ready = makeTransfers(objects);
+    if (!ready || !*ready) return ready;
+    const double before = now();
+    lightTransfers(scene, objects);
+    if (!limited(scene) || dragged) return true;
+    const auto record = [this](graph::FrameGraph& graph) { return recordTransfers(graph); };
+    const Result<float> error = budget.errorOfTransfer(scene, settings, record);
+    planMs += now() - before;
+    if (!error) return error.error();
+    choice = {settings, *error, true};
+    if (*error <= scene.quality.maxError) return true;
+    budget.refuseTransfer();
+    planning = true;
+    stages.resize(stage);
+    return false;
+}
+
+Result<std::vector<relief::Transferred>> Renderer::State::recordTransfers(graph::FrameGraph& graph) const {
+    std::vector<relief::Transferred> list;
+    for (const auto& transfer : transfers) {
+        Result<graph::TextureId> irradiance = transfer->recordIrradiance(graph);
+        if (!irradiance) return irradiance.error();
+        list.push_back({*irradiance, transfer->gloss().handle()});
+    }
+    return list;
+}
+
+// How long a stage takes, in directions.
+float Renderer::State::work(const Stage& of) const {
+    return float(of.transfer ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions) + 1;
+}
+
+float Renderer::State::shareOfStage() const {
+    if (!stages[stage].transfer) return float(next) / float(std::max<std::size_t>(1, lights.size()));
+    float share = 0;
+    for (const auto& transfer : transfers)
+        share += transfer ? transfer->share() : 0;
+    return share / float(std::max<std::size_t>(1, transfers.size()));
+}
+
+// --- one picture
 
 void Renderer::State::makeTargets() {
     const TextureDesc desc{.size = size, .format = Format::RGBA32F};
     if (surface && surface.desc() == desc) return;
     gl::Device& device = context.device();
+    shownKey.reset();
     surface = graph::Texture(device, desc, "frame.surface");
     shownSurface = graph::Texture(device, desc, "frame.shownSurface");
     shown = graph::Texture(device, desc, "frame.shown");
@@ -174,7 +429,8 @@ void Renderer::State::makeTargets() {
 void Renderer::State::startStage(const scene::Scene& scene) {
     next = 0;
     if (stage >= stages.size()) return;
-    lights = relief::Relief::lights(scene, settings(scene), stages[stage]);
+    lights = relief::Relief::lights(scene, settings, stages[stage].directions);
+    placed = int(relief::Relief::lights(scene, settings, 0).size());
     const Image table = relief::Relief::lightTable(lights);
     const TextureDesc desc{.size = table.size(), .format = Format::RGBA32F};
     if (!lightTable || lightTable.desc() != desc)
@@ -184,8 +440,9 @@ void Renderer::State::startStage(const scene::Scene& scene) {
 
 int Renderer::State::sliceEnd() const {
     const int count = int(lights.size());
-    const int affordable = msPerLight > 0 ? std::max(1, int(kSliceMs / msPerLight)) : 1;
-    const int end = std::min(count, next + affordable);
+    const double affordable = msPerLight > 0 ? std::max(1.0, kSliceMs / msPerLight) : 1;
+    const int end =
+        std::min(count, next + int(std::min(affordable, double(relief::Relief::kMostLightsAtOnce))));
     // Every point and distant light belongs to the first look: they are few.
     return next == 0 ? std::min(count, std::max(end, 4)) : end;
 }
@@ -213,6 +470,15 @@ Status Renderer::State::recordSlice(graph::FrameGraph& graph, const scene::Scene
         if (Status s = views::recordSurface(graph, context, eye, objects, surfaceId, size); !s) return s;
     if (isGeometric(scene.view.show))
         return views::recordGeometry(graph, context, eye, objects, surfaceId, targetId, scene.view.show);
+    std::vector<relief::Transferred> transferred;
+    if (stages[stage].transfer) {
+        transferred.resize(objects.size()); // slices after the first add light to walls only
+        if (next == 0) {
+            auto recorded = recordTransfers(graph);
+            if (!recorded) return recorded.error();
+            transferred = std::move(*recorded);
+        }
+    }
     const relief::Inputs in{.eye = eye,
                             .objects = objects,
                             .lights = lights,
@@ -222,8 +488,10 @@ Status Renderer::State::recordSlice(graph::FrameGraph& graph, const scene::Scene
                             .lightTable = import(lightTable),
                             .first = next,
                             .end = end,
+                            .placed = placed,
+                            .transferred = std::move(transferred),
                             .show = scene.view.show};
-    return relief.record(graph, in, settings(scene));
+    return relief.record(graph, in, settings);
 }
 
 Status Renderer::State::slice(const scene::Scene& scene) {
@@ -231,6 +499,11 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     if (!objects) return objects.error();
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
     const bool geometric = isGeometric(scene.view.show);
+    if (stages[stage].transfer && next == 0) {
+        const Result<bool> ready = prepareTransfers(scene, *objects);
+        if (!ready) return ready.error();
+        if (!*ready) return Done{};
+    }
     const int end = geometric ? int(lights.size()) : sliceEnd();
     const bool more = end < int(lights.size());
     if ((more || next > 0) && !scratch)
@@ -249,13 +522,17 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     next = end;
     if (more) return Done{};
     std::swap(sum, shown);
-    if (!surfaceShown) std::swap(surface, shownSurface);
+    if (!surfaceShown) {
+        std::swap(surface, shownSurface);
+        shownKey = surfaceKey(scene, size);
+    }
     surfaceShown = true;
     stats.lights = int(lights.size());
     ++stage;
     startStage(scene);
     if (stage >= stages.size()) {
         stats.milliseconds = workMs;
+        stats.planMilliseconds = planMs;
         stats.draws = context.device().drawCount() - drawsBefore;
         stats.passes = passes;
         images.trim();
@@ -293,6 +570,53 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
     return Done{};
 }
 
+void Renderer::State::takeTruth(const Beside& beside) {
+    const TextureDesc desc{.size = beside.truth.size(), .format = Format::RGBA32F};
+    const bool fits = truth && truth.desc() == desc;
+    if (fits && truthNumber == beside.number) return;
+    if (!fits) truth = graph::Texture(context.device(), desc, "frame.truth");
+    context.device().upload(truth.handle(), 0, beside.truth.pixels);
+    truthNumber = beside.number;
+}
+
+Status Renderer::State::recordBeside(graph::FrameGraph& graph, const scene::Scene& scene,
+                                     const Beside& beside, const graph::Texture& linear) {
+    Result<const gl::Program*> program = context.program("frame/beside", {});
+    if (!program) return program.error();
+    const auto import = [&](const graph::Texture& texture) {
+        return graph.import(texture.handle(), texture.desc(), texture.label());
+    };
+    const graph::TextureId pictureId = import(linear), truthId = import(truth);
+    const TextureDesc screen{.size = beside.screen, .format = Format::RGBA8};
+    const graph::TextureId target = graph.import(graph::TextureHandle::Screen, screen, "screen");
+    if (Status recorded = recordDisplay(graph, scene, pictureId, true); !recorded) return recorded;
+
+    const DisplayBlock shown = displayOf(scene, views::makeEye(scene, float(size.x) / float(size.y)));
+    BesideBlock block;
+    block.scale = shown.scale;
+    block.shift = shown.shift;
+    block.encode = shown.encode;
+    block.corner = {beside.corner.x,
+                    float(beside.screen.y) - beside.corner.y - float(size.y) * beside.pixelsPerTexel};
+    block.pixelsPerTexel = beside.pixelsPerTexel;
+    block.divider = beside.divider;
+    block.full = beside.full;
+    block.right = int(beside.right);
+    graph.addPass("frame.beside", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("the picture beside its truth");
+        pass.sample(pictureId);
+        pass.sample(truthId);
+        pass.write(target);
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uPicture", resources[pictureId]}, {"uTruth", resources[truthId]}}});
+        };
+    });
+    graph.keep(target);
+    return Done{};
+}
+
 Result<Image> Renderer::State::display(const scene::Scene& scene, bool linear) {
     const graph::Texture target(context.device(),
                                 {.size = size, .format = linear ? Format::RGBA32F : Format::RGBA8},
@@ -305,6 +629,29 @@ Result<Image> Renderer::State::display(const scene::Scene& scene, bool linear) {
     return context.device().read(target.handle());
 }
 
+Result<Progress> Renderer::State::advance(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
+                                          Effort effort) {
+    if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
+        start(scene, newRevision, newSize, effort);
+    if (!complete())
+        if (Status status = stage < stages.size() ? slice(scene) : plan(scene); !status) {
+            started = false;
+            return status.error();
+        }
+    Progress progress;
+    progress.complete = complete();
+    float total = planning ? float(settings.environmentLights) : 0, done = 0;
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        total += work(stages[i]);
+        if (i < stage)
+            done += work(stages[i]);
+        else if (i == stage)
+            done += work(stages[i]) * shareOfStage();
+    }
+    progress.fraction = progress.complete ? 1 : done / total;
+    return progress;
+}
+
 // --- public
 
 Renderer::Renderer(gl::Context& context) : state_(std::make_unique<State>(context)) {}
@@ -312,36 +659,17 @@ Renderer::~Renderer() = default;
 
 Result<Progress> Renderer::advance(const scene::Scene& scene, std::uint64_t revision, ivec2 size,
                                    bool coarse) {
-    State& s = *state_;
-    if (!s.started || s.revision != revision || s.size != size || (s.coarse && !coarse))
-        s.start(scene, revision, size, coarse);
-    if (!s.complete())
-        if (Status status = s.slice(scene); !status) {
-            s.started = false;
-            return status.error();
-        }
-    Progress progress;
-    progress.complete = s.complete();
-    float total = 0, done = 0;
-    for (std::size_t i = 0; i < s.stages.size(); ++i) {
-        total += float(s.stages[i]);
-        if (i < s.stage)
-            done += float(s.stages[i]);
-        else if (i == s.stage)
-            done += float(s.stages[i]) * float(s.next) / float(std::max<std::size_t>(1, s.lights.size()));
-    }
-    progress.fraction = progress.complete ? 1 : done / total;
-    return progress;
+    return state_->advance(scene, revision, size,
+                           coarse ? State::Effort::Coarse : State::Effort::Progressive);
 }
 
 Status Renderer::finish(const scene::Scene& scene, std::uint64_t revision, ivec2 size) {
     for (;;) {
-        Result<Progress> progress = advance(scene, revision, size);
+        Result<Progress> progress = state_->advance(scene, revision, size, State::Effort::Final);
         if (!progress) return progress.error();
         if (progress->complete) return Done{};
     }
 }
-
 Status Renderer::present(const scene::Scene& scene) {
     State& s = *state_;
     assert(s.shown && "present() before the first advance()");
@@ -351,6 +679,17 @@ Status Renderer::present(const scene::Scene& scene) {
         return s.recordDisplay(graph, scene, graph.import(graph::TextureHandle::Screen, screen, "screen"),
                                false);
     });
+}
+
+Status Renderer::present(const scene::Scene& scene, const Beside& beside) {
+    State& s = *state_;
+    assert(s.shown && "present() before the first advance()");
+    assert(beside.truth.size() == s.size && beside.truth.channels == 4);
+    s.takeTruth(beside);
+    s.context.device().setScreenSize(beside.screen);
+    const graph::Texture linear(s.context.device(), {.size = s.size, .format = Format::RGBA32F},
+                                "frame.linear");
+    return s.runGraph([&](graph::FrameGraph& graph) { return s.recordBeside(graph, scene, beside, linear); });
 }
 
 void Renderer::wait() { state_->context.device().wait(state_->shown.handle()); }
@@ -380,6 +719,10 @@ Result<Image> Renderer::readDisplay(const scene::Scene& scene) {
 Stats Renderer::stats() const {
     Stats stats = state_->stats;
     stats.bytes = state_->context.device().textureBytes();
+    if (state_->choice) {
+        stats.settings = state_->choice->text();
+        stats.predicted = state_->choice->predicted;
+    }
     return stats;
 }
 
@@ -400,18 +743,27 @@ std::string Renderer::State::leftOut(const scene::Scene& scene,
     else if (!scene.environment->enabled)
         line("environment: switched off");
     if (scene.lights.empty()) line("point and distant lights: the scene names none");
-    if (scene.maxError) line("quality.maxError: hierarchy is exact, there is nothing to trade");
+    if (scene.quality.maxError > 0 && !Budget::matters(scene))
+        line("quality.maxError: every light is a point or a direction, and hierarchy is exact for them");
     return text;
 }
 
 Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     State& s = *state_;
-    s.start(scene, s.revision + 1, size, false);
-    s.stage = s.stages.size() - 1; // the last stage has every light
-    s.startStage(scene);
+    s.shownKey.reset(); // explained as if nothing were there yet
+    s.start(scene, s.revision + 1, size, State::Effort::Final);
+    while (s.planning)
+        if (Status planned = s.plan(scene); !planned) return planned.error();
     Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, s.images);
     if (!objects) return objects.error();
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
+    while (s.stages.back().transfer) { // how many coefficients are used shows once they are there
+        const Result<bool> ready = s.makeTransfers(*objects);
+        if (!ready) return ready.error();
+        if (!*ready) continue;
+        s.lightTransfers(scene, *objects);
+        break;
+    }
     graph::FrameGraph graph;
     const TextureDesc screen{.size = size, .format = Format::RGBA8};
     if (Status r = s.recordSlice(graph, scene, eye, *objects, int(s.lights.size())); !r) return r.error();
@@ -422,7 +774,8 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     if (Status compiled = graph.compile(); !compiled) return compiled.error();
     s.started = false;
 
-    std::string text = "techniques\n";
+    std::string text = s.choice ? "quality.maxError chose\n  " + s.choice->text() + "\n" : "";
+    text += "techniques\n";
     if (const auto reason = relief::Relief::need(scene)) text += "  relief: " + *reason + "\n";
     text += "passes, in the order they run\n" + graph.dump();
     text += "textures that stay\n";
@@ -434,14 +787,19 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
                  std::to_string(texture->desc().size.y) + " " + graph::name(texture->desc().format),
              texture->desc().bytes());
     line("heights, pyramids and maps of the objects", s.images.bytes());
+    for (const auto& transfer : s.transfers)
+        line("relief.coefficients, the transfer of one object", transfer->bytes());
     const std::string left = s.leftOut(scene, *objects);
     return text + "left out\n" + (left.empty() ? "  nothing\n" : left);
 }
 
 void Renderer::release() {
     State& s = *state_;
-    for (graph::Texture* texture : {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable})
+    for (graph::Texture* texture :
+         {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable, &s.truth})
         *texture = graph::Texture();
+    s.shownKey.reset();
+    s.transfers.clear();
     s.images.clear();
     s.pool.trim();
     s.pool.trim();

@@ -25,11 +25,28 @@ struct Progress {
 
 /// What the last complete picture cost.
 struct Stats {
-    int passes = 0;          ///< passes since the picture began
-    int draws = 0;           ///< draw calls since the picture began
-    int lights = 0;          ///< lights summed (an environment counts its samples)
-    std::size_t bytes = 0;   ///< GPU memory of textures
-    double milliseconds = 0; ///< from the first slice to the finished last one
+    int passes = 0;              ///< passes since the picture began
+    int draws = 0;               ///< draw calls since the picture began
+    int lights = 0;              ///< lights summed (an environment counts its samples)
+    std::size_t bytes = 0;       ///< GPU memory of textures
+    double milliseconds = 0;     ///< from the first slice to the finished last one
+    std::string settings;        ///< what quality.maxError chose, for people; "" without it
+    double predicted = 0;        ///< RMSE over the mean that was predicted for it
+    double planMilliseconds = 0; ///< of them, for choosing
+};
+
+/// A reference beside the picture. Places are pixels of the screen from its top left corner.
+struct Beside {
+    enum class Right : int { Nothing, Truth, Error };
+    const Image& truth;         ///< linear, 4 channels, of the picture's size; the fourth is coverage,
+                                ///< below 0 where it is not known: there the picture's holds
+    std::uint64_t number = 0;   ///< changes when the truth does, > 0
+    Right right = Right::Truth; ///< what stands right of the divider
+    float full = 1;             ///< Error: difference that gets the last colour of measure::heatMap(), > 0
+    ivec2 screen{0};            ///< size of the default framebuffer
+    vec2 corner{0};             ///< upper left one of the picture
+    float pixelsPerTexel = 1;   ///< how large a pixel of the picture is on the screen
+    float divider = 0;          ///< from the screen's left side
 };
 
 /// Draws one scene again and again. One per viewer; the context and its programs are shared.
@@ -49,6 +66,8 @@ public:
 
     /// Draws the picture so far, tone-mapped, into the default framebuffer (premultiplied alpha).
     Status present(const scene::Scene& scene);
+    /// The same with a reference beside it, everything enlarged without smoothing.
+    Status present(const scene::Scene& scene, const Beside& beside);
 
     /// Runs advance() until complete.
     Status finish(const scene::Scene& scene, std::uint64_t revision, ivec2 size);

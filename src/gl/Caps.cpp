@@ -6,11 +6,17 @@
 #include <emscripten/html5_webgl.h>
 #endif
 
+#include <algorithm>
 #include <cstring>
 
 namespace lucent::gl {
 
 namespace {
+
+#ifdef __EMSCRIPTEN__
+constexpr GLenum kUnmaskedVendor = 0x9245;   // UNMASKED_VENDOR_WEBGL
+constexpr GLenum kUnmaskedRenderer = 0x9246; // UNMASKED_RENDERER_WEBGL
+#endif
 
 std::string getString(GLenum name) {
     const auto* text = reinterpret_cast<const char*>(glGetString(name));
@@ -38,20 +44,33 @@ bool enable(const char* extension) {
 
 } // namespace
 
-Caps Caps::probe() {
+Caps Caps::probe(std::span<const std::string_view> without) {
+    const auto has = [without](const char* extension) {
+        const std::string_view name(extension + 3); // "GL_"
+        return std::find(without.begin(), without.end(), name) == without.end() && enable(extension);
+    };
     Caps caps;
     caps.vendor = getString(GL_VENDOR);
     caps.renderer = getString(GL_RENDERER);
     caps.version = getString(GL_VERSION);
+#ifdef __EMSCRIPTEN__
+    if (enable("GL_WEBGL_debug_renderer_info")) { // else some browsers name themselves instead
+        caps.vendor = getString(kUnmaskedVendor);
+        caps.renderer = getString(kUnmaskedRenderer);
+    }
+#endif
     caps.maxTextureSize = getInteger(GL_MAX_TEXTURE_SIZE);
     caps.maxDrawBuffers = getInteger(GL_MAX_DRAW_BUFFERS);
-    caps.colorBufferFloat = enable("GL_EXT_color_buffer_float");
-    caps.floatBlend = enable("GL_EXT_float_blend");
-    caps.floatLinear = enable("GL_OES_texture_float_linear");
+    GLint range[2] = {}, bits = 0;
+    glGetShaderPrecisionFormat(GL_FRAGMENT_SHADER, GL_HIGH_FLOAT, range, &bits);
+    caps.fragmentBits = bits;
+    caps.colorBufferFloat = has("GL_EXT_color_buffer_float");
+    caps.floatBlend = has("GL_EXT_float_blend");
+    caps.floatLinear = has("GL_OES_texture_float_linear");
 #ifdef __EMSCRIPTEN__
-    caps.timerQuery = enable("GL_EXT_disjoint_timer_query_webgl2");
+    caps.timerQuery = has("GL_EXT_disjoint_timer_query_webgl2");
 #else
-    caps.timerQuery = enable("GL_EXT_disjoint_timer_query");
+    caps.timerQuery = has("GL_EXT_disjoint_timer_query");
 #endif
     caps.software = caps.renderer.find("llvmpipe") != std::string::npos ||
                     caps.renderer.find("SwiftShader") != std::string::npos ||
@@ -65,10 +84,6 @@ std::vector<std::string> Caps::fallbacks() const {
         lines.push_back(
             "caps: no timer queries (EXT_disjoint_timer_query missing); times are those of finished "
             "frames");
-    if (!floatLinear)
-        lines.push_back(
-            "caps: cannot filter RGBA32F (OES_texture_float_linear missing); maps are filtered in "
-            "the shader, to the same values");
     return lines;
 }
 
@@ -87,7 +102,8 @@ std::string Caps::json() const {
     return "{" + text("vendor", vendor) + text("renderer", renderer) + text("version", version) +
            flag("colorBufferFloat", colorBufferFloat) + flag("floatBlend", floatBlend) +
            flag("floatLinear", floatLinear) + flag("timerQuery", timerQuery) + flag("software", software) +
-           "\"maxTextureSize\": " + std::to_string(maxTextureSize) +
+           "\"fragmentBits\": " + std::to_string(fragmentBits) +
+           ", \"maxTextureSize\": " + std::to_string(maxTextureSize) +
            ", \"maxDrawBuffers\": " + std::to_string(maxDrawBuffers) + "}";
 }
 

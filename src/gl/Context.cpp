@@ -120,7 +120,7 @@ void listenToDriver(std::string& message) {
 
 #endif
 
-Result<std::unique_ptr<Context>> Context::create() {
+Result<std::unique_ptr<Context>> Context::create(std::span<const std::string_view> without) {
     std::unique_ptr<Context> context(new Context);
     context->window_ = std::make_unique<Window>();
 #ifndef __EMSCRIPTEN__
@@ -130,7 +130,7 @@ Result<std::unique_ptr<Context>> Context::create() {
     // A restored context remembers the errors of what was deleted for the lost one.
     for (int i = 0; i < 16 && glGetError(); ++i) {
     }
-    context->caps_ = Caps::probe();
+    context->caps_ = Caps::probe(without);
     if (!context->caps_.colorBufferFloat)
         return Error{"caps: cannot draw into floating-point textures (EXT_color_buffer_float missing) on " +
                          context->caps_.renderer + "; light is summed in them",

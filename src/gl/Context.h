@@ -18,8 +18,9 @@ public:
     /// Natively: creates a surfaceless EGL context (OpenGL ES 3.0) and makes it current. In a page: takes the
     /// WebGL2 context that is current and enables the extensions we use.
     ///
-    /// @return Error (Fault::Machine) that says what is missing and what to install
-    static Result<std::unique_ptr<Context>> create();
+    /// @param without  extensions to do without (see Caps::probe)
+    /// @return         Error (Fault::Machine) that says what is missing and what to install
+    static Result<std::unique_ptr<Context>> create(std::span<const std::string_view> without = {});
     ~Context();
 
     const Caps& caps() const { return caps_; }

@@ -57,7 +57,7 @@ std::string errorName(GLenum error) {
 
 class Device::PassCommands : public graph::Commands {
 public:
-    explicit PassCommands(Device& device) : device_(device) {}
+    PassCommands(Device& device, ivec2 size) : device_(device), size_(size) {}
 
     void draw(const graph::Draw& draw) override {
         const auto& program = static_cast<const Program&>(*draw.program);
@@ -66,7 +66,11 @@ public:
         bindTextures(program, draw.textures);
         setState(GL_DEPTH_TEST, draw.depthTest);
         setState(GL_CULL_FACE, draw.cullFront);
+        setState(GL_BLEND, draw.add);
+        if (draw.add) glBlendFunc(GL_ONE, GL_ONE);
         glCullFace(GL_FRONT);
+        const ivec4 region = draw.region.z > 0 ? draw.region : ivec4(0, 0, size_);
+        glViewport(region.x, region.y, region.z, region.w);
         glDrawArrays(GL_TRIANGLES, 0, draw.vertices);
         ++device_.draws_;
     }
@@ -97,6 +101,7 @@ private:
     }
     static void setState(GLenum state, bool on) { on ? glEnable(state) : glDisable(state); }
     Device& device_;
+    ivec2 size_;
 };
 
 Device::Device() {
@@ -205,7 +210,6 @@ void Device::runPass(const graph::PassTarget& target, const std::function<void(g
     glBindVertexArray(vertexArray_);
     glBindFramebuffer(GL_FRAMEBUFFER, framebufferFor(target));
     glViewport(0, 0, size.x, size.y);
-    glDisable(GL_BLEND);
     glDisable(GL_SCISSOR_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
@@ -213,7 +217,7 @@ void Device::runPass(const graph::PassTarget& target, const std::function<void(g
         glClearColor(target.clear->r, target.clear->g, target.clear->b, target.clear->a);
         glClear(GL_COLOR_BUFFER_BIT | (target.depth != TextureHandle::None ? GL_DEPTH_BUFFER_BIT : 0));
     }
-    PassCommands commands(*this);
+    PassCommands commands(*this, size);
     body(commands);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glBindVertexArray(0);

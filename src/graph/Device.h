@@ -48,8 +48,10 @@ struct Binding {
 struct Draw {
     const Program* program = nullptr;
     int vertices = 3; ///< 3: one triangle over the whole target
+    ivec4 region{0};  ///< x, y, width, height in pixels that are drawn; 0 wide: the whole target
     bool cullFront = false;
     bool depthTest = false;
+    bool add = false; ///< adds to what the target holds; 32-bit floats only after asking Caps
     Block block;
     std::vector<Binding> textures;
 };

@@ -1,10 +1,12 @@
 #include "measure/Metrics.h"
 
+#include "measure/Flip.h"
+#include "measure/Ssim.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 namespace lucent::measure {
 
@@ -26,18 +28,32 @@ Status checkFinite(const Image& image, const std::string& name) {
                  std::to_string(first.x) + ", " + std::to_string(first.y) + "); must be finite"};
 }
 
-/// Calls visit(x, y, value, reference) for every colour value.
+/// Calls visit(x, y, value, reference) for every colour value that counts.
 template <class Visit>
-void forEachValue(const Image& image, const Image& reference, Visit visit) {
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
+void forEachValue(const Image& image, const Image& reference, const Image* coverage, Visit visit) {
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            if (coverage && coverage->at(x, y)[coverage->channels - 1] <= 0) continue;
             for (int channel = 0; channel < colorChannels(image); ++channel)
                 visit(x, y, double(image.at(x, y)[channel]), double(reference.at(x, y)[channel]));
+        }
+    }
+}
+
+/// A share of a sum; NaN when there is nothing to be a share of.
+double shareOf(double part, double whole) {
+    return whole == 0 ? std::numeric_limits<double>::quiet_NaN() : part / whole;
+}
+
+bool exceedsOne(const Image& image) {
+    bool found = false;
+    forEachValue(image, image, nullptr, [&](int, int, double value, double) { found = found || value > 1; });
+    return found;
 }
 } // namespace
 
 Result<Metrics> compare(const Image& image, const std::string& imageName, const Image& reference,
-                        const std::string& referenceName) {
+                        const std::string& referenceName, const Image* coverage) {
     if (image.size() != reference.size() || colorChannels(image) != colorChannels(reference))
         return Error{imageName + ": has " + sizeText(image) + "; must have " + sizeText(reference) +
                      " like " + referenceName};
@@ -47,7 +63,7 @@ Result<Metrics> compare(const Image& image, const std::string& imageName, const 
     Metrics metrics;
     std::vector<double> differences;
     double squares = 0, sum = 0, referenceSum = 0;
-    forEachValue(image, reference, [&](int x, int y, double value, double wanted) {
+    forEachValue(image, reference, coverage, [&](int x, int y, double value, double wanted) {
         const double difference = value - wanted;
         squares += difference * difference;
         sum += value;
@@ -61,17 +77,48 @@ Result<Metrics> compare(const Image& image, const std::string& imageName, const 
         }
         differences.push_back(std::abs(difference));
     });
+    if (differences.empty()) return Error{imageName + ": no pixel is covered; at least one must be"};
     const double count = double(differences.size());
     metrics.rmse = std::sqrt(squares / count);
+    metrics.relRmse = shareOf(metrics.rmse, referenceSum / count);
     metrics.relMse /= count;
     metrics.mae /= count;
     metrics.bias /= count;
     metrics.psnr = -20 * std::log10(metrics.rmse);
-    metrics.fluxRatio = referenceSum == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / referenceSum;
-    const auto p99 = differences.begin() + (std::ptrdiff_t(std::ceil(0.99 * count)) - 1);
-    std::nth_element(differences.begin(), p99, differences.end());
-    metrics.p99 = *p99;
+    metrics.fluxRatio = shareOf(sum, referenceSum);
+    metrics.p50 = percentile(differences, 0.5);
+    metrics.p90 = percentile(differences, 0.9);
+    metrics.p99 = percentile(differences, 0.99);
     return metrics;
+}
+
+double percentile(std::vector<double>& values, double share) {
+    const auto place = values.begin() + (std::ptrdiff_t(std::ceil(share * double(values.size()))) - 1);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
+void addPerceptual(Metrics& metrics, const Image& image, const Image& reference) {
+    const bool unclamped = exceedsOne(image) || exceedsOne(reference);
+    metrics.ssim = ssim(image, reference);
+    metrics.flip = unclamped ? hdrFlip(image, reference).mean : flip(image, reference).mean;
+}
+
+void writeMembers(JsonWriter& json, const Metrics& metrics) {
+    const auto member = [&](std::string_view name, double value) { json.key(name).value(value); };
+    member("rmse", metrics.rmse);
+    member("relRmse", metrics.relRmse);
+    member("relMse", metrics.relMse);
+    member("mae", metrics.mae);
+    member("p50", metrics.p50);
+    member("p90", metrics.p90);
+    member("p99", metrics.p99);
+    member("max", metrics.maximum);
+    member("bias", metrics.bias);
+    member("psnr", metrics.psnr);
+    if (metrics.ssim) member("ssim", *metrics.ssim);
+    if (metrics.flip) member("flip", *metrics.flip);
+    member("fluxRatio", metrics.fluxRatio);
 }
 
 dvec3 heatColor(double share) {
@@ -93,7 +140,7 @@ dvec3 heatColor(double share) {
 Image heatMap(const Image& image, const Image& reference, double full) {
     Image map(image.width, image.height, 3);
     std::vector<double> differences(std::size_t(image.width) * std::size_t(image.height));
-    forEachValue(image, reference, [&](int x, int y, double value, double wanted) {
+    forEachValue(image, reference, nullptr, [&](int x, int y, double value, double wanted) {
         double& difference = differences[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
         difference = std::max(difference, std::abs(value - wanted));
     });

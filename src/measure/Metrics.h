@@ -2,10 +2,13 @@
 /// How far one picture is from another.
 
 #include "base/Image.h"
+#include "base/JsonWriter.h"
 #include "base/Math.h"
 #include "base/Result.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace lucent::measure {
 
@@ -15,22 +18,42 @@ inline constexpr double kRelMseEpsilon = 0.01;
 /// Differences picture minus reference over every pixel and colour channel; alpha is not looked at.
 struct Metrics {
     double rmse = 0;
+    double relRmse = 0;   ///< RMSE over the reference's mean: what error budgets mean; NaN when that is 0
     double relMse = 0;    ///< mean of (a - b)^2 / (b^2 + kRelMseEpsilon)
     double mae = 0;       ///< mean absolute difference
-    double p99 = 0;       ///< 99 % of the absolute differences are not above this
+    double p50 = 0;       ///< half of the absolute differences are not above this ...
+    double p90 = 0;       ///< ... 90 % not above this ...
+    double p99 = 0;       ///< ... and 99 % not above this
     double maximum = 0;   ///< largest absolute difference ...
     ivec2 maximumAt{0};   ///< ... and the first pixel that has it, from the top left
     double psnr = 0;      ///< dB for a peak of 1; infinite for equal pictures
     double bias = 0;      ///< mean difference
     double fluxRatio = 0; ///< sum of the picture over sum of the reference; NaN when that is 0
+
+    // These two cost more than all others together and are there when they were asked for.
+    std::optional<double> ssim; ///< ssim() of Ssim.h; NaN for pictures too small for it
+    std::optional<double> flip; ///< mean of flip() of Flip.h, hdrFlip() when a value is above 1
 };
 
 /// @param imageName, referenceName  used in messages only
-/// @return Error for pictures of different size or number of colour channels, and for values that are not
-/// finite:
-///         how many there are and where the first one is
+/// @param coverage  only pixels where the last channel of this picture is above 0 count (a picture with alpha
+///                  is its own coverage); null: all. Of the same size.
+/// @return Error for pictures of different size or number of colour channels, for values that are not finite
+///         (how many there are and where the first one is), and for a coverage without any pixel
 Result<Metrics> compare(const Image& image, const std::string& imageName, const Image& reference,
-                        const std::string& referenceName);
+                        const std::string& referenceName, const Image* coverage = nullptr);
+
+/// Adds SSIM and FLIP, over all pixels, to what compare() found of the same two pictures.
+void addPerceptual(Metrics& metrics, const Image& image, const Image& reference);
+
+/// The smallest of the values that a share of them is not above.
+///
+/// @param values  not empty; their order changes
+/// @param share   (0, 1]
+double percentile(std::vector<double>& values, double share);
+
+/// The metrics as members of the object that is open; absent ones are left out.
+void writeMembers(JsonWriter& json, const Metrics& metrics);
 
 /// Absolute differences as colours, per pixel the largest of its channels: black for none, over blue, red and
 /// orange to a pale yellow for `full` and above; each step is lighter than the one before.

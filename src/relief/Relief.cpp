@@ -1,96 +1,100 @@
 #include "relief/Relief.h"
 
+#include "relief/ReliefBlock.h"
 #include "views/EnvironmentLights.h"
 
-#include <cstddef>
+#include <algorithm>
+#include <cmath>
 
 namespace lucent::relief {
 
 namespace {
 
-constexpr std::string_view kMethods[] = {"hierarchy", "march", "counting"};
+constexpr std::string_view kMethods[] = {"hierarchy", "march", "counting", "transfer"};
 constexpr std::string_view kAttenuations[] = {"ratio", "exponential"};
+constexpr std::string_view kSamplings[] = {"equal", "importance"};
 
-struct ReliefBlock {
-    views::FieldBlock field;
-    vec4 eye, base, diffuse, specular, falloffs;
-    mat4 objectFromWorld;
-    float metres, radius;
-    int object, firstLight, endLight, isFirst, exponential, steps;
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::fieldMembers(offsetof(ReliefBlock, field));
-            list.insert(list.end(), {{"eye", offsetof(ReliefBlock, eye)},
-                                     {"base", offsetof(ReliefBlock, base)},
-                                     {"diffuse", offsetof(ReliefBlock, diffuse)},
-                                     {"specular", offsetof(ReliefBlock, specular)},
-                                     {"falloffs", offsetof(ReliefBlock, falloffs)},
-                                     {"objectFromWorld", offsetof(ReliefBlock, objectFromWorld)},
-                                     {"metres", offsetof(ReliefBlock, metres)},
-                                     {"radius", offsetof(ReliefBlock, radius)},
-                                     {"object", offsetof(ReliefBlock, object)},
-                                     {"firstLight", offsetof(ReliefBlock, firstLight)},
-                                     {"endLight", offsetof(ReliefBlock, endLight)},
-                                     {"isFirst", offsetof(ReliefBlock, isFirst)},
-                                     {"exponential", offsetof(ReliefBlock, exponential)},
-                                     {"steps", offsetof(ReliefBlock, steps)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"ReliefBlock", sizeof(ReliefBlock), members};
-        return layout;
-    }
-};
-
-ReliefBlock makeBlock(const views::DrawnObject& drawn, const Inputs& in, const Settings& settings) {
-    const scene::Object& object = *drawn.object;
-    const scene::Material& material = object.material;
-    const mat4 worldFromObject = object.transform.worldFromObject();
-    const float scale = object.transform.scale;
-    ReliefBlock block{};
-    block.field = drawn.field->block(object.shape);
-    block.eye = in.eye.inObject(worldFromObject);
-    block.base = vec4(material.base, material.specularity);
-    block.diffuse = vec4(material.diffuse, material.forwardScatter);
-    block.specular = vec4(material.specular, material.depth / scale);
-    block.falloffs = vec4(material.specularFalloff, material.scatterFalloff);
-    block.objectFromWorld = glm::inverse(worldFromObject);
-    block.metres = scale;
-    block.radius = glm::length(object.shape.footprint());
-    block.object = drawn.index;
-    block.firstLight = in.first;
-    block.endLight = in.end;
-    block.isFirst = in.first == 0;
-    block.exponential = settings.attenuation == Attenuation::Exponential;
-    block.steps = settings.steps;
-    return block;
-}
-
-std::vector<std::string> defines(const views::DrawnObject& drawn, const Settings& settings, scene::Aov show) {
+std::vector<std::string> defines(const views::DrawnObject& drawn, const Settings& settings,
+                                 const Inputs& in) {
     constexpr auto none = graph::TextureHandle::None;
     std::vector<std::string> list;
+    if (!in.transferred.empty()) list.push_back("USE_TRANSFER");
+    const bool shines = !in.transferred.empty() && drawn.object->material.specularity > 0;
+    if (in.first == in.end && !shines) list.push_back("LIGHTLESS");
     if (settings.method == Method::March) list.push_back("METHOD_MARCH");
     if (settings.method == Method::Counting) list.push_back("METHOD_COUNTING");
     if (drawn.baseMap != none) list.push_back("USE_BASE_MAP");
     if (drawn.diffuseMap != none) list.push_back("USE_DIFFUSE_MAP");
     if (drawn.specularMap != none) list.push_back("USE_SPECULAR_MAP");
-    if (show == scene::Aov::Iterations) list.push_back("SHOW_ITERATIONS");
-    if (show == scene::Aov::Visibility) list.push_back("SHOW_VISIBILITY");
+    if (in.show == scene::Aov::Iterations) list.push_back("SHOW_ITERATIONS");
+    if (in.show == scene::Aov::Visibility) list.push_back("SHOW_VISIBILITY");
     return list;
 }
 
 bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
 
-LightSource sourceOf(const scene::Light& light) {
+struct Lamp {
+    LightSource source;
+    float extent; ///< of its disc: m, or tangent of the angle; 0: none
+};
+
+Lamp lampOf(const scene::Light& light) {
     if (const auto* point = std::get_if<scene::PointLight>(&light)) {
         const bool fades = point->falloff == scene::LightFalloff::InverseSquare;
-        return {vec4(point->position, fades ? 2 : 1), point->intensity * point->color, 1};
+        return {{vec4(point->position, fades ? 2 : 1), point->intensity * point->color, 1}, point->radius};
     }
     const auto& distant = std::get<scene::DistantLight>(light);
-    return {vec4(-glm::normalize(distant.direction), 0), distant.irradiance * distant.color, 1};
+    return {{vec4(-glm::normalize(distant.direction), 0), distant.irradiance * distant.color, 1},
+            std::tan(glm::radians(distant.angle / 2))};
+}
+
+// Points spread evenly over the lamp's disc on a spiral (Vogel 1979), each with its part of the light.
+void addLamp(std::vector<LightSource>& sources, const scene::Light& light, int samples) {
+    const Lamp lamp = lampOf(light);
+    const int count = lamp.extent > 0 ? samples : 1;
+    const float golden = kPi * (3 - std::sqrt(5.0f));
+    for (int i = 0; i < count; ++i) {
+        LightSource source = lamp.source;
+        const float radius = lamp.extent * std::sqrt((float(i) + 0.5f) / float(count));
+        source.disc = radius * vec2(std::cos(float(i) * golden), std::sin(float(i) * golden));
+        source.color /= float(count);
+        source.weight /= float(count);
+        sources.push_back(source);
+    }
+}
+
+ReliefBlock blockOf(const views::DrawnObject& drawn, const Inputs& in, const Settings& settings) {
+    const mat4 worldFromObject = drawn.object->transform.worldFromObject();
+    ReliefBlock block = makeBlock(drawn, settings);
+    block.eye = in.eye.inObject(worldFromObject);
+    block.objectFromWorld = glm::inverse(worldFromObject);
+    block.firstLight = in.first;
+    block.endLight = in.end;
+    block.isFirst = in.first == 0;
+    block.placed = in.placed;
+    return block;
 }
 
 } // namespace
+
+ReliefBlock makeBlock(const views::DrawnObject& drawn, const Settings& settings) {
+    const scene::Object& object = *drawn.object;
+    const scene::Material& material = object.material;
+    const float scale = object.transform.scale;
+    ReliefBlock block{};
+    block.field = drawn.field->block(object.shape);
+    block.base = vec4(material.base, material.specularity);
+    block.diffuse = vec4(material.diffuse, material.forwardScatter);
+    block.specular = vec4(material.specular, material.depth / scale);
+    block.falloffs = vec4(material.specularFalloff, material.scatterFalloff);
+    block.objectFromWorld = mat4(1);
+    block.metres = scale;
+    block.radius = glm::length(object.shape.footprint());
+    block.object = drawn.index;
+    block.exponential = settings.attenuation == Attenuation::Exponential;
+    block.steps = settings.steps;
+    return block;
+}
 
 const ParamTable& Relief::params() {
     static const Param list[] = {
@@ -99,7 +103,8 @@ const ParamTable& Relief::params() {
                                     .group = Group::HeightField,
                                     .doc = "How the length inside the solid is found: exactly, skipping by a "
                                            "pyramid of heights; by equal steps; or by counting points as in "
-                                           "the thesis, which does not converge.",
+                                           "the thesis, which does not converge. Transfer does as hierarchy "
+                                           "for lamps, and traces a field once for all environments.",
                                     .choices = kMethods}),
         declare(&Settings::steps, {.id = "steps",
                                    .label = "Steps",
@@ -128,7 +133,33 @@ const ParamTable& Relief::params() {
                  .logarithmic = true,
                  .group = Group::Environment,
                  .doc = "About how many directions stand for the environment; each carries the mean of its "
-                        "part of the map."}),
+                        "part of the map. Transfer does without them."}),
+        declare(
+            &Settings::environmentSampling,
+            {.id = "environmentSampling",
+             .label = "Choice of directions",
+             .group = Group::Environment,
+             .doc = "Where those directions are: evenly all around, or more of them where the map is bright.",
+             .choices = kSamplings}),
+        declare(&Settings::terms,
+                {.id = "terms",
+                 .label = "Terms",
+                 .min = 4,
+                 .max = kMostTerms,
+                 .low = 4,
+                 .high = kMostTerms,
+                 .group = Group::Environment,
+                 .doc = "Coefficients a texel by which transfer keeps how much light each direction brings; "
+                        "rounded up to a multiple of 4."}),
+        declare(&Settings::lightSamples, {.id = "lightSamples",
+                                          .label = "Points of a lamp",
+                                          .min = 1,
+                                          .max = 4096,
+                                          .low = 1,
+                                          .high = 256,
+                                          .logarithmic = true,
+                                          .group = Group::Light,
+                                          .doc = "How many points stand for a lamp that has a size."}),
         declare(&Settings::normalise, {.id = "normalise",
                                        .label = "Divide by number of lights",
                                        .group = Group::Light,
@@ -149,28 +180,34 @@ std::vector<LightSource> Relief::lights(const scene::Scene& scene, const Setting
                                         int environmentLights) {
     std::vector<LightSource> sources;
     for (const scene::Light& light : scene.lights)
-        sources.push_back(sourceOf(light));
-    std::size_t count = sources.size();
+        addLamp(sources, light, settings.lightSamples);
     if (hasEnvironment(scene) && environmentLights > 0) {
-        for (const views::EnvironmentLight& light :
-             views::environmentLights(*scene.environment, environmentLights))
+        const auto list = settings.environmentSampling == EnvironmentSampling::Importance
+                              ? views::importanceLights(*scene.environment, environmentLights)
+                              : views::environmentLights(*scene.environment, environmentLights);
+        for (const views::EnvironmentLight& light : list)
             sources.push_back({vec4(light.direction, 0), light.weight * light.radiance, light.weight});
-        ++count;
     }
+    const float share = shareOfLight(scene);
     for (LightSource& source : sources) {
-        source.weight /= float(count);
-        if (settings.normalise) source.color /= float(count);
+        source.weight *= share;
+        if (settings.normalise) source.color *= share;
     }
     return sources;
 }
 
+float Relief::shareOfLight(const scene::Scene& scene) {
+    return 1 / float(std::max<std::size_t>(1, scene.lights.size() + (hasEnvironment(scene) ? 1 : 0)));
+}
+
 Image Relief::lightTable(const std::vector<LightSource>& lights) {
     const int rows = std::max(1, (int(lights.size()) + kLightsPerRow - 1) / kLightsPerRow);
-    Image table(2 * kLightsPerRow, rows, 4);
+    Image table(3 * kLightsPerRow, rows, 4);
     float* texel = table.pixels.data();
     for (const LightSource& light : lights) {
-        for (float value : {light.place.x, light.place.y, light.place.z, light.place.w, light.color.r,
-                            light.color.g, light.color.b, light.weight})
+        for (float value :
+             {light.place.x, light.place.y, light.place.z, light.place.w, light.color.r, light.color.g,
+              light.color.b, light.weight, light.disc.x, light.disc.y, 0.0f, 0.0f})
             *texel++ = value;
     }
     return table;
@@ -179,16 +216,16 @@ Image Relief::lightTable(const std::vector<LightSource>& lights) {
 Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings& settings) const {
     std::vector<const gl::Program*> programs;
     for (const views::DrawnObject& drawn : in.objects) {
-        Result<const gl::Program*> program =
-            context_.program("relief/light", defines(drawn, settings, in.show));
+        Result<const gl::Program*> program = context_.program("relief/light", defines(drawn, settings, in));
         if (!program) return program.error();
         programs.push_back(*program);
     }
     std::vector<graph::Block> blocks;
     for (const views::DrawnObject& drawn : in.objects)
-        blocks.push_back(makeBlock(drawn, in, settings));
+        blocks.push_back(blockOf(drawn, in, settings));
     const std::vector<views::DrawnObject> objects = in.objects;
     const graph::TextureId surface = in.surface, sum = in.sum, target = in.target, table = in.lightTable;
+    const std::vector<Transferred> transferred = in.transferred;
     const bool readsSum = in.first > 0;
     graph.addPass("relief.light", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("lights " + std::to_string(in.first) + " to " + std::to_string(in.end - 1) + " of " +
@@ -197,6 +234,8 @@ Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings
         pass.sample(surface);
         pass.sample(table);
         if (readsSum) pass.sample(sum);
+        for (const Transferred& light : transferred)
+            if (light.irradiance) pass.sample(light.irradiance);
         pass.write(target);
         pass.clear(vec4(0));
         return [=](const graph::Resources& resources, graph::Commands& commands) {
@@ -206,6 +245,10 @@ Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings
                 textures.push_back({"uSurface", resources[surface]});
                 textures.push_back({"uLights", resources[table]});
                 if (readsSum) textures.push_back({"uSum", resources[sum]});
+                if (!transferred.empty() && transferred[i].irradiance) {
+                    textures.push_back({"uIrradiance", resources[transferred[i].irradiance]});
+                    textures.push_back({"uGloss", transferred[i].gloss});
+                }
                 if (drawn.baseMap != graph::TextureHandle::None)
                     textures.push_back({"uBaseMap", drawn.baseMap});
                 if (drawn.diffuseMap != graph::TextureHandle::None)

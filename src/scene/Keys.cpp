@@ -50,9 +50,6 @@ constexpr Key kMaterial[] = {
     {"diffuseMap", KeyType::File, "Picture that multiplies the diffuse colour."},
     {"specularMap", KeyType::File, "Picture that multiplies the specular colour."},
 };
-constexpr Key kQuality[] = {
-    {"maxError", KeyType::Positive, "Root mean square error of the picture over its mean that must be kept."},
-};
 
 } // namespace
 
@@ -117,7 +114,7 @@ const KeySet& transformKeys() {
 }
 
 const KeySet& qualityKeys() {
-    static const KeySet keys{{}, kQuality};
+    static const KeySet keys{{&qualityParams()}, {}};
     return keys;
 }
 

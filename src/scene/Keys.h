@@ -14,12 +14,11 @@ namespace lucent::scene {
 enum class KeyType {
     Constant, ///< one value only
     Text,
-    Name,     ///< text without dots
-    File,     ///< name of a file
-    Toggle,   ///< true unless it says false
-    Positive, ///< number above 0
-    Size,     ///< two integers in [1, kMaxPictureSide]
-    Content,  ///< objects and lists with keys of their own
+    Name,    ///< text without dots
+    File,    ///< name of a file
+    Toggle,  ///< true unless it says false
+    Size,    ///< two integers in [1, kMaxPictureSide]
+    Content, ///< objects and lists with keys of their own
 };
 
 /// A key that is no parameter.

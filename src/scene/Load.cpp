@@ -199,7 +199,7 @@ private:
                optional(place, "view", &Loader::readView, scene.view) &&
                optional(place, "lights", &Loader::readLights, scene.lights) &&
                optional(place, "technique", &Loader::readTechniques, scene.technique) &&
-               optional(place, "quality", &Loader::readQuality, scene.maxError) &&
+               optional(place, "quality", &Loader::readQuality, scene.quality) &&
                optional(place, "environment", &Loader::readEnvironment, scene.environment) &&
                optional(place, "objects", &Loader::readObjects, scene.objects);
     }
@@ -208,15 +208,8 @@ private:
     }
     bool readView(const Place& place, View& view) { return readKeys(place, viewKeys(), {&view}); }
 
-    bool readQuality(const Place& place, std::optional<float>& maxError) {
-        if (!readKeys(place, qualityKeys(), {})) return false;
-        const Json* json = place.json.find("maxError");
-        if (!json) return true;
-        const bool legal =
-            json->type == Json::Type::Number && json->number > 0 && std::isfinite(float(json->number));
-        if (!legal) return wrongType(place.at(*json, "maxError"), "a number above 0");
-        maxError = float(json->number);
-        return true;
+    bool readQuality(const Place& place, Quality& quality) {
+        return readKeys(place, qualityKeys(), {&quality});
     }
 
     bool readTechniques(const Place& place, std::map<std::string, Settings>& techniques) {

@@ -364,6 +364,22 @@ const ParamTable& viewParams() {
     return table;
 }
 
+const ParamTable& qualityParams() {
+    static const Param params[] = {
+        declare(&Quality::maxError,
+                {.id = "maxError",
+                 .label = "Error",
+                 .min = 0,
+                 .max = 1,
+                 .high = 0.1f,
+                 .group = Group::View,
+                 .doc = "Root mean square error that the picture may have, over its mean: the cheapest "
+                        "settings that keep it are chosen. 0: the settings as they are."}),
+    };
+    static const ParamTable table = makeTable<Quality>("quality", params);
+    return table;
+}
+
 namespace {
 
 // Collects bound parameters in the order of the scene file.
@@ -434,6 +450,7 @@ std::vector<BoundParam> bindParams(Scene& scene) {
     const bool orthographic = scene.camera.type == Camera::Type::Orthographic;
     binder.add("camera", "camera", cameraParams(), &scene.camera, orthographic ? "fov" : "height");
     binder.add("view", "view", viewParams(), &scene.view);
+    binder.add("quality", "quality", qualityParams(), &scene.quality);
     std::stable_sort(binder.bound.begin(), binder.bound.end(),
                      [](const BoundParam& a, const BoundParam& b) { return panelOrder(a) < panelOrder(b); });
     return std::move(binder.bound);

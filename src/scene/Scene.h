@@ -132,6 +132,14 @@ struct View {
     bool lightDot = true; ///< the viewer marks the light's place
 };
 
+/// How exact the picture must be.
+struct Quality {
+    /// RMSE over the objects' pixels in linear colour over the truth's mean there; 0: as exact as the
+    /// settings of the techniques make it. Above 0 the techniques choose their cheapest settings that keep
+    /// it.
+    float maxError = 0;
+};
+
 struct Scene {
     std::string title, caption;
     ivec2 size{512, 512};
@@ -141,7 +149,7 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Object> objects;
     std::map<std::string, Settings> technique; ///< one for each registered technique, by its table's name
-    std::optional<float> maxError;             ///< quality.maxError
+    Quality quality;
 };
 
 const ParamTable& heightFieldParams();
@@ -153,6 +161,7 @@ const ParamTable& distantLightParams();
 const ParamTable& environmentParams();
 const ParamTable& cameraParams();
 const ParamTable& viewParams();
+const ParamTable& qualityParams();
 
 /// Spelling of an AOV on the command line and in files: "color", "d", "visibility", ...
 std::span<const std::string_view> aovNames();

@@ -125,9 +125,6 @@ private:
         case KeyType::Toggle:
             json_.key("type").value("boolean").key("default").value(true);
             break;
-        case KeyType::Positive:
-            json_.key("type").value("number").key("exclusiveMinimum").value(0);
-            break;
         case KeyType::Size:
             writeSizeType(json_);
             break;

@@ -130,11 +130,9 @@ std::string toJson(const Scene& scene) {
         writeObject(json, object);
     json.end();
     writeTechniques(json, scene.technique);
-    if (scene.maxError) {
-        json.key("quality").beginObject();
-        json.key("maxError").value(*scene.maxError);
-        json.end();
-    }
+    json.key("quality").beginObject();
+    writeParams(json, qualityParams(), &scene.quality);
+    json.end();
     json.end();
     return json.text();
 }

@@ -59,6 +59,10 @@ public:
     /// Central differences per texel in world units, one-sided at the border, normalised, then bilinear
     /// between texels and normalised again.
     dvec3 normal(dvec2 at) const;
+    /// Place on a map that is stretched over the footprint, (0, 0) at its first texel's outer corner.
+    dvec2 placeOnMap(const dvec3& position) const {
+        return dvec2(position.x + half_.x, half_.y - position.y) / (2.0 * half_);
+    }
     SurfacePoint pointAbove(dvec2 at) const { return {dvec3(at, height(at)), normal(at)}; }
 
     /// The part of a stretch that lies strictly above or below the footprint.

@@ -109,34 +109,101 @@ double depthInObject(const scene::Object& object) {
     return double(object.material.depth) / double(object.transform.scale);
 }
 
-Shading shade(const Field& field, const scene::Object& object, const SurfacePoint& point,
-              const dvec3& eyeDirection, std::span<const LightSource> lights, Attenuation attenuation) {
-    const scene::Material& material = object.material;
-    const double depth = depthInObject(object), scale = double(object.transform.scale);
-    const double ks = double(material.specularity), kf = double(material.forwardScatter);
-    // Place on the colour maps, (0, 0) at the first texel's outer corner.
-    const dvec2 place =
-        dvec2(point.position.x + field.half().x, field.half().y - point.position.y) / (2.0 * field.half());
-    const dvec3 base = dvec3(material.base) * sampleMap(material.baseMap.get(), place);
-    const dvec3 diffuse = dvec3(material.diffuse) * sampleMap(material.diffuseMap.get(), place);
-    const dvec3 specular = dvec3(material.specular) * sampleMap(material.specularMap.get(), place);
-    const dvec3 reflected = eyeDirection - 2 * glm::dot(point.normal, eyeDirection) * point.normal;
-
-    Shading shading{(1 - ks) * base, 0};
-    double weights = 0;
-    for (const LightSource& light : lights) {
-        const LightPath path = lightPath(point, depth, light);
-        const double d = illumination(field, point, depth, light, attenuation);
-        const double f = remap(glm::dot(eyeDirection, path.direction), material.scatterFalloff);
-        const double s = remap(glm::dot(reflected, path.direction), material.specularFalloff);
-        const double distance = scale * path.distance;
-        const dvec3 arriving = light.inverseSquare ? light.color / (distance * distance) : light.color;
-        shading.color += arriving * ((1 - ks) * ((1 - kf) + kf * f) * d * diffuse + ks * s * specular);
-        shading.illumination += light.weight * d;
-        weights += light.weight;
+namespace {
+/// What reaches the eye from a point by way of one light: colour, and d times the light's weight.
+class Gathering {
+public:
+    Gathering(const Field& field, const scene::Object& object, const SurfacePoint& point,
+              const dvec3& eyeDirection, Attenuation attenuation)
+        : field_(field), material_(object.material), point_(point), eyeDirection_(eyeDirection),
+          reflected_(eyeDirection - 2 * glm::dot(point.normal, eyeDirection) * point.normal),
+          depth_(depthInObject(object)), scale_(double(object.transform.scale)), attenuation_(attenuation) {
+        const dvec2 place = field.placeOnMap(point.position);
+        diffuse_ = dvec3(material_.diffuse) * sampleMap(material_.diffuseMap.get(), place);
+        specular_ = dvec3(material_.specular) * sampleMap(material_.specularMap.get(), place);
+        base_ = dvec3(material_.base) * sampleMap(material_.baseMap.get(), place);
     }
-    if (weights > 0) shading.illumination /= weights;
-    return shading;
+
+    dvec3 unlit() const { return (1 - double(material_.specularity)) * base_; }
+
+    void add(const LightSource& light) {
+        sum_ += arriving(light);
+        weights_ += light.weight;
+    }
+    /// The light of one cell of a sky or disc, known from two independent pairs of samples, each with half of
+    /// it: the variance of their sum is expected to be the square of their difference.
+    void addCell(const std::array<LightSource, 4>& lights) {
+        const glm::dvec4 one = arriving(lights[0]) + arriving(lights[1]);
+        const glm::dvec4 other = arriving(lights[2]) + arriving(lights[3]);
+        sum_ += one + other;
+        variance_ += (one - other) * (one - other);
+        for (const LightSource& light : lights)
+            weights_ += light.weight;
+    }
+    void addDisc(const LightSource& lamp, DiscSampling& discs) {
+        const int rings = int(std::ceil(std::sqrt(discs.samples / 4.0)));
+        const double share = 1.0 / (4.0 * rings * rings);
+        const dvec3 below = point_.position - depth_ * point_.normal;
+        for (int cell = 0; cell < rings * rings; ++cell) {
+            const auto places = mirroredPairs(discs.random);
+            std::array<LightSource, 4> lights;
+            for (std::size_t i = 0; i < 4; ++i) {
+                lights[i] = pointOnDisc(lamp, below, placeInDiscCell(rings, cell, places[i]));
+                lights[i].color *= share;
+                lights[i].weight *= share;
+            }
+            addCell(lights);
+        }
+    }
+
+    Shading result() const {
+        Shading shading{unlit() + dvec3(sum_), 0, dvec3(variance_), 0};
+        if (weights_ > 0) {
+            shading.illumination = sum_.w / weights_;
+            shading.illuminationVariance = variance_.w / (weights_ * weights_);
+        }
+        return shading;
+    }
+
+private:
+    glm::dvec4 arriving(const LightSource& light) const {
+        const LightPath path = lightPath(point_, depth_, light);
+        const double d = illumination(field_, point_, depth_, light, attenuation_);
+        const double f = remap(glm::dot(eyeDirection_, path.direction), material_.scatterFalloff);
+        const double s = remap(glm::dot(reflected_, path.direction), material_.specularFalloff);
+        const double ks = double(material_.specularity), kf = double(material_.forwardScatter);
+        const double distance = scale_ * path.distance;
+        const dvec3 color = light.inverseSquare ? light.color / (distance * distance) : light.color;
+        return {color * ((1 - ks) * ((1 - kf) + kf * f) * d * diffuse_ + ks * s * specular_),
+                light.weight * d};
+    }
+
+    const Field& field_;
+    const scene::Material& material_;
+    const SurfacePoint& point_;
+    dvec3 eyeDirection_, reflected_;
+    double depth_, scale_;
+    Attenuation attenuation_;
+    dvec3 base_, diffuse_, specular_;
+    glm::dvec4 sum_{0}, variance_{0}; ///< colour and d
+    double weights_ = 0;
+};
+} // namespace
+
+Shading shade(const Field& field, const scene::Object& object, const SurfacePoint& point,
+              const dvec3& eyeDirection, const Lighting& lighting, Attenuation attenuation,
+              DiscSampling discs) {
+    Gathering gathering(field, object, point, eyeDirection, attenuation);
+    for (const LightSource& lamp : lighting.lamps) {
+        if (lamp.radius > 0)
+            gathering.addDisc(lamp, discs);
+        else
+            gathering.add(lamp);
+    }
+    const auto& sky = lighting.environment;
+    for (std::size_t cell = 0; cell + 4 <= sky.size(); cell += 4)
+        gathering.addCell({sky[cell], sky[cell + 1], sky[cell + 2], sky[cell + 3]});
+    return gathering.result();
 }
 
 } // namespace lucent::truth

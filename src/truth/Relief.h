@@ -11,27 +11,14 @@
 #include "base/Math.h"
 #include "scene/Scene.h"
 #include "truth/Field.h"
+#include "truth/Lights.h"
 
-#include <span>
+#include <vector>
 
 namespace lucent::truth {
 
-struct LightSource {
-    dvec3 place{0};             ///< position, or the unit vector to a distant light
-    bool distant = false;       ///< infinitely far away
-    bool inverseSquare = false; ///< fades with the square of the distance; else not at all
-    dvec3 color{1};             ///< intensity included
-    double weight = 1;          ///< its share when d is averaged over the lights
-};
-
 /// How d falls with the length r inside: t/r, or the exponential with the same value and slope at r = t.
 enum class Attenuation { Ratio, Exponential };
-
-/// The way from a point below the surface to a light.
-struct LightPath {
-    dvec3 direction; ///< unit
-    double distance; ///< infinite for distant lights
-};
 
 /// Length of the stretch that is inside the solid; infinite for a ray that stays below the field.
 double insideLength(const Field& field, const Ray& ray, Stretch stretch);
@@ -54,19 +41,37 @@ bool visible(const Field& field, const SurfacePoint& point, const LightSource& l
 double illumination(const Field& field, const SurfacePoint& point, double depth, const LightSource& light,
                     Attenuation attenuation);
 
+/// All that lights an object, in its space.
+struct Lighting {
+    std::vector<LightSource> lamps;
+    std::vector<LightSource> environment; ///< four to each cell of the sky, as environmentLights() gives them
+};
+
+/// How the discs of soft lamps are sampled.
+struct DiscSampling {
+    int samples = 256; ///< > 0; rounded up to four (mirroredPairs) in each of k² cells
+    Random random{0, 0, 0};
+};
+
+/// Values are estimates where an environment or a disc was sampled: the variances are the squares of their
+/// standard errors, 0 under points and single directions.
 struct Shading {
     dvec3 color{0};          ///< linear Rec. 709
     double illumination = 0; ///< d averaged over the lights by weight; 0 without lights
+    dvec3 colorVariance{0};
+    double illuminationVariance = 0;
 };
 
 /// The material's depth t in metres of the object's space.
 double depthInObject(const scene::Object& object);
 
 /// Colour of a point of the surface: the thesis's equation (3.5) summed over the lights, the base colour
-/// once.
+/// once. Under a soft lamp d, highlight and forward scattering are means over its disc, every point of it
+/// with its own direction and distance; the disc faces the moved point.
 ///
 /// @param eyeDirection  unit, from the eye to the point that lies the material's depth below the surface
 Shading shade(const Field& field, const scene::Object& object, const SurfacePoint& point,
-              const dvec3& eyeDirection, std::span<const LightSource> lights, Attenuation attenuation);
+              const dvec3& eyeDirection, const Lighting& lighting, Attenuation attenuation,
+              DiscSampling discs = {});
 
 } // namespace lucent::truth

@@ -4,38 +4,51 @@
 #include "base/Image.h"
 #include "base/Result.h"
 #include "scene/Scene.h"
+#include "truth/Picture.h"
 #include "truth/Relief.h"
+#include "truth/Sight.h"
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace lucent::truth {
 
-/// An environment as distant lights in world space: `weight` is solid angle / 4 pi, `color` the mean radiance
-/// there times the weight and the environment's intensity.
-///
-/// @param count  number of directions, each for an equal solid angle, > 0
-std::vector<LightSource> environmentLights(const scene::Environment& environment, int count);
-
-/// First point at which a ray meets what is drawn of a field: the surface and the side walls down to
-/// Field::bottom(). Nothing when the ray starts inside or comes from below: the field is open there.
-std::optional<SurfacePoint> firstHit(const Field& field, const Ray& ray, Stretch stretch);
-
-/// What the picture depends on besides the scene.
+/// What the picture depends on besides the scene, and how many threads work on it.
 struct ReliefOptions {
     Attenuation attenuation = Attenuation::Ratio;
     int environmentLights = 4096; ///< directions that stand for the environment
     bool normalise = false; ///< divide the light by the number of lights, an environment counting as one
     int threads = 0;        ///< 0: as many as the machine has
+    int discSamples = 256;  ///< points that stand for the disc of a soft light
+    std::uint64_t seed = 0; ///< of the directions and points
 };
 
-/// Renders the scene as its camera sees it: every visible object by exact first hit, lit by all lights.
+/// The relief model at the middle of each pixel: every visible object by exact first hit, lit by all lights.
 /// Objects cast no shadows on each other. A place whose alpha is 0 is looked through; a smaller alpha than 1
 /// becomes the coverage and leaves the colour as it is.
+class ReliefEstimator : public Estimator {
+public:
+    /// @param scene  must outlive this
+    /// @param aov    Color or Illumination
+    ReliefEstimator(const scene::Scene& scene, ivec2 size, scene::Aov aov, const ReliefOptions& options);
+    Pixel solve(ivec2 pixel) const override;
+
+private:
+    Eye eye_;
+    ivec2 size_;
+    scene::Aov aov_;
+    ReliefOptions options_;
+    std::vector<PlacedField> objects_;
+    std::vector<Lighting> lighting_; ///< of each object, in its space
+};
+
+/// Error "truth: AOV ... has no reference; must be color or d" for another quantity than these.
+Status checkAov(scene::Aov aov);
+
+/// Renders the scene by ReliefEstimator.
 ///
-/// @param aov       Color or Illumination
 /// @param progress  called now and then, always from the calling thread, with the finished share in [0,1]
 /// @param cancel    set from elsewhere to stop
 /// @return          4 channels, linear, the fourth is coverage; Error for another AOV or when cancelled

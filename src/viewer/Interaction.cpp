@@ -23,10 +23,10 @@ float wrapDegrees(float degrees) { return degrees - 360 * std::floor((degrees + 
 
 } // namespace
 
-Lens::Lens(const scene::Camera& camera, vec2 size)
+Lens::Lens(const scene::Camera& camera, vec2 size, vec2 corner)
     : perspective_(camera.type == scene::Camera::Type::Perspective), eye_(camera.eye),
       forward_(glm::normalize(camera.target - camera.eye)), right_(rightOf(camera)),
-      up_(glm::cross(right_, forward_)), size_(size) {
+      up_(glm::cross(right_, forward_)), size_(size), corner_(corner) {
     const float height = perspective_ ? 2 * std::tan(glm::radians(camera.fov) / 2) : camera.height;
     spread_ = height / size.y;
 }
@@ -36,11 +36,11 @@ std::optional<vec2> Lens::project(vec3 point) const {
     const float depth = glm::dot(offset, forward_);
     if (perspective_ && depth <= 0) return {};
     const vec2 metres(glm::dot(offset, right_), -glm::dot(offset, up_));
-    return size_ * 0.5f + metres / (perspective_ ? spread_ * depth : spread_);
+    return corner_ + size_ * 0.5f + metres / (perspective_ ? spread_ * depth : spread_);
 }
 
 std::optional<vec3> Lens::onPlane(vec2 pixel, float z) const {
-    const vec2 metres = (pixel - size_ * 0.5f) * spread_;
+    const vec2 metres = (pixel - corner_ - size_ * 0.5f) * spread_;
     const vec3 aside = right_ * metres.x - up_ * metres.y;
     const vec3 origin = perspective_ ? eye_ : eye_ + aside;
     const vec3 direction = glm::normalize(perspective_ ? forward_ + aside : forward_);

@@ -11,10 +11,11 @@ namespace lucent::viewer {
 /// A camera in front of a picture of a certain size: between world and pixels.
 class Lens {
 public:
-    /// @param size  of the picture in CSS pixels, > 0
-    Lens(const scene::Camera& camera, vec2 size);
+    /// @param size    of the picture in CSS pixels, > 0
+    /// @param corner  upper left one of the picture, from which pixels count in the functions below
+    Lens(const scene::Camera& camera, vec2 size, vec2 corner = vec2(0));
 
-    /// Pixel at which a world point is seen, from the top left corner; nothing behind a perspective camera.
+    /// Pixel at which a world point is seen; nothing behind a perspective camera.
     std::optional<vec2> project(vec3 point) const;
     /// Where the sight line of a pixel meets the plane z = const; nothing when it runs along the plane
     /// (steeper than 1 : 20) or meets it behind the camera.
@@ -25,7 +26,7 @@ public:
 private:
     bool perspective_;
     vec3 eye_, forward_, right_, up_;
-    vec2 size_;
+    vec2 size_, corner_;
     float spread_; ///< m a pixel; perspective: m a pixel at a depth of 1 m
 };
 

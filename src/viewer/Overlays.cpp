@@ -1,19 +1,22 @@
 #include "viewer/Overlays.h"
 
 #include "base/Image.h"
+#include "measure/Metrics.h"
 
 #include <algorithm>
 #include <cstdio>
 
 namespace lucent::viewer {
 
-using namespace measure;
+using namespace layout;
 
 namespace {
 
 constexpr float kDot = 4, kRing = 9;
 constexpr float kClose = 28;
 constexpr float kKeyColumn = 150;
+constexpr float kHandle = 14;   // radius of the divider's
+constexpr float kScaleBar = 16; // height
 
 struct HelpLine {
     const char *keys, *does;
@@ -32,6 +35,7 @@ constexpr HelpLine kHelp[] = {
     {"Double click", "types a value"},
     {"H", "panel"},
     {"F", "cost of the picture"},
+    {"C", "image beside truth, beside error, or alone"},
     {"?", "this list"},
 };
 
@@ -60,6 +64,36 @@ bool closeButton(vec2 corner, const Theme& theme) {
 
 ImVec2 wrappedSize(std::string_view text, float width) {
     return ImGui::CalcTextSize(text.data(), text.data() + text.size(), false, width);
+}
+
+// A word on a dark ground, so that it is read over any picture; `right` is the share of it left of `at`.
+void label(ImDrawList& list, const char* word, vec2 at, float right, Rect picture) {
+    const float width = ImGui::CalcTextSize(word).x + 12;
+    const float x = at.x - right * width;
+    if (x < picture.low.x || x + width > picture.high.x) return; // no room beside the divider
+    list.AddRectFilled({x, at.y}, {x + width, at.y + kText + 8}, IM_COL32(0, 0, 0, 150), kRound);
+    list.AddText({x + 6, at.y + 3}, IM_COL32_WHITE, word);
+}
+
+// The colours of the error map with the differences at both ends.
+void drawScale(ImDrawList& list, vec2 at, float width, double full, const Theme& theme) {
+    char end[32];
+    std::snprintf(end, sizeof end, "%g", full);
+    const float left = at.x + 14, right = at.x + width - ImGui::CalcTextSize(end).x - 6;
+    list.AddText({at.x, at.y}, theme.muted, "0");
+    list.AddText({right + 6, at.y}, theme.muted, end);
+    const auto ink = [](float share) {
+        const vec3 color(measure::heatColor(double(share)));
+        return ImGui::ColorConvertFloat4ToU32(
+            {srgbFromLinear(color.r), srgbFromLinear(color.g), srgbFromLinear(color.b), 1});
+    };
+    constexpr int kParts = 24;
+    for (int i = 0; i < kParts; ++i) {
+        const float a = float(i) / kParts, b = float(i + 1) / kParts;
+        list.AddRectFilledMultiColor({glm::mix(left, right, a), at.y + 3},
+                                     {glm::mix(left, right, b), at.y + kText}, ink(a), ink(b), ink(b),
+                                     ink(a));
+    }
 }
 
 std::string bytesText(std::size_t bytes) {
@@ -127,6 +161,34 @@ void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, theme.card, kRound);
     list.AddText({low.x + 10, low.y + (size.y - kText) / 2}, theme.text, text);
+}
+
+void drawDivider(float x, Rect picture, const char* right, bool lively, const Theme& theme) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float middle = (picture.low.y + picture.high.y) / 2, half = lively ? 2.0f : 1.0f;
+    list.AddRectFilled({x - half - 1, picture.low.y}, {x + half + 1, picture.high.y}, IM_COL32(0, 0, 0, 110));
+    list.AddRectFilled({x - half, picture.low.y}, {x + half, picture.high.y}, IM_COL32_WHITE);
+    list.AddCircleFilled({x, middle}, kHandle + 1, IM_COL32(0, 0, 0, 110));
+    list.AddCircleFilled({x, middle}, kHandle, lively ? theme.accent : IM_COL32_WHITE);
+    const ImU32 ink = lively ? theme.onAccent : IM_COL32(40, 40, 40, 255);
+    for (const float side : {-1.0f, 1.0f})
+        list.AddTriangleFilled({x + side * 9, middle}, {x + side * 4, middle - 4.5f},
+                               {x + side * 4, middle + 4.5f}, ink);
+    label(list, "image", {x - 10, picture.low.y + kMargin}, 1, picture);
+    label(list, right, {x + 10, picture.low.y + kMargin}, 0, picture);
+}
+
+void drawCompareCard(const std::string& text, double full, vec2 room, const Theme& theme) {
+    const float most = room.x - 2 * kMargin - 20;
+    const float bar = full > 0 ? kScaleBar + 8 : 0;
+    const ImVec2 measured = wrappedSize(text, most);
+    const vec2 size(std::min(most, measured.x) + 20, measured.y + 16 + bar);
+    const vec2 low(kMargin, room.y - kMargin - size.y);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled({low.x, low.y}, {low.x + size.x, low.y + size.y}, theme.card, kRound);
+    list.AddText(nullptr, 0, {low.x + 10, low.y + 8 + bar}, theme.text, text.data(),
+                 text.data() + text.size(), most);
+    if (full > 0) drawScale(list, low + vec2(10, 8), std::min(220.0f, size.x - 20), full, theme);
 }
 
 void drawTooltip(std::string_view text, Rect control, vec2 canvas, const Theme& theme) {

@@ -21,6 +21,12 @@ bool drawHelp(vec2 picture, const Theme& theme);
 /// One line at the bottom: what the last complete picture cost.
 void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme);
 
+/// The line between a picture and what stands right of it, with their names. `lively`: it is being moved.
+void drawDivider(float x, Rect picture, const char* right, bool lively, const Theme& theme);
+
+/// What the comparison found, at the bottom; with the error's colour scale up to `full` unless that is 0.
+void drawCompareCard(const std::string& text, double full, vec2 room, const Theme& theme);
+
 /// A sentence beside the control that it explains, inside the canvas.
 void drawTooltip(std::string_view text, Rect control, vec2 canvas, const Theme& theme);
 

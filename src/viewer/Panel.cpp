@@ -12,7 +12,7 @@
 
 namespace lucent::viewer {
 
-using namespace measure;
+using namespace layout;
 
 namespace {
 
@@ -236,6 +236,11 @@ Rect Panel::place(vec2 canvas) const {
 vec2 Panel::pictureSize(vec2 canvas) const {
     if (!visible_ || sheet_ || collapsed_) return canvas;
     return {canvas.x - kPanel - 2 * kMargin, canvas.y};
+}
+
+vec2 Panel::openSize(vec2 canvas) const {
+    const vec2 size = pictureSize(canvas);
+    return visible_ && sheet_ ? vec2(size.x, place(canvas).low.y) : size;
 }
 
 std::vector<Edit> Panel::Frame::draw() {

@@ -47,10 +47,12 @@ public:
 
     bool visible() const { return visible_; }
     void setVisible(bool visible) { visible_ = visible; }
-    /// A canvas below measure::kSheetBelow gets a sheet at its bottom, closed until its header is clicked.
+    /// A canvas below layout::kSheetBelow gets a sheet at its bottom, closed until its header is clicked.
     void setCanvas(vec2 canvas);
     /// The part of the canvas that is left for the picture; it starts at the left.
     vec2 pictureSize(vec2 canvas) const;
+    /// The part of that over which nothing of the panel lies: a sheet covers the picture's lower end.
+    vec2 openSize(vec2 canvas) const;
     /// True while a value is being typed: keys belong to the panel.
     bool typing() const { return !typing_.path.empty(); }
 

@@ -31,6 +31,11 @@ void writeControl(JsonWriter& json, const Control& control) {
     json.end();
 }
 
+void writeRect(JsonWriter& json, const Rect& rect) {
+    const float place[] = {rect.low.x, rect.low.y, rect.high.x - rect.low.x, rect.high.y - rect.low.y};
+    json.value(std::span<const float>(place));
+}
+
 } // namespace
 
 std::string controlsJson(std::span<const Control> controls) {
@@ -65,11 +70,28 @@ std::string statsJson(const StatsInput& input) {
         json.key("light").value(std::span<const float>(place));
     }
     json.key("panel").beginObject();
-    for (const auto& [path, rect] : input.widgets) {
-        const float place[] = {rect.low.x, rect.low.y, rect.high.x - rect.low.x, rect.high.y - rect.low.y};
-        json.key(path).value(std::span<const float>(place));
-    }
+    for (const auto& [path, rect] : input.widgets)
+        writeRect(json.key(path), rect);
     json.end().end();
+    return json.text();
+}
+
+std::string comparisonJson(const ComparisonReport& report) {
+    JsonWriter json;
+    json.beginObject();
+    json.key("mode").value(report.mode).key("divider").value(report.divider);
+    json.key("truth").value(report.truth);
+    const float size[] = {float(report.size.x), float(report.size.y)};
+    json.key("size").value(std::span<const float>(size));
+    if (report.noise) json.key("noise").value(*report.noise);
+    if (report.place) writeRect(json.key("place"), *report.place);
+    if (const auto& found = report.numbers) {
+        json.key("rmse").value(found->rmse).key("relRmse").value(found->relRmse);
+        json.key("max").value(found->maximum).key("bias").value(found->bias);
+        json.key("p99").value(found->p99).key("full").value(fullScale(found->p99));
+    }
+    json.key("milliseconds").value(report.cost.milliseconds).key("passes").value(report.cost.passes);
+    json.end();
     return json.text();
 }
 

@@ -2,6 +2,7 @@
 /// What a page asks about a viewer, as JSON.
 
 #include "frame/Renderer.h"
+#include "viewer/Compare.h"
 #include "viewer/Panel.h"
 
 #include <optional>
@@ -23,5 +24,17 @@ struct StatsInput {
     std::map<std::string, Rect> widgets; ///< see Panel::widgets()
 };
 std::string statsJson(const StatsInput& input);
+
+/// How the picture stands to its truth.
+struct ComparisonReport {
+    std::string mode, truth; ///< truth: "none", "stale" or "fresh"
+    float divider = 0;
+    ivec2 size{0};               ///< of the truth, pixels
+    std::optional<double> noise; ///< of the truth
+    std::optional<Rect> place;   ///< of both on the canvas, CSS pixels
+    std::optional<measure::Metrics> numbers;
+    frame::Stats cost;
+};
+std::string comparisonJson(const ComparisonReport& report);
 
 } // namespace lucent::viewer

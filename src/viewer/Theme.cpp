@@ -54,7 +54,7 @@ ImVec4 unpacked(ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); }
 
 const Theme& theme(bool dark) { return dark ? kDark : kLight; }
 
-Fonts::Fonts() : plain_(cut(atlas, measure::kText)), fine_(cut(atlas, measure::kText * kFine)) {
+Fonts::Fonts() : plain_(cut(atlas, layout::kText)), fine_(cut(atlas, layout::kText * kFine)) {
     atlas.Flags |= ImFontAtlasFlags_NoMouseCursors;
     atlas.Build();
 }
@@ -74,7 +74,7 @@ Fonts& fonts() {
 
 void applyTheme(const Theme& theme) {
     ImGuiStyle& style = ImGui::GetStyle();
-    style.WindowRounding = style.FrameRounding = style.ScrollbarRounding = measure::kRound;
+    style.WindowRounding = style.FrameRounding = style.ScrollbarRounding = layout::kRound;
     style.WindowPadding = {0, 0};
     style.WindowBorderSize = style.ChildBorderSize = 0;
     style.ItemSpacing = {0, 0};

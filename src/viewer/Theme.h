@@ -25,7 +25,7 @@ struct Theme {
 const Theme& theme(bool dark);
 
 /// Measures in CSS pixels.
-namespace measure {
+namespace layout {
 inline constexpr float kText = 15;    ///< type size
 inline constexpr float kPanel = 312;  ///< width of the docked panel
 inline constexpr float kMargin = 12;  ///< between panel and edge
@@ -37,7 +37,7 @@ inline constexpr float kGap = 10;     ///< between two controls
 inline constexpr float kRound = 6;
 inline constexpr float kSheetBelow = 560; ///< canvases narrower than this get a sheet at the bottom
 inline constexpr float kSheet = 400;      ///< its height, at most half the canvas
-} // namespace measure
+} // namespace layout
 
 /// Type for all viewers of a page, cut for screens with one and with two pixels a CSS pixel.
 struct Fonts {

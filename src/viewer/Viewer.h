@@ -10,7 +10,9 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lucent::viewer {
@@ -77,6 +79,21 @@ public:
     /// JSON object path -> value of every parameter that differs from the loaded scene: what a link carries.
     std::string changes() const;
     std::string sceneJson() const;
+
+    /// The parameters "compare" (off, truth, error) and "divider" show the picture beside its truth, drawn at
+    /// the truth's size. A truth belongs to a scene: once that has changed, nothing is compared.
+    ///
+    /// JSON: mode, divider, truth ("none", "stale", "fresh"), size and noise of the truth; of a finished
+    /// picture rmse, relRmse, max, bias, p99, full (end of the error's scale); milliseconds and passes of the
+    /// picture; place: [x, y, width, height] of the picture in CSS pixels.
+    std::string comparison();
+    /// The scene that is showing with all its images, as files: "scene.json" and what that names. Its truth
+    /// comes back by takeComputedTruth().
+    std::vector<std::pair<std::string, Bytes>> askTruth();
+    Status takeComputedTruth(const Image& picture, std::optional<double> noise);
+    /// A file with the truth of the scene as it was loaded: linear values, PFM or another float picture.
+    Status openTruth(const std::string& name, std::span<const std::byte> bytes, std::optional<double> noise);
+
     std::string title() const;
     std::string caption() const;
     const scene::Scene* scene() const;

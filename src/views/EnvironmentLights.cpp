@@ -51,8 +51,17 @@ void addPixel(Sums& sums, const Rings& rings, int row, double left, double right
 
 } // namespace
 
-std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count) {
-    const Image& map = *environment.map;
+namespace {
+
+// The cells of a map, before it is turned: radiance and area of each. Those of the last map are kept, because
+// a map is turned more often than changed.
+struct MapCells {
+    std::weak_ptr<const Image> map;
+    int count = 0;
+    std::vector<EnvironmentLight> cells;
+};
+
+std::vector<EnvironmentLight> cellsOf(const Image& map, int count) {
     const Rings rings(count);
     Sums sums(rings.total);
     for (int y = 0; y < map.height; ++y) {
@@ -71,17 +80,97 @@ std::vector<EnvironmentLight> environmentLights(const scene::Environment& enviro
             }
         }
     }
-    const mat3 rotation = rotationFromDegrees(environment.rotation);
-    std::vector<EnvironmentLight> lights;
+    std::vector<EnvironmentLight> cells;
     for (int row = 0; row < rings.rows; ++row) {
         for (int column = 0; column < rings.columns[row]; ++column) {
             const int cell = rings.first[row] + column;
-            const vec3 inMap(directionAt((column + 0.5) / rings.columns[row], (row + 0.5) / rings.rows));
-            lights.push_back({rotation * inMap,
-                              environment.intensity * vec3(sums.radiance[cell] / sums.area[cell]),
-                              float(sums.area[cell] / (4 * std::numbers::pi))});
+            cells.push_back({vec3(directionAt((column + 0.5) / rings.columns[row], (row + 0.5) / rings.rows)),
+                             vec3(sums.radiance[cell] / sums.area[cell]),
+                             float(sums.area[cell] / (4 * std::numbers::pi))});
         }
     }
+    return cells;
+}
+
+// A part of the sphere: some of the cells.
+struct Part {
+    std::vector<EnvironmentLight> cells;
+    float light = 0, weight = 0;
+    vec3 center{0}, spread{0}; // of the light; spread: standard deviation along x, y, z
+
+    explicit Part(std::vector<EnvironmentLight> list) : cells(std::move(list)) {
+        vec3 square(0);
+        for (const EnvironmentLight& cell : cells) {
+            const float part = lightOf(cell);
+            light += part;
+            weight += cell.weight;
+            center += part * cell.direction;
+            square += part * cell.direction * cell.direction;
+        }
+        center /= light;
+        spread = glm::sqrt(glm::max(square / light - center * center, vec3(0)));
+    }
+    // A little light is everywhere, so that dark parts are cut too.
+    static float lightOf(const EnvironmentLight& cell) {
+        return cell.weight * (glm::dot(cell.radiance, vec3(0.2126f, 0.7152f, 0.0722f)) + 1e-4f);
+    }
+    float urgency() const { return cells.size() > 1 ? light * glm::length(spread) : 0; }
+    int widest() const {
+        const int xy = spread.x > spread.y ? 0 : 1;
+        return spread.z > spread[xy] ? 2 : xy;
+    }
+};
+
+std::pair<Part, Part> cut(Part part) {
+    const int axis = part.widest();
+    std::sort(part.cells.begin(), part.cells.end(),
+              [&](const auto& a, const auto& b) { return a.direction[axis] < b.direction[axis]; });
+    std::size_t split = 0;
+    for (float below = 0; split < part.cells.size() && below < part.light / 2; ++split)
+        below += Part::lightOf(part.cells[split]);
+    split = std::clamp<std::size_t>(split, 1, part.cells.size() - 1);
+    const auto middle = part.cells.begin() + std::ptrdiff_t(split);
+    return {Part({part.cells.begin(), middle}), Part({middle, part.cells.end()})};
+}
+
+EnvironmentLight lightOf(const Part& part) {
+    EnvironmentLight light{glm::length(part.center) > 1e-6f ? glm::normalize(part.center) : vec3(0, 1, 0),
+                           vec3(0), part.weight};
+    for (const EnvironmentLight& cell : part.cells)
+        light.radiance += cell.weight / part.weight * cell.radiance;
+    return light;
+}
+
+} // namespace
+
+std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count) {
+    static MapCells last;
+    if (last.map.lock() != environment.map || last.count != count)
+        last = {environment.map, count, cellsOf(*environment.map, count)};
+    const mat3 rotation = rotationFromDegrees(environment.rotation);
+    std::vector<EnvironmentLight> lights = last.cells;
+    for (EnvironmentLight& light : lights) {
+        light.direction = rotation * light.direction;
+        light.radiance *= environment.intensity;
+    }
+    return lights;
+}
+
+std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count) {
+    constexpr int kFineCells = 16384;
+    const auto lessUrgent = [](const Part& a, const Part& b) { return a.urgency() < b.urgency(); };
+    std::vector<Part> parts{Part(environmentLights(environment, std::max(kFineCells, 4 * count)))};
+    while (int(parts.size()) < count && parts.front().urgency() > 0) {
+        std::pop_heap(parts.begin(), parts.end(), lessUrgent);
+        auto [low, high] = cut(std::move(parts.back()));
+        parts.back() = std::move(low);
+        std::push_heap(parts.begin(), parts.end(), lessUrgent);
+        parts.push_back(std::move(high));
+        std::push_heap(parts.begin(), parts.end(), lessUrgent);
+    }
+    std::vector<EnvironmentLight> lights;
+    for (const Part& part : parts)
+        lights.push_back(lightOf(part));
     return lights;
 }
 

@@ -21,4 +21,12 @@ struct EnvironmentLight {
 /// The cells are fixed to the map and turn with `environment.rotation`; `intensity` is included.
 std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count);
 
+/// `count` lights that stand closer where more light comes from: the sphere is cut in two again and again,
+/// always the part whose light is spread widest, through the middle of its light (after median cut, Debevec
+/// 2005). A light stands at the centre of its part's light, carries all of it, and its weight is the part's
+/// share of the sphere.
+///
+/// @param count  > 0
+std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count);
+
 } // namespace lucent::views

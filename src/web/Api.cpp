@@ -21,6 +21,7 @@ struct Page {
     std::map<std::string, Bytes> files;
     std::map<int, std::unique_ptr<Viewer>> viewers;
     int lastViewer = 0;
+    std::vector<std::pair<std::string, Bytes>> asked; // files for a truth
     std::string answer;
 };
 
@@ -48,6 +49,8 @@ Result<Bytes> readFetched(const std::string& path) {
 std::span<const std::byte> bytesOf(const std::uint8_t* bytes, int size) {
     return std::as_bytes(std::span(bytes, std::size_t(size)));
 }
+
+std::optional<double> noiseOf(double noise) { return noise < 0 ? std::nullopt : std::optional(noise); }
 
 viewer::Modifiers modifiersOf(int bits) { return {(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0}; }
 
@@ -168,5 +171,34 @@ const char* viewer_changes(int viewer) { return answer(viewerOf(viewer).changes(
 const char* viewer_scene_json(int viewer) { return answer(viewerOf(viewer).sceneJson()); }
 const char* viewer_title(int viewer) { return answer(viewerOf(viewer).title()); }
 const char* viewer_caption(int viewer) { return answer(viewerOf(viewer).caption()); }
+const char* viewer_comparison(int viewer) { return answer(viewerOf(viewer).comparison()); }
+
+const char* viewer_ask_truth(int viewer) {
+    Page& p = page();
+    p.asked = viewerOf(viewer).askTruth();
+    JsonWriter json;
+    json.beginArray();
+    for (const auto& [name, bytes] : p.asked) {
+        json.beginObject().key("name").value(name);
+        json.key("at").value(double(std::uintptr_t(bytes.data()))).key("size").value(int(bytes.size())).end();
+    }
+    json.end();
+    return answer(json.text());
+}
+
+const char* viewer_take_truth(int viewer, const std::uint8_t* floats, int size, int width, int height,
+                              double noise) {
+    Image image(width, height, 4);
+    if (std::size_t(size) != image.pixels.size() * sizeof(float))
+        return answer("truth: has " + std::to_string(size) + " bytes; must have 16 for each pixel");
+    std::memcpy(image.pixels.data(), floats, std::size_t(size));
+    return answer(viewerOf(viewer).takeComputedTruth(image, noiseOf(noise)));
+}
+
+const char* viewer_open_truth(int viewer, const char* name, const std::uint8_t* bytes, int size,
+                              double noise) {
+    return answer(viewerOf(viewer).openTruth(name, bytesOf(bytes, size), noiseOf(noise)));
+}
+
 double viewer_revision(int viewer) { return double(viewerOf(viewer).revision()); }
 void viewer_release(int viewer) { viewerOf(viewer).release(); }

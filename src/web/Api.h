@@ -50,6 +50,16 @@ const char* viewer_changes(int viewer);
 const char* viewer_scene_json(int viewer);
 const char* viewer_title(int viewer);
 const char* viewer_caption(int viewer);
+/// JSON, see Viewer::comparison()
+const char* viewer_comparison(int viewer);
+/// JSON array of {"name", "at", "size"}: files of the scene that is showing, with its images, for the module of
+/// Truth.cpp. Their bytes stay valid until the next call for any viewer.
+const char* viewer_ask_truth(int viewer);
+/// The truth that was asked for: width x height x 4 floats. noise < 0: not known. "" or the message.
+const char* viewer_take_truth(int viewer, const std::uint8_t* floats, int size, int width, int height,
+                              double noise);
+/// The truth of the scene as loaded, from a file. noise < 0: not known. "" or the message.
+const char* viewer_open_truth(int viewer, const char* name, const std::uint8_t* bytes, int size, double noise);
 double viewer_revision(int viewer);
 void viewer_release(int viewer);
 }

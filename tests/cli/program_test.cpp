@@ -34,7 +34,8 @@ protected:
 TEST_F(Program, HelpOfEveryCommandHasExamplesAndEndsWellBehaved) {
     EXPECT_EQ(run("--help").code, 0);
     EXPECT_EQ(run("--version").out, "0.1.0\n");
-    for (const char* command : {"render", "truth", "compare", "explain", "list", "convert", "schema"}) {
+    for (const char* command : {"render", "truth", "compare", "explain", "list", "convert", "schema", "bench",
+                                "report", "merge", "selfcheck"}) {
         const Outcome outcome = run(std::string(command) + " --help");
         EXPECT_EQ(outcome.code, 0);
         EXPECT_EQ(outcome.err, "");
@@ -170,6 +171,64 @@ TEST_F(Program, CompareMeasuresAndDrawsWhereItDiffers) {
     expectRefusal("compare a.pfm c.pfm --heatmap more.png", "a.pfm: has 2x1 pixels");
     expectRefusal("compare a.pfm nothing.pfm", "nothing.pfm: cannot be read");
     expectRefusal("compare a.pfm b.pfm --heatmap more.txt", "more.txt: ends in no known image type");
+}
+
+TEST_F(Program, CompareMeasuresHowVisibleTheDifferenceIs) {
+    // White against black: no pixel differs more, and an even picture of 32 x 32 pixels is compared whole.
+    Image white(32, 32, 1);
+    std::fill(white.pixels.begin(), white.pixels.end(), 1.0f);
+    write("white.pfm", white);
+    write("black.pfm", Image(32, 32, 1));
+    const Outcome outcome = run("compare white.pfm black.pfm --flip flip.png");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* line :
+         {"FLIP        0.967", "SSIM        9.999e-05", "  over mean nan", "median      1\n"})
+        EXPECT_NE(outcome.out.find(line), std::string::npos) << line << "\n" << outcome.out;
+    EXPECT_TRUE(exists("flip.png"));
+}
+
+TEST_F(Program, CompareCountsOnlyWhatTheMaskShows) {
+    Image a(2, 1, 1), mask(2, 1, 1);
+    a.pixels = {0.5f, 0.25f};
+    mask.pixels = {0, 1};
+    write("a.pfm", a);
+    write("b.pfm", Image(2, 1, 1));
+    write("mask.pfm", mask);
+    EXPECT_NE(run("compare a.pfm b.pfm --json --mask mask.pfm").out.find("\"max\": 0.25"), std::string::npos);
+    write("mask.pfm", Image(1, 2, 1));
+    expectRefusal("compare a.pfm b.pfm --mask mask.pfm", "mask.pfm: has 1x2 pixels; must have 2x1 like");
+}
+
+TEST_F(Program, CompareSaysWhenTheTruthIsTooNoisyToJudge) {
+    Image a(2, 1, 1);
+    a.pixels = {0.25f, 0.25f}; // RMSE 0.25 against black
+    write("a.pfm", a);
+    write("b.pfm", Image(2, 1, 1));
+    EXPECT_EQ(run("compare a.pfm b.pfm").out.find("truth noise"), std::string::npos);
+    write("b.pfm.json", std::string("{ \"standardError\": 0.08 }"));
+    const std::string judged = run("compare a.pfm b.pfm").out;
+    EXPECT_NE(judged.find("truth noise 0.08"), std::string::npos) << judged;
+    EXPECT_EQ(judged.find("too noisy"), std::string::npos) << judged;
+    write("b.pfm.json", std::string("{ \"standardError\": 0.09 }")); // 3 times it is 0.27
+    EXPECT_NE(run("compare a.pfm b.pfm").out.find("too noisy to judge"), std::string::npos);
+    EXPECT_NE(run("compare a.pfm b.pfm --json").out.find("\"truthTooNoisy\": true"), std::string::npos);
+    write("b.pfm.json", std::string("{\n \"standardError\": \"much\" }"));
+    expectRefusal("compare a.pfm b.pfm", "b.pfm.json:2: standardError is \"much\"; must be a number");
+}
+
+TEST_F(Program, ReportTakesNothingButReports) {
+    write("other.json", std::string("{ \"format\": \"other\" }"));
+    expectRefusal("report other.json -o page.html",
+                  "other.json: format is \"other\"; must be \"lucent-bench-1\"");
+    write("broken.json", std::string("{ \"format\": "));
+    expectRefusal("report broken.json -o page.html", "broken.json:1");
+    expectRefusal("report none.json -o page.html", "none.json: cannot be read");
+    expectRefusal("bench speed -o out", "NAMES: is \"speed\"; must be one of relief, environment,");
+    // A report is put into the page as it stands, but for what would end its script element.
+    write("bench.json", std::string("{ \"format\": \"lucent-bench-1\", \"commit\": \"</script>\" }"));
+    const Outcome outcome = run("report bench.json -o page.html");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(text("page.html").find("\"commit\": \"<\\/script>\" }]</script>"), std::string::npos);
 }
 
 TEST_F(Program, ConvertMakesHeightsOfImagesAndNormalMaps) {

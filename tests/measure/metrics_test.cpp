@@ -22,9 +22,12 @@ TEST(Metrics, AreThoseOfTheirDefinitions) {
     ASSERT_TRUE(metrics.ok());
     const double mse = (0.25 + 0 + 1 + 0.0625) / 4;
     EXPECT_DOUBLE_EQ(metrics->rmse, std::sqrt(mse));
+    EXPECT_DOUBLE_EQ(metrics->relRmse, std::sqrt(mse) / 0.875); // the reference's mean is 3.5 / 4
     EXPECT_DOUBLE_EQ(metrics->relMse, (0.25 / 0.26 + 0 + 1 / 4.01 + 0.0625 / 0.01) / 4);
     EXPECT_DOUBLE_EQ(metrics->mae, 1.75 / 4);
-    EXPECT_DOUBLE_EQ(metrics->p99, 1); // of four values the fourth: 99 % is more than three
+    EXPECT_DOUBLE_EQ(metrics->p50, 0.25); // of 0, 0.25, 0.5, 1 the second: half is two
+    EXPECT_DOUBLE_EQ(metrics->p90, 1);    // 90 % is more than three
+    EXPECT_DOUBLE_EQ(metrics->p99, 1);    // of four values the fourth: 99 % is more than three
     EXPECT_DOUBLE_EQ(metrics->maximum, 1);
     EXPECT_EQ(metrics->maximumAt, ivec2(0, 1));
     EXPECT_NEAR(metrics->psnr, 10 * std::log10(1 / mse), 1e-12);
@@ -58,6 +61,42 @@ TEST(Metrics, NinetyNinePercentAreNotAboveP99) {
     ASSERT_TRUE(metrics.ok());
     EXPECT_EQ(metrics->p99, 3);
     EXPECT_EQ(metrics->maximumAt, ivec2(7, 0));
+}
+
+TEST(Metrics, APercentileIsTheSmallestValueThatItsShareIsNotAbove) {
+    std::vector<double> values;
+    for (int i = 1; i <= 10; ++i)
+        values.push_back((i * 7) % 11); // 1 to 10 in another order
+    EXPECT_EQ(percentile(values, 0.5), 5);
+    EXPECT_EQ(percentile(values, 0.9), 9);
+    EXPECT_EQ(percentile(values, 0.91), 10);
+    EXPECT_EQ(percentile(values, 1), 10);
+    EXPECT_EQ(percentile(values, 1e-9), 1);
+}
+
+TEST(Metrics, OnlyCoveredPixelsCount) {
+    // Alpha 0 hides a difference of 9; what is left is 3 against 1 and 1 against 1.
+    const Image image = imageOf(3, 1, 4, {3, 3, 3, 1, 1, 1, 1, 0.5f, 9, 9, 9, 0});
+    const Image reference = imageOf(3, 1, 3, {1, 1, 1, 1, 1, 1, 0, 0, 0});
+    const auto metrics = compare(image, "a", reference, "b", &image);
+    ASSERT_TRUE(metrics.ok());
+    EXPECT_DOUBLE_EQ(metrics->rmse, std::sqrt(4.0 / 2));
+    EXPECT_DOUBLE_EQ(metrics->relRmse, std::sqrt(4.0 / 2)); // the mean of what counts is 1
+    EXPECT_EQ(metrics->maximum, 2);
+    const Image none(3, 1, 1);
+    const auto nothing = compare(image, "a.exr", reference, "b", &none);
+    ASSERT_FALSE(nothing.ok());
+    EXPECT_EQ(nothing.error().message, "a.exr: no pixel is covered; at least one must be");
+}
+
+TEST(Metrics, SsimAndFlipAreThereOnlyWhenAskedFor) {
+    Image image(12, 12, 1);
+    auto metrics = compare(image, "a", image, "b");
+    ASSERT_TRUE(metrics.ok());
+    EXPECT_FALSE(metrics->ssim || metrics->flip);
+    addPerceptual(*metrics, image, image);
+    EXPECT_EQ(metrics->ssim, 1);
+    EXPECT_EQ(metrics->flip, 0);
 }
 
 TEST(Metrics, DifferentSizesAndChannelsAreRefused) {

@@ -70,7 +70,7 @@ TEST(Load, SceneOfTheSpecificationIsRead) {
     EXPECT_FALSE(coin.visible);
     EXPECT_EQ(scene->technique.at("demo").as<test::Demo>().method, test::Method::Plain);
     EXPECT_EQ(scene->technique.at("demo").as<test::Demo>().steps, 64);
-    EXPECT_EQ(scene->maxError, 0.01f);
+    EXPECT_EQ(scene->quality.maxError, 0.01f);
 }
 
 TEST(Load, OnlyObjectsAreRequired) {
@@ -124,8 +124,8 @@ TEST(Load, WrongTypesSayWhatWasExpected) {
               "scenes/a.json:2: technique.demo.method is \"best\"; must be plain or fancy");
     EXPECT_EQ(messageOf(beside(R"("size": [640, 0])")),
               "scenes/a.json:2: size is [640, 0]; must be two integers in [1, 8192]");
-    EXPECT_EQ(messageOf(beside(R"("quality": { "maxError": 0 })")),
-              "scenes/a.json:2: quality.maxError is 0; must be a number above 0");
+    EXPECT_EQ(messageOf(beside(R"("quality": { "maxError": -1 })")),
+              "scenes/a.json:2: quality.maxError is -1; must be in [0, 1]");
     EXPECT_EQ(messageOf(around(R"("material": { "baseMap": "" })")),
               "scenes/a.json:5: objects.coin.material.baseMap is \"\"; must be the name of a file");
 }

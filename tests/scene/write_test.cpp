@@ -56,7 +56,7 @@ TEST(ToJson, LoadsBackToTheSameValues) {
     EXPECT_EQ(toJson(copy), toJson(*scene)); // names, files, sizes and flags as well
     EXPECT_EQ(copy.title, "A \"b\"\n");
     EXPECT_EQ(copy.size, ivec2(30, 20));
-    EXPECT_EQ(copy.maxError, 0.1f);
+    EXPECT_EQ(copy.quality.maxError, scene->quality.maxError);
     EXPECT_FALSE(copy.objects[0].visible);
     EXPECT_EQ(copy.objects[0].material.diffuseMapFile, "c.png");
 }

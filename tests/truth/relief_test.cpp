@@ -322,7 +322,7 @@ TEST(ReliefShading, AddsBaseDiffuseAndSpecularWithTheirWeights) {
     light.color = {2, 2, 2};
     // From above d = 1, f = clamp(-1) = 0, s = 1: c = 0.75 (cB + cD 2) + 0.25 cS 2.
     const Shading shading =
-        shade(field, object, field.pointAbove({0, 0}), kDown, std::span(&light, 1), Attenuation::Ratio);
+        shade(field, object, field.pointAbove({0, 0}), kDown, {{light}, {}}, Attenuation::Ratio);
     const dvec3 expected =
         0.75 * (dvec3(0.1f, 0.2f, 0.3f) + 2.0 * dvec3(0.5, 0.25, 1)) + 0.5 * dvec3(1, 0.5, 0.25);
     for (int channel = 0; channel < 3; ++channel)
@@ -339,7 +339,7 @@ TEST(ReliefShading, SpecularIsOneWhereTheNormalIsHalfway) {
     const SurfacePoint point = field.pointAbove({0, 0});
     const dvec3 mirrored = 2 * point.normal.z * point.normal - dvec3(0, 0, 1);
     const LightSource light = distant(mirrored);
-    const Shading shading = shade(field, object, point, kDown, std::span(&light, 1), Attenuation::Ratio);
+    const Shading shading = shade(field, object, point, kDown, {{light}, {}}, Attenuation::Ratio);
     EXPECT_NEAR(shading.color.r, 1, 1e-12);
     EXPECT_NEAR(shading.color.g, 0.5, 1e-12);
 }
@@ -356,7 +356,7 @@ TEST(ReliefShading, ForwardScatterFollowsTheAngleBetweenEyeAndLight) {
         const LightSource light =
             at(field.pointAbove({0, 0}).position + dvec3(0, 0, -0.25) + 0.5 * elevated(elevation));
         const Shading shading =
-            shade(field, object, field.pointAbove({0, 0}), kDown, std::span(&light, 1), Attenuation::Ratio);
+            shade(field, object, field.pointAbove({0, 0}), kDown, {{light}, {}}, Attenuation::Ratio);
         EXPECT_NEAR(shading.illumination, 0.5, 1e-12);
         EXPECT_NEAR(shading.color.b, factor * 0.5, 1e-12);
     }
@@ -369,7 +369,7 @@ TEST(ReliefShading, FalloffsRemapAndAStepNeedsNoDivision) {
     const LightSource light = distant(elevated(30)); // s = sin(30 degrees) = 1/2
     const auto specular = [&](vec2 falloff) {
         object.material.specularFalloff = falloff;
-        return shade(field, object, field.pointAbove({0, 0}), kDown, std::span(&light, 1), Attenuation::Ratio)
+        return shade(field, object, field.pointAbove({0, 0}), kDown, {{light}, {}}, Attenuation::Ratio)
             .color.r;
     };
     EXPECT_NEAR(specular({0, 1}), 0.5, 1e-12);
@@ -389,7 +389,7 @@ TEST(ReliefShading, InverseSquareFalloffUsesWorldMetres) {
     light.inverseSquare = true;
     // A depth of 0.25 m is 0.125 m of the object: from there to the lamp it is 1.125, in the world 2.25 m.
     const Shading shading =
-        shade(field, object, field.pointAbove({0, 0}), kDown, std::span(&light, 1), Attenuation::Ratio);
+        shade(field, object, field.pointAbove({0, 0}), kDown, {{light}, {}}, Attenuation::Ratio);
     EXPECT_NEAR(shading.color.b, 1 / (2.25 * 2.25), 1e-12);
 }
 

@@ -2,6 +2,7 @@
 /// A page around one viewer: a canvas, files in memory, a person's hands.
 
 #include "tests/support/Gl.h"
+#include "tests/viewer/Scenes.h"
 #include "tests/viewer/Window.h"
 #include "viewer/Viewer.h"
 
@@ -11,24 +12,6 @@
 #include <optional>
 
 namespace lucent::viewer {
-
-/// A lamp over a small field: 1 m wide, 2 m of height shown, so that a 400 pixel high canvas has 0.005 m a
-/// pixel.
-inline constexpr const char* kLampScene =
-    R"({"lucent": 1, "title": "Lamp", "caption": "A wave", "size": [512, 512],
- "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 2},
- "lights": [{"type": "point", "position": [0.2, 0.1, 0.5]}],
- "environment": {"source": "uniform", "enabled": false},
- "technique": {"relief": {"environmentLights": 8}},
- "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
-
-/// The same field, seen from farther off, under an environment only: more of its lights than a quick look
-/// takes.
-inline constexpr const char* kMapScene = R"({"lucent": 1, "title": "Map", "size": [512, 512],
- "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 4},
- "environment": {"source": "rainbow"},
- "technique": {"relief": {"environmentLights": 48}},
- "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
 
 class Page : public support::GlTest {
 protected:
@@ -55,21 +38,8 @@ protected:
         viewer->resize(ivec2(vec2(size) * scale), scale);
     }
 
-    static ReadFile files(std::string scene) {
-        return [scene](const std::string& path) -> Result<Bytes> {
-            const auto text = std::as_bytes(std::span(scene));
-            if (path == "scene.json") return Bytes(text.begin(), text.end());
-            if (path == "wave.pfm") return wave();
-            return Error{path + ": is not there"};
-        };
-    }
-    static Bytes wave() {
-        Image image(16, 16, 1);
-        for (int y = 0; y < 16; ++y)
-            for (int x = 0; x < 16; ++x)
-                *image.at(x, y) = 0.5f + 0.5f * std::sin(float(x) * 0.8f) * std::cos(float(y));
-        return *encodeImage(image, "wave.pfm");
-    }
+    static ReadFile files(std::string scene) { return sceneFiles(std::move(scene)); }
+    static Bytes wave() { return waveMap(); }
     void load(const char* scene) {
         const Status loaded = viewer->load("scene.json", files(scene));
         ASSERT_TRUE(loaded.ok()) << loaded.error().message;

@@ -1,0 +1,26 @@
+#pragma once
+/// What solving a truth and merging its parts write alike.
+
+#include "base/Result.h"
+#include "truth/Part.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace lucent::cli {
+
+/// Where a truth goes.
+struct TruthOutput {
+    std::string picture;
+    std::string errors; ///< empty: not written
+
+    void addTo(CLI::App& parser);
+    /// Refuses paths that could not be written after hours of work.
+    Status check() const;
+    /// Writes the picture, its facts beside it as PICTURE.json, and the standard errors where they are
+    /// wanted; prints what the picture's own noise is. All or nothing.
+    Status write(const truth::Facts& facts, const truth::Picture& picture) const;
+};
+
+} // namespace lucent::cli

@@ -1,0 +1,283 @@
+#include "frame/Budget.h"
+
+#include "base/Text.h"
+#include "relief/Transfer.h"
+#include "views/Surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace lucent::frame {
+
+using graph::Format;
+using graph::TextureDesc;
+using relief::EnvironmentSampling;
+
+namespace {
+
+// By so much may the error of the whole picture exceed the sample's: lucent bench budget.
+constexpr float kSafety = 1.25f;
+
+constexpr int kSamplePixels = 900;
+constexpr int kFewestCovered = 256; // fewer say too little
+// Steps of a factor of the square root of two.
+constexpr int kDirections[] = {8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256, 362, 512, 724, 1024, 1448, 2048};
+constexpr int kLampSamples[] = {1, 2, 3, 4, 6, 8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256};
+constexpr int kMostDirections = 2048, kMostLampSamples = 512; // of the reference
+
+bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
+
+bool hasSize(const scene::Light& light) {
+    const auto* point = std::get_if<scene::PointLight>(&light);
+    return point ? point->radius > 0 : std::get<scene::DistantLight>(light).angle > 0;
+}
+
+bool hasLargeLamp(const scene::Scene& scene) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(), hasSize);
+}
+
+const relief::Settings& settingsOf(const scene::Scene& scene) {
+    return scene.technique.at("relief").as<relief::Settings>();
+}
+
+// Lights whose own error is a quarter of the wanted one or less: error falls about as the number rises.
+int referenceCount(float wanted, int most) { return std::clamp(int(6 / wanted), most / 32, most); }
+
+// About `count` pixels in the picture's shape; odd numbers keep in step with few patterns.
+ivec2 sampleSizeFor(ivec2 size, int count) {
+    const double aspect = double(size.x) / size.y;
+    return ivec2(int(std::sqrt(count * aspect)), int(std::sqrt(count / aspect))) | 1;
+}
+
+} // namespace
+
+std::string Budget::Choice::text() const {
+    const bool equal = settings.environmentSampling == EnvironmentSampling::Equal;
+    std::string text = settings.method == relief::Method::Transfer
+                           ? "transfer"
+                           : std::to_string(settings.environmentLights) + " directions " +
+                                 (equal ? "evenly" : "by importance");
+    text += ", " + std::to_string(settings.lightSamples) + " points a lamp, error about " +
+            shortest(std::round(predicted * 1e4f) / 100) + " %";
+    return kept ? text : text + ": nothing keeps the wanted error";
+}
+
+bool Budget::matters(const scene::Scene& scene) { return hasEnvironment(scene) || hasLargeLamp(scene); }
+
+void Budget::start(const scene::Scene& scene, ivec2 size) {
+    const float parts = float(int(hasEnvironment(scene)) + int(hasLargeLamp(scene)));
+    wanted_ =
+        scene.quality.maxError / std::sqrt(std::max(1.0f, parts)) / kSafety; // errors of parts are unrelated
+    size_ = size;
+    sampleSize_ = sampleSizeFor(size, kSamplePixels);
+    choice_ = {settingsOf(scene), 0, true};
+    choice_.settings.method = relief::Method::Hierarchy;
+    reference_ = choice_.settings;
+    reference_.environmentSampling = EnvironmentSampling::Equal;
+    reference_.environmentLights = referenceCount(wanted_, kMostDirections);
+    reference_.lightSamples = hasLargeLamp(scene) ? referenceCount(wanted_, kMostLampSamples) : 1;
+    next_ = 0;
+    mayTransfer_ = true;
+    phase_ = matters(scene) ? Phase::Surface : Phase::Done;
+}
+
+Status Budget::step(const scene::Scene& scene) {
+    switch (phase_) {
+    case Phase::Surface:
+        return drawSurface(scene);
+    case Phase::Reference:
+        return drawReference(scene);
+    case Phase::Lamps:
+        return tryLamps(scene);
+    case Phase::Environment:
+        return tryEnvironment(scene);
+    case Phase::Done:
+        break;
+    }
+    return Done{};
+}
+
+// --- samples
+
+Status Budget::drawSurface(const scene::Scene& scene) {
+    Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, images_);
+    if (!objects) return objects.error();
+    const TextureDesc desc{.size = sampleSize_, .format = Format::RGBA32F};
+    if (!surface_ || surface_.desc() != desc)
+        surface_ = graph::Texture(context_.device(), desc, "budget.surface");
+    graph::FrameGraph graph;
+    const graph::TextureId target = graph.import(surface_.handle(), desc, surface_.label());
+    graph.keep(target);
+    const views::Eye eye = views::makeEye(scene, float(size_.x) / float(size_.y));
+    if (Status s = views::recordSurface(graph, context_, eye, *objects, target, sampleSize_); !s) return s;
+    if (Status s = graph.compile(); !s) return s;
+    graph.execute(pool_);
+    if (std::string error = context_.takeError(); !error.empty()) return Error{error, Fault::Machine};
+    const Image surface = context_.device().read(surface_.handle());
+    covered_.clear();
+    for (std::size_t i = 0; i < surface.pixels.size() / 4; ++i)
+        if (surface.pixels[4 * i + 3] > 0) covered_.push_back(i);
+    if (covered_.empty()) {
+        phase_ = Phase::Done; // nothing is seen, or too little to matter
+    } else if (covered_.size() < kFewestCovered && sampleSize_.x * 2 < size_.x) {
+        sampleSize_ = sampleSize_ * 2 + 1;
+    } else {
+        phase_ = Phase::Reference;
+    }
+    return Done{};
+}
+
+Status Budget::drawReference(const scene::Scene& scene) {
+    Result<Image> image = draw(scene, reference_);
+    if (!image) return image.error();
+    exact_ = std::move(*image);
+    mean_ = 0;
+    for (std::size_t pixel : covered_)
+        for (std::size_t c = 0; c < 3; ++c)
+            mean_ += exact_.pixels[4 * pixel + c] / (3.0 * double(covered_.size()));
+    phase_ = hasLargeLamp(scene) ? Phase::Lamps : Phase::Environment;
+    return Done{};
+}
+
+// The sample of the picture with all lights of these settings, or with transfers and the lights beside them.
+Result<Image> Budget::draw(const scene::Scene& scene, const relief::Settings& settings,
+                           const RecordTransfers* transfers) {
+    using relief::Relief;
+    Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, images_);
+    if (!objects) return objects.error();
+    const std::vector<relief::LightSource> lights =
+        Relief::lights(scene, settings, settings.environmentLights);
+    const int count = int(lights.size()), placed = int(Relief::lights(scene, settings, 0).size());
+    const Image table = Relief::lightTable(lights);
+    gl::Device& device = context_.device();
+    const graph::Texture lightTable(device, {.size = table.size(), .format = Format::RGBA32F},
+                                    "budget.lights");
+    device.upload(lightTable.handle(), 0, table.pixels);
+    const TextureDesc desc{.size = sampleSize_, .format = Format::RGBA32F};
+    graph::Texture sum(device, desc, "budget.sum"), target(device, desc, "budget.target");
+    const views::Eye eye = views::makeEye(scene, float(size_.x) / float(size_.y));
+    for (int first = 0; first == 0 || first < count; first += Relief::kMostLightsAtOnce) {
+        graph::FrameGraph graph;
+        const auto import = [&](const graph::Texture& texture) {
+            return graph.import(texture.handle(), texture.desc(), texture.label());
+        };
+        std::vector<relief::Transferred> transferred(transfers ? objects->size() : 0);
+        if (transfers && first == 0) {
+            auto recorded = (*transfers)(graph);
+            if (!recorded) return recorded.error();
+            transferred = std::move(*recorded);
+        }
+        const graph::TextureId targetId = import(target);
+        graph.keep(targetId);
+        const relief::Inputs in{.eye = eye,
+                                .objects = *objects,
+                                .lights = lights,
+                                .surface = import(surface_),
+                                .sum = import(sum),
+                                .target = targetId,
+                                .lightTable = import(lightTable),
+                                .first = first,
+                                .end = std::min(count, first + Relief::kMostLightsAtOnce),
+                                .placed = placed,
+                                .transferred = std::move(transferred),
+                                .show = scene::Aov::Color};
+        if (Status s = relief_.record(graph, in, settings); !s) return s.error();
+        if (Status s = graph.compile(); !s) return s.error();
+        graph.execute(pool_);
+        std::swap(sum, target);
+    }
+    Image image = device.read(sum.handle());
+    if (std::string error = context_.takeError(); !error.empty()) return Error{error, Fault::Machine};
+    return image;
+}
+
+// RMSE of a sample over the mean of the exact one.
+Result<float> Budget::errorOf(const scene::Scene& scene, const relief::Settings& settings,
+                              const RecordTransfers* transfers) {
+    const Result<Image> image = draw(scene, settings, transfers);
+    if (!image) return image.error();
+    double sum = 0;
+    for (std::size_t pixel : covered_) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double d = double(image->pixels[4 * pixel + c]) - exact_.pixels[4 * pixel + c];
+            sum += d * d / (3.0 * double(covered_.size()));
+        }
+    }
+    return float(std::sqrt(sum) / std::max(mean_, 1e-20));
+}
+
+Result<float> Budget::errorOfTransfer(const scene::Scene& scene, const relief::Settings& settings,
+                                      const RecordTransfers& record) {
+    while (phase_ == Phase::Surface || phase_ == Phase::Reference)
+        if (Status stepped = step(scene); !stepped) return stepped.error();
+    if (covered_.empty()) return 0.0f;
+    return errorOf(scene, settings, &record);
+}
+
+// --- candidates, cheapest first
+
+Status Budget::tryLamps(const scene::Scene& scene) {
+    relief::Settings settings = reference_;
+    settings.lightSamples = kLampSamples[next_];
+    const Result<float> error = errorOf(scene, settings);
+    if (!error) return error.error();
+    choice_.settings.lightSamples = settings.lightSamples;
+    const bool last = ++next_ == std::size(kLampSamples);
+    if (*error > wanted_ && !last) return Done{};
+    choice_.kept = choice_.kept && *error <= wanted_;
+    choice_.predicted = std::hypot(choice_.predicted, *error * kSafety);
+    next_ = 0;
+    phase_ = hasEnvironment(scene) ? Phase::Environment : Phase::Done;
+    return Done{};
+}
+
+Status Budget::tryEnvironment(const scene::Scene& scene) {
+    // What a transfer costs at once, more and more directions would cost as well.
+    const double pixels =
+        double(size_.x) * size_.y * double(covered_.size()) / (sampleSize_.x * sampleSize_.y);
+    const int directions = kDirections[next_];
+    if (mayTransfer_ && directions * pixels > transferRays(scene)) {
+        choice_.settings.method = relief::Method::Transfer;
+        choice_.settings.terms = relief::kMostTerms;
+        choice_.predicted =
+            std::hypot(choice_.predicted, wanted_ * kSafety); // it takes the terms that keep it
+        phase_ = Phase::Done;
+        return Done{};
+    }
+    float best = 1e30f;
+    for (EnvironmentSampling sampling : {EnvironmentSampling::Equal, EnvironmentSampling::Importance}) {
+        relief::Settings settings = reference_;
+        settings.environmentSampling = sampling;
+        settings.environmentLights = directions;
+        const Result<float> error = errorOf(scene, settings);
+        if (!error) return error.error();
+        if (*error >= best) continue;
+        best = *error;
+        choice_.settings.environmentSampling = sampling;
+        choice_.settings.environmentLights = directions;
+    }
+    const bool last = ++next_ == std::size(kDirections);
+    if (best > wanted_ && !last) return Done{};
+    choice_.kept = choice_.kept && best <= wanted_;
+    choice_.predicted = std::hypot(choice_.predicted, best * kSafety);
+    phase_ = Phase::Done;
+    return Done{};
+}
+
+void Budget::refuseTransfer() {
+    mayTransfer_ = false;
+    next_ = 0;
+    choice_.settings.method = relief::Method::Hierarchy;
+    choice_.predicted = 0;
+    phase_ = Phase::Surface;
+}
+
+double Budget::transferRays(const scene::Scene& scene) const {
+    double rays = 0;
+    for (const scene::Object& object : scene.objects)
+        if (object.visible) rays += relief::transferRays(object.shape.texels(), relief::kMostTerms);
+    return rays;
+}
+
+} // namespace lucent::frame

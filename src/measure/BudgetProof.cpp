@@ -1,0 +1,354 @@
+#include "measure/BudgetProof.h"
+
+#include "base/JsonWriter.h"
+#include "frame/Renderer.h"
+#include "relief/Relief.h"
+#include "scene/Environment.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+namespace lucent::measure {
+
+namespace {
+
+using relief::EnvironmentSampling;
+using relief::Method;
+
+// --- scenes
+
+std::shared_ptr<const Image> heights(int side, const std::function<float(float, float)>& height) {
+    auto image = std::make_shared<Image>(side, side, 1);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            *image->at(x, y) = height((float(x) + 0.5f) / float(side), (float(y) + 0.5f) / float(side));
+    return image;
+}
+
+// A number in [0,1) that looks random, the same everywhere.
+float hashed(int a, int b) {
+    auto h = std::uint32_t(a) * 374761393u + std::uint32_t(b) * 668265263u + 1u;
+    h = (h ^ (h >> 13)) * 1274126177u;
+    return float((h ^ (h >> 16)) & 0xffffff) / float(0x1000000);
+}
+
+float craters(float u, float v) {
+    float height = 0.6f;
+    for (int i = 0; i < 40; ++i) {
+        const float radius = 0.03f + 0.12f * hashed(i, 2);
+        const float far = std::hypot(u - hashed(i, 0), v - hashed(i, 1)) / radius;
+        if (far < 1.4f) height += radius * (far < 1 ? far * far - 0.7f : 0.3f * (1.4f - far) / 0.4f);
+    }
+    return std::clamp(height, 0.0f, 1.0f);
+}
+
+float bricks(float u, float v) {
+    const float row = std::floor(8 * v), shift = std::fmod(row, 2.0f) / 2;
+    const float across = 4 * u + shift, along = 8 * v;
+    const float inX = std::min(across - std::floor(across), std::ceil(across) - across) * 2;
+    const float inY = std::min(along - row, row + 1 - along);
+    return inX > 0.08f && inY > 0.08f ? 0.7f + 0.3f * hashed(int(std::floor(across)), int(row)) : 0.0f;
+}
+
+float cones(float u, float v) {
+    const float x = 6 * u - std::floor(6 * u) - 0.5f, y = 6 * v - std::floor(6 * v) - 0.5f;
+    return std::max(0.0f, 1 - 2.2f * std::hypot(x, y));
+}
+
+float stairs(float u, float v) { return std::floor(7 * (0.7f * u + 0.3f * v)) / 7; }
+
+float ridges(float u, float v) {
+    return 0.5f + 0.5f * std::abs(std::fmod(9 * (u + 0.4f * v * v), 2.0f) - 1) - 0.25f * v;
+}
+
+std::vector<BenchField> syntheticFields(int side) {
+    return {{"craters", heights(side, craters), 0.4f},
+            {"bricks", heights(side, bricks), 0.05f},
+            {"cones", heights(side, cones), 0.15f},
+            {"stairs", heights(side, stairs), 0.3f},
+            {"ridges", heights(side, ridges), 0.12f}};
+}
+
+// Two lamps as wide as a hand at arm's length, in a dark hall.
+std::shared_ptr<const Image> hall() {
+    auto map = std::make_shared<Image>(256, 128, 3);
+    for (int y = 0; y < 128; ++y) {
+        for (int x = 0; x < 256; ++x) {
+            const bool warm = std::hypot(float(x) - 60, float(y) - 40) < 7;
+            const bool cold = std::abs(x - 190) < 12 && std::abs(y - 30) < 5;
+            const vec3 color = warm ? vec3(40, 30, 18) : cold ? vec3(12, 18, 30) : vec3(0.15f);
+            std::copy_n(&color[0], 3, map->at(x, y));
+        }
+    }
+    return map;
+}
+
+struct Lighting {
+    std::string name;
+    std::function<void(scene::Scene&)> light;
+};
+
+std::vector<Lighting> lightings(const std::vector<BenchEnvironment>& environments) {
+    std::vector<Lighting> list;
+    const auto under = [&](const std::string& name, std::shared_ptr<const Image> map, vec3 rotation) {
+        list.push_back({name, [=](scene::Scene& scene) {
+                            scene.environment.emplace();
+                            scene.environment->map = map;
+                            scene.environment->rotation = rotation;
+                        }});
+    };
+    for (const BenchEnvironment& environment : environments)
+        under(environment.name, environment.map, {60, 25, 0});
+    under("hall", std::make_shared<const Image>(*hall()), {80, 0, 15});
+    under("rainbow", std::make_shared<const Image>(scene::proceduralEnvironment("rainbow")), {30, 70, 0});
+    list.push_back({"wide sun", [](scene::Scene& scene) {
+                        scene::DistantLight sun;
+                        sun.direction = {-0.6f, 0.5f, -0.6f};
+                        sun.angle = 12;
+                        scene.lights.push_back(sun);
+                    }});
+    list.push_back({"bulb", [](scene::Scene& scene) {
+                        scene::PointLight bulb;
+                        bulb.position = {0.4f, 0.2f, 0.5f};
+                        bulb.radius = 0.15f;
+                        scene.lights.push_back(bulb);
+                    }});
+    under("bulb and hall", std::make_shared<const Image>(*hall()), {80, 140, 0});
+    const auto both = list.back().light;
+    list.back().light = [=](scene::Scene& scene) {
+        both(scene);
+        scene::PointLight bulb;
+        bulb.radius = 0.1f;
+        bulb.intensity = 0.5f;
+        scene.lights.push_back(bulb);
+    };
+    return list;
+}
+
+// --- measuring
+
+double now() {
+    using namespace std::chrono;
+    return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+relief::Settings& settingsOf(scene::Scene& scene) {
+    return *static_cast<relief::Settings*>(scene.technique.at("relief").data());
+}
+
+// RMSE over the mean on the pixels that show an object.
+double relativeError(const Image& image, const Image& exact) {
+    double sum = 0, mean = 0, covered = 0;
+    for (std::size_t i = 0; i < exact.pixels.size(); i += 4) {
+        if (exact.pixels[i + 3] == 0) continue;
+        covered += 3;
+        for (std::size_t c = i; c < i + 3; ++c) {
+            const double d = double(image.pixels[c]) - exact.pixels[c];
+            sum += d * d;
+            mean += exact.pixels[c];
+        }
+    }
+    return std::sqrt(sum / covered) / (mean / covered);
+}
+
+struct Tried {
+    std::string name;
+    double ms, error;
+};
+
+class Prover {
+public:
+    Prover(gl::Context& context, scene::Scene scene) : renderer_(context), scene_(std::move(scene)) {}
+
+    Status solve() {
+        relief::Settings& settings = settingsOf(scene_);
+        settings.environmentLights = 4096;
+        settings.lightSamples = 1024;
+        Result<Image> image = picture();
+        if (!image) return image.error();
+        exact_ = std::move(*image);
+        return Done{};
+    }
+
+    // Every setting, until half the smallest wanted error is reached.
+    Status tryAll() {
+        const bool environment = scene_.environment.has_value(), lamps = !scene_.lights.empty();
+        const auto enough = [&](double error) { return error < 0.5 * kWantedErrors[3]; };
+        for (double count = 8; count <= 2048.5; count *= std::sqrt(2.0)) {
+            double nearest = 1e30;
+            for (auto sampling : {EnvironmentSampling::Equal, EnvironmentSampling::Importance}) {
+                if (!environment && sampling != EnvironmentSampling::Equal) continue;
+                for (int points : lampCounts(lamps, environment, count)) {
+                    const Result<Tried> tried = attempt(sampling, int(std::lround(count)), points);
+                    if (!tried) return tried.error();
+                    nearest = std::min(nearest, tried->error);
+                    tried_.push_back(*tried);
+                }
+            }
+            if (enough(nearest)) break;
+        }
+        if (!environment) return Done{};
+        settingsOf(scene_).method = Method::Transfer;
+        settingsOf(scene_).terms = relief::kMostTerms;
+        scene_.quality.maxError = 0;
+        const Result<Tried> tried = measure("transfer");
+        settingsOf(scene_).method = Method::Hierarchy;
+        if (!tried) return tried.error();
+        tried_.push_back(*tried);
+        return Done{};
+    }
+
+    Result<BudgetResult> budget(float wanted) {
+        renderer_.release(); // a transfer that is there already would be chosen for nothing
+        scene_.quality.maxError = wanted;
+        const Result<Tried> tried = measure("");
+        scene_.quality.maxError = 0;
+        if (!tried) return tried.error();
+        const frame::Stats stats = renderer_.stats();
+        BudgetResult result;
+        result.wanted = wanted;
+        result.chosen = stats.settings;
+        result.predicted = stats.predicted;
+        result.error = tried->error;
+        result.planMs = stats.planMilliseconds;
+        result.ms = tried->ms - result.planMs;
+        const Tried* best = nullptr;
+        for (const Tried& one : tried_)
+            if (one.error <= wanted && (!best || one.ms < best->ms)) best = &one;
+        if (best) {
+            result.best = best->name;
+            result.bestMs = best->ms;
+        }
+        return result;
+    }
+
+private:
+    static std::vector<int> lampCounts(bool lamps, bool environment, double count) {
+        if (!lamps) return {1};
+        if (!environment) return {int(std::lround(count / 8)), int(std::lround(count / 4))};
+        return {int(std::lround(count / 8)), int(std::lround(count / 2))};
+    }
+    Result<Image> picture() {
+        if (Status done = renderer_.finish(scene_, ++revision_, scene_.size); !done) return done.error();
+        return renderer_.read(scene_, scene::Aov::Color);
+    }
+    Result<Tried> measure(const std::string& name) {
+        const double before = now();
+        const Result<Image> image = picture();
+        if (!image) return image.error();
+        return Tried{name, now() - before, relativeError(*image, exact_)};
+    }
+    Result<Tried> attempt(EnvironmentSampling sampling, int directions, int points) {
+        relief::Settings& settings = settingsOf(scene_);
+        settings.environmentSampling = sampling;
+        settings.environmentLights = directions;
+        settings.lightSamples = std::max(1, points);
+        return measure(std::to_string(directions) +
+                       (sampling == EnvironmentSampling::Equal ? " evenly, " : " by importance, ") +
+                       std::to_string(settings.lightSamples) + " points a lamp");
+    }
+
+    frame::Renderer renderer_;
+    std::uint64_t revision_ = 0;
+    scene::Scene scene_;
+    Image exact_;
+    std::vector<Tried> tried_;
+};
+
+std::string formatted(const char* format, auto... values) {
+    char line[320];
+    std::snprintf(line, sizeof line, format, values...);
+    return line;
+}
+
+} // namespace
+
+Result<BudgetReport> proveBudget(gl::Context& context, const std::vector<BenchField>& given,
+                                 const std::vector<BenchEnvironment>& environments, int side,
+                                 const Say& say) {
+    std::vector<BenchField> fields = syntheticFields(side);
+    fields.insert(fields.end(), given.begin(), given.end());
+    const std::vector<Lighting> lights = lightings(environments);
+    BudgetReport report;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        for (std::size_t j = 0; j < lights.size(); ++j) {
+            const float depth = 0.004f * std::pow(4.0f, hashed(int(i), int(j)) * 2); // 4 mm to 64 mm
+            scene::Scene scene = fieldScene(fields[i], depth);
+            const vec2 footprint = scene.objects[0].shape.footprint();
+            scene.size = ivec2(side, std::max(1, int(float(side) * footprint.y / footprint.x)));
+            scene.view.show = scene::Aov::Color;
+            scene.objects[0].material.forwardScatter = j % 3 == 1 ? 0.6f : 0;
+            scene.objects[0].material.specularity = (i + j) % 4 == 2 ? 0.4f : 0;
+            lights[j].light(scene);
+            const std::string name = fields[i].name + " under " + lights[j].name;
+            say(name);
+            Prover prover(context, std::move(scene));
+            if (Status solved = prover.solve(); !solved) return solved.error();
+            if (Status tried = prover.tryAll(); !tried) return tried.error();
+            for (float wanted : kWantedErrors) {
+                Result<BudgetResult> result = prover.budget(wanted);
+                if (!result) return result.error();
+                result->scene = name;
+                report.results.push_back(std::move(*result));
+            }
+        }
+    }
+    return report;
+}
+
+std::string BudgetReport::text() const {
+    std::string out;
+    for (const BudgetResult& r : results)
+        out +=
+            formatted("  %-34s wanted %.3f got %.4f %s, %.0f ms (+ %.0f choosing) against %.0f ms %s: %s\n",
+                      r.scene.c_str(), double(r.wanted), r.error, r.kept() ? "    " : "MISS", r.ms, r.planMs,
+                      r.bestMs, r.quick() ? "    " : "SLOW", r.chosen.c_str());
+    for (const Ratio& total : totals())
+        out += formatted("  %s: %.3f\n", total.name.c_str(), total.value);
+    return out;
+}
+
+std::vector<Ratio> BudgetReport::totals() const {
+    std::vector<Ratio> list;
+    for (float wanted : kWantedErrors) {
+        int count = 0, kept = 0, quick = 0;
+        for (const BudgetResult& r : results) {
+            if (r.wanted != wanted) continue;
+            ++count;
+            kept += r.kept();
+            quick += r.quick();
+        }
+        const std::string name = formatted("maxError %.3f on %d scenes: ", double(wanted), count);
+        list.push_back({name + "share that keeps it", double(kept) / count, 0.95, true});
+        list.push_back({name + "share within 1.5 of the best time", double(quick) / count, 0.95, true});
+    }
+    return list;
+}
+
+std::string BudgetReport::json() const {
+    JsonWriter json;
+    json.beginObject();
+    json.key("format").value("lucent-budget-1");
+    json.key("results").beginArray();
+    for (const BudgetResult& r : results) {
+        json.beginObject();
+        json.key("scene").value(r.scene);
+        json.key("wanted").value(r.wanted);
+        json.key("chosen").value(r.chosen);
+        json.key("predicted").value(r.predicted);
+        json.key("error").value(r.error);
+        json.key("ms").value(r.ms);
+        json.key("planMs").value(r.planMs);
+        json.key("bestMs").value(r.bestMs);
+        json.key("best").value(r.best);
+        json.end();
+    }
+    json.end();
+    json.end();
+    return json.text();
+}
+
+} // namespace lucent::measure

@@ -1,0 +1,79 @@
+#pragma once
+/// What a benchmark measures, as data: a case, a method or a setting is one line.
+
+#include "measure/BenchReport.h"
+#include "measure/Stopwatch.h"
+#include "scene/Scene.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lucent::measure {
+
+/// A method with its knobs: parameters of its technique, as a scene file spells them.
+struct Setting {
+    std::string method;
+    std::vector<std::pair<std::string, std::string>> knobs{};
+    bool ownModel = false; ///< solves another model: its distance from ours is model error, and it runs in no
+                           ///< race
+    bool bakes = false;    ///< prepares a field before its first picture: that time is measured apart
+
+    /// "march steps=256"
+    std::string name() const;
+};
+
+/// Scenes are made when their turn comes: large fields need not be in memory together.
+struct MakeScene {
+    std::function<Result<scene::Scene>()> make;
+    double rays = 0; ///< about its pixels times lights: only for the share of the work that is done
+
+    Result<scene::Scene> operator()() const { return make(); }
+};
+
+/// One scene on which every setting is measured against the exact solution.
+struct Case {
+    std::string technique, name;
+    MakeScene scene; ///< view.show is the quantity that is compared
+    std::vector<Setting> settings;
+    /// Makes the scene whose exact solution is the physics behind the model; empty: none is known.
+    std::function<void(scene::Scene&)> toPhysics;
+};
+
+/// One setting on scenes of growing size.
+struct Series {
+    std::string technique, over;
+    Setting setting;
+    struct Point {
+        double x;
+        MakeScene scene;
+    };
+    std::vector<Point> points;
+};
+
+/// A scene on which methods tend to break.
+struct HardCase {
+    std::string name;
+    MakeScene scene;                    ///< or the message by which the scene must be refused
+    std::optional<MakeScene> reference; ///< the scene whose exact solution counts; nothing: the same
+};
+
+/// Reads a figure off a report; nothing when what it needs was not measured.
+using RatioRule = std::function<std::optional<Ratio>(const BenchReport&)>;
+
+struct Plan {
+    bool quick = false;
+    int directions = 4096; ///< of an exact environment
+    int truthParts = 32; ///< steps in which an exact solution is made, so that a page stays alive; 1: at once
+    Repeats repeats;
+    std::vector<Case> cases;
+    std::vector<Series> series;
+    std::string hardTechnique;
+    std::vector<HardCase> hardCases;
+    std::vector<Setting> hardSettings;
+    std::vector<RatioRule> ratios;
+};
+
+} // namespace lucent::measure

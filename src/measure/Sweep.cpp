@@ -1,0 +1,419 @@
+#include "measure/Sweep.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+namespace lucent::measure {
+
+std::string Setting::name() const {
+    std::string text = method;
+    for (const auto& [knob, value] : knobs)
+        text += " " + knob + "=" + value;
+    return text;
+}
+
+namespace {
+
+Status apply(scene::Scene& scene, const std::string& technique, const Setting& setting) {
+    const std::string place = "technique." + technique + ".";
+    if (Status set = setParam(scene, place + "method", setting.method); !set) return set;
+    for (const auto& [knob, value] : setting.knobs)
+        if (Status set = setParam(scene, place + knob, value); !set) return set;
+    return Done{};
+}
+
+// Microseconds that work takes on two cores, roughly: only for the share that is done.
+constexpr double kTruthRay = 2, kPictureRay = 0.15, kStep = 0.005;
+
+double pictureCost(const Setting& setting, double rays) {
+    for (const auto& [knob, value] : setting.knobs)
+        if (knob == "steps") return rays * kStep * std::strtod(value.c_str(), nullptr);
+    return rays * kPictureRay;
+}
+
+// A renderer with what it draws: pictures of one scene with light and without.
+class Drawing {
+public:
+    Drawing(gl::Context& context, scene::Scene scene)
+        : renderer_(context), scene_(std::move(scene)), dark_(scene_) {
+        dark_.lights.clear();
+        dark_.environment.reset();
+    }
+
+    // Work that an earlier, coarser look at the same picture took does not count.
+    Status lit(Stopwatch* stopwatch) {
+        const std::uint64_t revision = ++revision_;
+        int lights = renderer_.stats().lights;
+        for (;;) {
+            const Result<frame::Progress> progress = renderer_.advance(scene_, revision, scene_.size);
+            if (!progress) return progress.error();
+            if (progress->complete) break;
+            if (stopwatch && renderer_.stats().lights != lights) stopwatch->restart();
+            lights = renderer_.stats().lights;
+        }
+        renderer_.wait();
+        return Done{};
+    }
+    Status dark() {
+        if (Status done = renderer_.finish(dark_, ++revision_, dark_.size); !done) return done;
+        renderer_.wait();
+        return Done{};
+    }
+    // An eighth of a turn: nothing that was made for one position of the map may be used for the next.
+    void turnEnvironment() {
+        if (scene_.environment) scene_.environment->rotation.y += 45;
+    }
+    Result<Image> picture() {
+        if (Status done = lit(nullptr); !done) return done.error();
+        return renderer_.read(scene_, scene_.view.show);
+    }
+    frame::Renderer& renderer() { return renderer_; }
+    const scene::Scene& scene() const { return scene_; }
+
+private:
+    frame::Renderer renderer_;
+    scene::Scene scene_, dark_;
+    std::uint64_t revision_ = 0;
+};
+
+std::unique_ptr<Stopwatch> stopwatchFor(gl::Context& context, Drawing& drawing, Repeats repeats,
+                                        std::unique_ptr<Stopwatch>& self) {
+    return std::make_unique<Stopwatch>(
+        context,
+        [&drawing, &self] {
+            drawing.turnEnvironment();
+            return drawing.lit(self.get());
+        },
+        [&drawing] { return drawing.dark(); }, repeats);
+}
+
+double milliseconds(const std::function<Status()>& work, Status& status) {
+    const auto start = std::chrono::steady_clock::now();
+    status = work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+// --- pieces of work
+
+struct Sweep::Task {
+    std::string label;
+    double cost = 0; // expected microseconds
+    virtual ~Task() = default;
+    virtual bool step(Sweep& sweep) = 0; // true when done
+};
+
+// What the settings of one case share.
+struct Sweep::CaseState {
+    explicit CaseState(const Case& plan) : plan(plan) {}
+    const Case& plan;
+    scene::Scene scene;
+    truth::Picture truth;
+    std::optional<Image> physics;
+    std::string refused; // the scene itself
+};
+
+// An exact solution in the making.
+class Sweep::Solving {
+public:
+    Solving(const Sweep& sweep, const scene::Scene& scene)
+        : sweep_(sweep), scene_(scene), picture_(scene.size) {}
+
+    // True when the picture is whole.
+    Result<bool> step() {
+        const int parts = std::min(sweep_.plan_.truthParts, scene_.size.y);
+        const truth::Tile tile{done_, parts};
+        const Result<truth::Picture> rows = sweep_.solve_(scene_, sweep_.plan_.directions, tile);
+        if (!rows) return rows.error();
+        for (int y = 0; y < tile.rows(scene_.size.y); ++y) {
+            const auto copyRow = [&](const Image& from, Image& to) {
+                std::copy_n(from.at(0, y), from.width * from.channels, to.at(0, tile.row(y)));
+            };
+            copyRow(rows->values, picture_.values);
+            copyRow(rows->errors, picture_.errors);
+        }
+        return ++done_ == parts;
+    }
+    const truth::Picture& picture() const { return picture_; }
+
+private:
+    const Sweep& sweep_;
+    const scene::Scene scene_;
+    truth::Picture picture_;
+    int done_ = 0;
+};
+
+class Sweep::CaseTruth : public Task {
+public:
+    explicit CaseTruth(std::shared_ptr<CaseState> state) : state_(std::move(state)) {
+        label = state_->plan.name + ": exact solution";
+    }
+    bool step(Sweep& sweep) override {
+        const Result<bool> done = solve(sweep);
+        if (!done) state_->refused = done.error().message;
+        return !done || *done;
+    }
+
+private:
+    Result<bool> solve(Sweep& sweep) {
+        CaseState& state = *state_;
+        if (!solving_) {
+            Result<scene::Scene> scene = state.plan.scene();
+            if (!scene) return scene.error();
+            state.scene = std::move(*scene);
+            solving_ = std::make_unique<Solving>(sweep, state.scene);
+        }
+        const Result<bool> done = solving_->step();
+        if (!done || !*done) return done;
+        if (isPhysics_) {
+            state.physics = solving_->picture().values;
+            return true;
+        }
+        state.truth = solving_->picture();
+        if (!state.plan.toPhysics) return true;
+        scene::Scene physical = state.scene;
+        state.plan.toPhysics(physical);
+        solving_ = std::make_unique<Solving>(sweep, physical);
+        isPhysics_ = true;
+        return false;
+    }
+
+    std::shared_ptr<CaseState> state_;
+    std::unique_ptr<Solving> solving_;
+    bool isPhysics_ = false; // that is what is being solved
+};
+
+class Sweep::Timing : public Task {
+public:
+    Timing(std::shared_ptr<CaseState> state, const Setting& setting)
+        : state_(std::move(state)), setting_(setting) {
+        label = state_->plan.name + ": " + setting_.name();
+    }
+    bool step(Sweep& sweep) override {
+        if (!stopwatch_) {
+            const Status begun = begin(sweep);
+            return begun ? false : refuse(sweep, begun.error().message);
+        }
+        const Result<bool> done = stopwatch_->step();
+        if (!done) return refuse(sweep, done.error().message);
+        if (*done) finish(sweep);
+        return *done;
+    }
+
+private:
+    Status begin(Sweep& sweep) {
+        result_.technique = state_->plan.technique;
+        result_.scene = state_->plan.name;
+        result_.method = setting_.method;
+        result_.knobs = setting_.knobs;
+        result_.size = state_->scene.size;
+        if (!state_->refused.empty()) return Error{state_->refused};
+        scene::Scene scene = state_->scene;
+        if (Status set = apply(scene, result_.technique, setting_); !set) return set;
+        drawing_ = std::make_unique<Drawing>(sweep.context_, std::move(scene));
+        const Result<Image> image = drawing_->picture();
+        if (!image) return image.error();
+        if (Status judged = judge(*image); !judged) return judged;
+        const frame::Stats stats = drawing_->renderer().stats();
+        result_.passes = stats.passes;
+        result_.draws = stats.draws;
+        result_.bytes = stats.bytes;
+        result_.lights = stats.lights;
+        if (setting_.bakes)
+            if (Status baked = timeBake(); !baked) return baked;
+        stopwatch_ = stopwatchFor(sweep.context_, *drawing_, sweep.plan_.repeats, stopwatch_);
+        return Done{};
+    }
+    Status judge(const Image& image) {
+        const CaseState& state = *state_;
+        const Image& truth = state.truth.values;
+        Result<Metrics> metrics = compare(image, label, truth, "exact solution", &truth);
+        if (!metrics) return metrics.error();
+        if (!setting_.ownModel) addPerceptual(*metrics, image, truth);
+        (setting_.ownModel ? result_.modelError : result_.error) = *metrics;
+        result_.truthNoise = state.truth.standardError();
+        if (setting_.ownModel || !state.physics) return Done{};
+        Result<Metrics> model = compare(image, label, *state.physics, "physics", &truth);
+        if (!model) return model.error();
+        result_.modelError = *model;
+        return Done{};
+    }
+    // Programs are compiled by now: with all memory given back, the first picture makes what the second
+    // finds.
+    Status timeBake() {
+        Status done = Done{};
+        drawing_->renderer().release();
+        const double first = milliseconds([&] { return drawing_->lit(nullptr); }, done);
+        if (!done) return done;
+        drawing_->turnEnvironment();
+        result_.bakeMs = first - milliseconds([&] { return drawing_->lit(nullptr); }, done);
+        return done;
+    }
+    void finish(Sweep& sweep) {
+        result_.ms = stopwatch_->spread();
+        sweep.report_.measurements.push_back(result_);
+    }
+    bool refuse(Sweep& sweep, const std::string& message) {
+        result_.refused = message;
+        sweep.report_.measurements.push_back(result_);
+        return true;
+    }
+
+    std::shared_ptr<CaseState> state_;
+    const Setting& setting_;
+    Measurement result_;
+    std::unique_ptr<Drawing> drawing_;
+    std::unique_ptr<Stopwatch> stopwatch_;
+};
+
+class Sweep::SeriesPoint : public Task {
+public:
+    SeriesPoint(const Series& series, std::size_t index, std::size_t point)
+        : series_(series), index_(index), point_(point) {
+        label = series.setting.name() + " over " + series.over + ", " +
+                std::to_string(long(series.points[point].x));
+    }
+    bool step(Sweep& sweep) override {
+        if (!stopwatch_) {
+            Result<scene::Scene> scene = series_.points[point_].scene();
+            if (!scene) return leaveOut(sweep, scene.error());
+            if (Status set = apply(*scene, series_.technique, series_.setting); !set)
+                return leaveOut(sweep, set.error());
+            drawing_ = std::make_unique<Drawing>(sweep.context_, std::move(*scene));
+            stopwatch_ = stopwatchFor(sweep.context_, *drawing_, sweep.plan_.repeats, stopwatch_);
+            return false;
+        }
+        const Result<bool> done = stopwatch_->step();
+        if (!done) return leaveOut(sweep, done.error());
+        if (*done)
+            sweep.report_.scaling[index_].points.push_back(
+                {series_.points[point_].x, stopwatch_->spread().median});
+        return *done;
+    }
+
+private:
+    // A field may be too large for a GPU: the series goes on without it.
+    bool leaveOut(Sweep& sweep, const Error& error) const {
+        sweep.say_(label + ": left out: " + error.message);
+        return true;
+    }
+
+    const Series& series_;
+    std::size_t index_, point_;
+    std::unique_ptr<Drawing> drawing_;
+    std::unique_ptr<Stopwatch> stopwatch_;
+};
+
+class Sweep::Hard : public Task {
+public:
+    Hard(const HardCase& plan, const Setting& setting) : plan_(plan), setting_(setting) {
+        label = "hard case " + plan.name + ": " + setting.name();
+    }
+    bool step(Sweep& sweep) override {
+        HardResult result{plan_.name, setting_.name(), HardResult::Status::Refused, 0, {}};
+        Image exact;
+        const Result<Image> image = pictures(sweep, exact);
+        if (image)
+            judge(*image, exact, result);
+        else
+            result.message = image.error().message;
+        sweep.report_.hardCases.push_back(result);
+        return true;
+    }
+
+private:
+    // What the method draws; `exact` becomes what it should draw.
+    Result<Image> pictures(Sweep& sweep, Image& exact) const {
+        Result<scene::Scene> scene = plan_.scene();
+        if (!scene) return scene.error();
+        const Result<scene::Scene> reference = plan_.reference ? (*plan_.reference)() : scene;
+        if (!reference) return reference.error();
+        Solving solving(sweep, *reference); // small: it is no trouble to make it at once
+        for (;;) {
+            const Result<bool> done = solving.step();
+            if (!done) return done.error();
+            if (*done) break;
+        }
+        exact = solving.picture().values;
+        if (Status set = apply(*scene, sweep.plan_.hardTechnique, setting_); !set) return set.error();
+        return Drawing(sweep.context_, std::move(*scene)).picture();
+    }
+    // A picture with values that are not finite is no refusal: it is an error without a figure.
+    void judge(const Image& image, const Image& exact, HardResult& result) const {
+        const Result<Metrics> metrics = compare(image, setting_.name(), exact, "exact solution", &exact);
+        result.error = metrics ? metrics->rmse : std::numeric_limits<double>::quiet_NaN();
+        if (!metrics) result.message = metrics.error().message;
+        const bool passes = metrics && metrics->p99 <= kHardTolerance;
+        result.status = passes ? HardResult::Status::Pass : HardResult::Status::Error;
+    }
+
+    const HardCase& plan_;
+    const Setting& setting_;
+};
+
+// --- the sweep
+
+Sweep::Sweep(gl::Context& context, Plan plan, SolveTruth solve, Say say)
+    : context_(context), plan_(std::move(plan)), solve_(std::move(solve)), say_(std::move(say)) {
+    report_.quick = plan_.quick;
+    report_.machine.driver = context_.caps().renderer;
+    report_.machine.version = context_.caps().version;
+    report_.timing = Stopwatch::kind(context_);
+    addTasks();
+}
+
+Sweep::~Sweep() = default;
+
+void Sweep::add(std::unique_ptr<Task> task, double cost) {
+    task->cost = cost;
+    total_ += cost;
+    tasks_.push_back(std::move(task));
+}
+
+void Sweep::addTasks() {
+    const auto timingCost = [this](const Setting& setting, double rays) {
+        return std::max(1000 * plan_.repeats.enoughMs,
+                        (plan_.repeats.least + 2) * pictureCost(setting, rays));
+    };
+    for (const Case& one : plan_.cases) {
+        const auto state = std::make_shared<CaseState>(one);
+        add(std::make_unique<CaseTruth>(state), kTruthRay * one.scene.rays);
+        for (const Setting& setting : one.settings)
+            add(std::make_unique<Timing>(state, setting), timingCost(setting, one.scene.rays));
+    }
+    for (const Series& series : plan_.series) {
+        report_.scaling.push_back({series.technique, series.setting.name(), series.over, {}});
+        for (std::size_t i = 0; i < series.points.size(); ++i)
+            add(std::make_unique<SeriesPoint>(series, report_.scaling.size() - 1, i),
+                timingCost(series.setting, series.points[i].scene.rays));
+    }
+    for (const HardCase& hard : plan_.hardCases)
+        for (const Setting& setting : plan_.hardSettings)
+            add(std::make_unique<Hard>(hard, setting), kTruthRay * hard.scene.rays);
+}
+
+bool Sweep::step() {
+    if (tasks_.empty()) return false;
+    Task& task = *tasks_.front();
+    if (!begun_) say_(task.label);
+    begun_ = !task.step(*this);
+    if (begun_) return true;
+    done_ += task.cost;
+    tasks_.pop_front();
+    if (!tasks_.empty()) return true;
+    report_.markParetoFronts();
+    for (const RatioRule& rule : plan_.ratios)
+        if (std::optional<Ratio> ratio = rule(report_)) report_.ratios.push_back(*ratio);
+    return false;
+}
+
+BenchReport sweep(gl::Context& context, Plan plan, SolveTruth solve, const Say& say) {
+    Sweep sweep(context, std::move(plan), std::move(solve), say);
+    while (sweep.step())
+        ;
+    return sweep.report();
+}
+
+} // namespace lucent::measure

@@ -1,0 +1,64 @@
+#pragma once
+/// Pictures whose pixels are estimates: solved pixel by pixel, by several threads, whole or in tiles.
+
+#include "base/Image.h"
+#include "base/Math.h"
+#include "base/Result.h"
+
+#include <atomic>
+#include <functional>
+
+namespace lucent::truth {
+
+/// What an estimator knows about a pixel.
+struct Pixel {
+    dvec3 value{0};      ///< linear Rec. 709
+    dvec3 variance{0};   ///< of `value` as an estimate: the square of its standard error
+    double coverage = 0; ///< [0,1]
+};
+
+/// Solves pixels one at a time, each on its own: by gathering the light that reaches the eye through it. What
+/// it needs for all of them (fields, lights, maps of light) it prepares when it is made.
+class Estimator {
+public:
+    virtual ~Estimator() = default;
+    /// The same pixel gives the same value on whatever thread and in whatever order.
+    virtual Pixel solve(ivec2 pixel) const = 0;
+};
+
+/// A part of a picture: every `count`-th row, from row `index` on. Neighbouring rows cost about the same, so
+/// all parts take about as long.
+struct Tile {
+    int index = 0; ///< [0, count)
+    int count = 1;
+    int rows(int height) const { return (height - index + count - 1) / count; }
+    int row(int inside) const { return index + inside * count; }
+};
+
+/// A picture, or the rows of one tile.
+struct Picture {
+    Image values; ///< 4 channels: linear light and coverage
+    Image errors; ///< 3 channels: the standard error of each value
+
+    Picture() = default;
+    explicit Picture(ivec2 size) : values(size.x, size.y, 4), errors(size.x, size.y, 3) {}
+    /// Root of the mean squared standard error over all pixels and colours: the RMSE that this picture must
+    /// be expected to have against one without noise.
+    double standardError() const;
+};
+
+/// How the work is done; no picture depends on it.
+struct Work {
+    int threads = 0; ///< 0: as many as the machine has
+    /// Called now and then, always from the calling thread, with the finished share in [0,1].
+    std::function<void(double)> progress = [](double) {};
+};
+
+/// Solves the rows of a tile of a picture of `size` pixels.
+///
+/// @param cancel  set from elsewhere to stop
+/// @return        the tile's rows; Error when cancelled
+Result<Picture> render(const Estimator& estimator, ivec2 size, const Tile& tile, const Work& work,
+                       const std::atomic<bool>& cancel);
+
+} // namespace lucent::truth

@@ -1,0 +1,142 @@
+#include "viewer/Compare.h"
+
+#include "base/Pfm.h"
+#include "relief/Relief.h"
+#include "scene/Load.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lucent::viewer {
+
+namespace {
+
+constexpr std::string_view kModes[] = {"off", "truth", "error"};
+
+// Images that decide what a scene looks like, in a fixed order.
+std::vector<const void*> imagesOf(const scene::Scene& scene) {
+    std::vector<const void*> images{scene.environment ? scene.environment->map.get() : nullptr};
+    for (const scene::Object& object : scene.objects) {
+        const scene::Material& material = object.material;
+        images.insert(images.end(),
+                      {object.shape.heights.get(), object.shape.alpha.get(), material.baseMap.get(),
+                       material.diffuseMap.get(), material.specularMap.get()});
+    }
+    return images;
+}
+
+// What the exact picture depends on, as text: the model of a technique counts, its methods and knobs do not.
+std::string modelOf(scene::Scene scene) {
+    const relief::Settings shown = scene.technique.at("relief").as<relief::Settings>();
+    relief::Settings model;
+    model.attenuation = shown.attenuation;
+    model.normalise = shown.normalise;
+    *static_cast<relief::Settings*>(scene.technique.at("relief").data()) = model;
+    const scene::Aov quantity = scene.view.show;
+    scene.view = {};
+    scene.view.show = quantity;
+    scene.quality = {};
+    return scene::toJson(scene);
+}
+
+// Names an image's file and adds it; null images have none.
+void packImage(std::vector<std::pair<std::string, Bytes>>& files, const std::shared_ptr<const Image>& image,
+               std::string& file) {
+    if (!image) return;
+    file = std::to_string(files.size()) + ".pfm";
+    files.emplace_back(file, encodePfm(*image));
+}
+
+} // namespace
+
+std::span<const Param> compareParams() {
+    static const Param params[] = {
+        declare(&CompareSettings::mode,
+                {.id = "compare",
+                 .label = "Compare",
+                 .group = Group::View,
+                 .doc = "The picture beside its exact truth, or beside the error as a heat map.",
+                 .choices = kModes,
+                 .attribute = "compare"}),
+        declare(&CompareSettings::divider, {.id = "divider",
+                                            .label = "Divider",
+                                            .min = 0,
+                                            .max = 1,
+                                            .doc = "Share of the picture left of the divider.",
+                                            .attribute = "divider"}),
+    };
+    return params;
+}
+
+std::vector<BoundParam> bindCompare(CompareSettings& settings) {
+    static const CompareSettings defaults;
+    std::vector<BoundParam> bound;
+    for (const Param& param : compareParams()) {
+        const auto member = [&](const void* base) {
+            return static_cast<const std::byte*>(base) + param.offset;
+        };
+        bound.push_back({std::string(param.id), "compare", &param,
+                         reinterpret_cast<std::byte*>(&settings) + param.offset, member(&defaults)});
+    }
+    return bound;
+}
+
+Image asTruthImage(const Image& picture) {
+    Image image(picture.width, picture.height, 4);
+    const bool isGrey = picture.channels < 3;
+    for (std::size_t i = 0; i < image.pixels.size() / 4; ++i) {
+        const float* from = picture.pixels.data() + i * std::size_t(picture.channels);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            image.pixels[4 * i + channel] = from[isGrey ? 0 : channel];
+        image.pixels[4 * i + 3] = picture.channels == 4 ? from[3] : -1;
+    }
+    return image;
+}
+
+bool samePicture(const scene::Scene& a, const scene::Scene& b) {
+    return imagesOf(a) == imagesOf(b) && modelOf(a) == modelOf(b);
+}
+
+Result<measure::Metrics> compareWithTruth(const Image& picture, const Image& truth) {
+    if (picture.size() != truth.size()) return measure::compare(picture, "picture", truth, "truth");
+    Image coverage(picture.width, picture.height, 1);
+    for (std::size_t i = 0; i < coverage.pixels.size(); ++i)
+        coverage.pixels[i] = std::max(picture.pixels[4 * i + 3], truth.pixels[4 * i + 3]);
+    return measure::compare(picture, "picture", truth, "truth", &coverage);
+}
+
+double fullScale(double p99) {
+    const double smallest = 1e-7; // of light near 1 a 32-bit float says no more
+    const double wanted = std::max(p99, smallest);
+    const double exponent = std::floor(std::log10(wanted));
+    // Powers of ten are exact upwards only, and a quotient of exact numbers prints short.
+    const auto end = [&](double step) {
+        return exponent < 0 ? step / std::pow(10.0, -exponent) : step * std::pow(10.0, exponent);
+    };
+    for (const double step : {1.0, 2.0, 5.0})
+        if (wanted <= end(step)) return end(step);
+    return end(10);
+}
+
+std::vector<std::pair<std::string, Bytes>> packScene(scene::Scene scene) {
+    std::vector<std::pair<std::string, Bytes>> files{{"scene.json", {}}};
+    if (scene.environment) packImage(files, scene.environment->map, scene.environment->source);
+    for (scene::Object& object : scene.objects) {
+        scene::HeightField& shape = object.shape;
+        shape.source = {};
+        shape.alphaIsSolid = true;
+        packImage(files, shape.heights, shape.source.file);
+        packImage(files, shape.alpha, shape.alphaFile);
+        scene::Material& material = object.material;
+        packImage(files, material.baseMap, material.baseMapFile);
+        packImage(files, material.diffuseMap, material.diffuseMapFile);
+        packImage(files, material.specularMap, material.specularMapFile);
+    }
+    const std::string text = scene::toJson(scene);
+    const auto bytes = std::as_bytes(std::span(text));
+    files.front().second.assign(bytes.begin(), bytes.end());
+    return files;
+}
+
+} // namespace lucent::viewer

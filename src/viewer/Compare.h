@@ -1,0 +1,53 @@
+#pragma once
+/// The picture beside its truth: what a person chooses, what is compared, and when two scenes are the same.
+
+#include "base/Image.h"
+#include "base/Param.h"
+#include "measure/Metrics.h"
+#include "scene/Scene.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lucent::viewer {
+
+enum class CompareMode : int { Off, Truth, Error };
+
+/// What a person chooses. Part of the view, not of the scene: no undo step, not in a scene file.
+struct CompareSettings {
+    CompareMode mode = CompareMode::Off;
+    float divider = 0.5f; ///< share of the picture that lies left of it
+};
+
+/// "compare" and "divider", which are also their paths and attributes.
+std::span<const Param> compareParams();
+std::vector<BoundParam> bindCompare(CompareSettings& settings);
+
+/// An exact picture and the scene that it shows.
+struct Truth {
+    Image image;                 ///< linear, 4 channels; coverage below 0 where it is not known
+    std::optional<double> noise; ///< RMSE that the truth itself has; nothing: not known
+    scene::Scene scene;
+};
+
+/// A picture of 1, 3 or 4 channels as a truth's image.
+Image asTruthImage(const Image& picture);
+
+/// True when both scenes have the same exact picture: how it is computed, exposure and marks may differ.
+bool samePicture(const scene::Scene& a, const scene::Scene& b);
+
+/// Differences over the pixels that the picture or the truth covers; what is not covered counts as black.
+Result<measure::Metrics> compareWithTruth(const Image& picture, const Image& truth);
+
+/// A round number from a 99th percentile on, for the end of a scale: 1, 2 or 5 times a power of ten.
+double fullScale(double p99);
+
+/// A scene and its images as files that load() reads without any other.
+///
+/// Holes are in the heights already and depths of meshes are heights, so that the truth sees what the picture
+/// is made of. @return "scene.json" first; float maps (PFM) after it
+std::vector<std::pair<std::string, Bytes>> packScene(scene::Scene scene);
+
+} // namespace lucent::viewer

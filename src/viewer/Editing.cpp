@@ -1,0 +1,111 @@
+// The scene of a viewer: its controls, what is set, what is taken back.
+#include "viewer/State.h"
+
+#include <algorithm>
+
+namespace lucent::viewer {
+
+namespace {
+
+constexpr double kBurst = 1; // s within which changes of one parameter are one step
+
+} // namespace
+
+void Viewer::State::changed() {
+    ++revision;
+    stale = true;
+    settled = false;
+}
+
+void Viewer::State::adopt(scene::Scene newScene) {
+    scene = std::make_unique<scene::Scene>(std::move(newScene));
+    loaded.clear();
+    history.clear();
+    grip = Grip::None;
+    light = 0;
+    message.clear();
+    asLoaded = *scene;
+    asked.reset();
+    dropTruth();
+    bind();
+    changed();
+}
+
+// The controls of the scene as it is now; a parameter met for the first time is as it was loaded.
+void Viewer::State::bind() {
+    controls.clear();
+    for (BoundParam& bound : scene::bindParams(*scene)) {
+        const auto found = loaded.emplace(bound.path, getText(*bound.param, bound.data)).first;
+        controls.push_back({std::move(bound), found->second});
+    }
+    for (BoundParam& bound : bindCompare(compare))
+        controls.push_back({bound, getText(*bound.param, bound.defaults)});
+}
+
+const Control* Viewer::State::find(const std::string& path) const {
+    const auto found = std::find_if(controls.begin(), controls.end(),
+                                    [&](const Control& c) { return c.bound.path == path; });
+    return found == controls.end() ? nullptr : &*found;
+}
+
+// The path may be an alias (an object's number), so what changed is found by looking.
+Status Viewer::State::change(const std::string& path, const std::string& value, std::uint64_t step) {
+    for (const BoundParam& bound : bindCompare(compare))
+        if (bound.path == path) return changeView(bound, value);
+    const auto textOf = [](const Control& c) { return getText(*c.bound.param, c.bound.data); };
+    std::vector<std::string> before;
+    for (const Control& control : controls)
+        before.push_back(textOf(control));
+    if (Status set = scene::setParam(*scene, path, value); !set) return set;
+    bool any = false;
+    for (std::size_t i = 0; i < controls.size(); ++i) {
+        if (textOf(controls[i]) == before[i]) continue;
+        history.record(step, {controls[i].bound.path, before[i], textOf(controls[i])});
+        any = true;
+    }
+    if (!any) return Done{};
+    bind(); // the projection decides what is bound
+    changed();
+    return Done{};
+}
+
+// What belongs to the view alone changes no picture and is no step to take back.
+Status Viewer::State::changeView(const BoundParam& bound, const std::string& value) {
+    const std::string before = getText(*bound.param, bound.data);
+    if (Status set = setText(*bound.param, bound.data, value); !set)
+        return Error{bound.path + " " + set.error().message};
+    if (getText(*bound.param, bound.data) == before) return Done{};
+    ++revision;
+    settled = false;
+    return Done{};
+}
+
+// Sets what a gesture moved. A value out of its range stays where it was: the end of the way has been
+// reached.
+void Viewer::State::assign(const void* member, vec3 value) {
+    for (const Control& control : controls)
+        if (control.bound.data == member) {
+            (void)change(std::string(control.bound.path), getText(*control.bound.param, &value), gesture);
+            return; // change() has bound the controls anew
+        }
+}
+
+void Viewer::State::assign(const void* member, float value) { assign(member, vec3(value)); }
+
+void Viewer::State::apply(const std::vector<Change>& changes, bool back) {
+    for (const Change& one : changes)
+        (void)scene::setParam(*scene, one.path, back ? one.before : one.after);
+    bind();
+    changed();
+}
+
+// Changes that do not come from a drag are one step while they keep to one parameter without a pause.
+std::uint64_t Viewer::State::burst(const std::string& path) {
+    const double now = secondsNow();
+    if (!held && (path != burstPath || now - burstTime > kBurst)) ++gesture;
+    burstPath = path;
+    burstTime = now;
+    return gesture;
+}
+
+} // namespace lucent::viewer

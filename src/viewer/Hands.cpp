@@ -1,0 +1,176 @@
+// What hands do on the picture: lights, environment and camera follow drags and keys.
+#include "viewer/State.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+namespace lucent::viewer {
+
+namespace {
+
+// Chosen by eye or after what hands are used to.
+constexpr float kDotReach = 24;                         // CSS pixels around a light's dot that grip it
+constexpr float kDividerReach = 10, kDividerTouch = 22; // CSS pixels beside it, of a mouse and of a finger
+constexpr float kKeyFactor = 1.1f;
+constexpr float kKeyTurn = 5.0f / 180; // half turns an arrow key
+constexpr float kKeyMove = 0.02f;      // of the picture's height an arrow key
+
+// Drags leave numbers that people can read: a tenth of what a pixel is worth, as a power of ten.
+float rounded(float value, float pixelWorth) {
+    const double step = std::pow(10.0, std::floor(std::log10(double(pixelWorth))) - 1);
+    return float(std::round(value / step) * step);
+}
+vec3 rounded(vec3 value, float pixelWorth) {
+    return {rounded(value.x, pixelWorth), rounded(value.y, pixelWorth), rounded(value.z, pixelWorth)};
+}
+
+} // namespace
+
+std::optional<vec2> Viewer::State::dotOf(std::size_t index) const {
+    const scene::PointLight* point = pointLight(index);
+    return point ? lens().project(point->position) : std::nullopt;
+}
+
+// Chooses the point light whose dot is nearest. @return its distance in CSS pixels
+float Viewer::State::pickLight(vec2 position) {
+    float nearest = FLT_MAX;
+    for (std::size_t i = 0; i < scene->lights.size(); ++i)
+        if (const auto dot = dotOf(i); dot && glm::distance(*dot, position) < nearest) {
+            nearest = glm::distance(*dot, position);
+            light = i;
+        }
+    return nearest;
+}
+
+Viewer::State::Grip Viewer::State::gripAt(vec2 position, int button, Modifiers modifiers) {
+    if (!scene || button == 1 || position.x > pictureSize().x) return Grip::None;
+    if (comparing() && std::abs(position.x - dividerPlace()) < (touch ? kDividerTouch : kDividerReach))
+        return Grip::Divider;
+    if (modifiers.shift) return Grip::Orbit;
+    const float distance = pickLight(position);
+    const bool onDot = scene->view.lightDot && distance < kDotReach;
+    const bool roll = modifiers.alt || button == 2;
+    if (mapShines() && !onDot) return roll ? Grip::Roll : Grip::Map;
+    return scene->lights.empty() || button == 2 ? Grip::None : Grip::Light;
+}
+
+void Viewer::State::startGrip(Grip wanted, vec2 position) {
+    grip = wanted;
+    gripStart = position;
+    gripCamera = scene->camera;
+    if (grip == Grip::Map || grip == Grip::Roll) gripValue = scene->environment->rotation;
+    if (grip != Grip::Light) return;
+    if (const scene::PointLight* point = pointLight(light))
+        gripValue = point->position;
+    else
+        gripValue = std::get<scene::DistantLight>(scene->lights[light]).direction;
+}
+
+void Viewer::State::drag(vec2 position) {
+    const vec2 size = pictureSize(), turns = (position - gripStart) / std::min(size.x, size.y);
+    const float degree = 180 / std::min(size.x, size.y);
+    switch (grip) {
+    case Grip::None:
+        break;
+    case Grip::Divider:
+        moveDivider(position.x);
+        break;
+    case Grip::Light:
+        moveLight(gripStart, position, turns);
+        break;
+    case Grip::Map:
+    case Grip::Roll:
+        assign(&scene->environment->rotation,
+               rounded(turnedMap(gripValue, turns, grip == Grip::Roll), degree));
+        break;
+    case Grip::Orbit: {
+        const float arm = glm::distance(gripCamera.eye, gripCamera.target);
+        assign(&scene->camera.eye, rounded(orbited(gripCamera, turns), arm * glm::radians(degree)));
+    }
+    }
+}
+
+// From gripValue on, by pixels or (a distant light) by half turns.
+void Viewer::State::moveLight(vec2 from, vec2 to, vec2 turns) {
+    if (scene::PointLight* point = pointLight(light)) {
+        const vec3 place = movedLight(lens(), gripValue, from, to);
+        assign(&point->position, vec3(rounded(place, lens().metresPerPixel(place)).x,
+                                      rounded(place, lens().metresPerPixel(place)).y, place.z));
+        return;
+    }
+    auto& distant = std::get<scene::DistantLight>(scene->lights[light]);
+    const float length = glm::length(gripValue);
+    assign(&distant.direction, rounded(turnedLight(scene->camera, gripValue, turns), length * 0.01f));
+}
+
+void Viewer::State::lift(float factor) {
+    scene::PointLight* point = pointLight(light);
+    if (!point) return zoom(factor);
+    const float z = liftedLight(point->position.z, factor);
+    assign(&point->position, vec3(vec2(point->position), rounded(z, std::abs(z) * 0.01f)));
+}
+
+void Viewer::State::zoom(float factor) {
+    const scene::Camera closer = zoomed(scene->camera, factor);
+    if (closer.type == scene::Camera::Type::Orthographic)
+        assign(&scene->camera.height, rounded(closer.height, closer.height * 0.01f));
+    else
+        assign(&scene->camera.eye, rounded(closer.eye, glm::distance(closer.eye, closer.target) * 0.001f));
+}
+
+// Camera, lights and the environment's rotation go back to how they were loaded, as one step.
+void Viewer::State::resetPose() {
+    ++gesture;
+    const void* rotation = scene->environment ? &scene->environment->rotation : nullptr;
+    const std::vector<Control> before = controls; // change() binds anew
+    for (const Control& control : before) {
+        const std::string& path = control.bound.path;
+        if (path.starts_with("camera.") || path.starts_with("lights.") || control.bound.data == rotation)
+            (void)change(path, control.loaded, gesture);
+    }
+}
+
+bool Viewer::State::arrow(vec2 step, Modifiers modifiers) {
+    const vec2 turns = step * kKeyTurn;
+    if (modifiers.shift) {
+        (void)burst("camera.eye");
+        startGrip(Grip::Orbit, {});
+        drag(turns * std::min(pictureSize().x, pictureSize().y));
+    } else if (inMapMode()) {
+        (void)burst("environment.rotation");
+        startGrip(modifiers.alt ? Grip::Roll : Grip::Map, {});
+        drag(turns * std::min(pictureSize().x, pictureSize().y));
+    } else if (!scene->lights.empty()) {
+        (void)burst("lights");
+        startGrip(Grip::Light, pictureSize() / 2.0f);
+        moveLight(gripStart, gripStart + step * kKeyMove * pictureSize().y, turns);
+    }
+    grip = Grip::None;
+    return true;
+}
+
+void Viewer::State::nextCompareMode() {
+    const std::span<const std::string_view> modes = compareParams()[0].choices;
+    const auto next = (std::size_t(compare.mode) + 1) % modes.size();
+    (void)change("compare", std::string(modes[next]), gesture);
+}
+
+bool Viewer::State::shortcut(const std::string& key, Modifiers modifiers) {
+    if (key == "ArrowLeft") return arrow({-1, 0}, modifiers);
+    if (key == "ArrowRight") return arrow({1, 0}, modifiers);
+    if (key == "ArrowUp") return arrow({0, -1}, modifiers);
+    if (key == "ArrowDown") return arrow({0, 1}, modifiers);
+    const bool more = key == "PageUp" || key == "+" || key == "=", less = key == "PageDown" || key == "-";
+    if (more || less) {
+        const float factor = more ? kKeyFactor : 1 / kKeyFactor;
+        (void)burst("lift");
+        inMapMode() ? zoom(factor) : lift(factor);
+        return true;
+    }
+    if (key == "c" || key == "C") return nextCompareMode(), true;
+    if (key == "0" || key == "Home") return resetPose(), true;
+    return false;
+}
+
+} // namespace lucent::viewer

@@ -1,0 +1,159 @@
+// Frames of ImGui: the panel and what lies over the picture.
+#include "viewer/State.h"
+
+#include <algorithm>
+
+namespace lucent::viewer {
+
+namespace {
+
+constexpr double kTooltipAfter = 0.5; // s
+
+// Keys that a text field of ImGui knows, by KeyboardEvent.key.
+int textKey(std::string_view key) {
+    struct Known {
+        std::string_view name;
+        ImGuiKey key;
+    };
+    static constexpr Known known[] = {{"ArrowLeft", ImGuiKey_LeftArrow},
+                                      {"ArrowRight", ImGuiKey_RightArrow},
+                                      {"Home", ImGuiKey_Home},
+                                      {"End", ImGuiKey_End},
+                                      {"Delete", ImGuiKey_Delete},
+                                      {"Backspace", ImGuiKey_Backspace},
+                                      {"Enter", ImGuiKey_Enter},
+                                      {"Escape", ImGuiKey_Escape},
+                                      {"a", ImGuiKey_A},
+                                      {"c", ImGuiKey_C},
+                                      {"v", ImGuiKey_V},
+                                      {"x", ImGuiKey_X},
+                                      {"y", ImGuiKey_Y},
+                                      {"z", ImGuiKey_Z}};
+    for (const Known& one : known)
+        if (one.name == key) return one.key;
+    return -1;
+}
+
+std::uint64_t mixed(std::uint64_t hash, const void* data, int bytes) { // FNV-1a
+    const auto* at = static_cast<const unsigned char*>(data);
+    for (int i = 0; i < bytes; ++i)
+        hash = (hash ^ at[i]) * 1099511628211u;
+    return hash;
+}
+
+// Tells whether a frame of ImGui looks like another one.
+std::uint64_t hashOf(const ImDrawData& data) {
+    std::uint64_t hash = 14695981039346656037u;
+    for (int i = 0; i < data.CmdListsCount; ++i) {
+        const ImDrawList& list = *data.CmdLists[i];
+        hash = mixed(hash, list.VtxBuffer.Data, list.VtxBuffer.size_in_bytes());
+        hash = mixed(hash, list.IdxBuffer.Data, list.IdxBuffer.size_in_bytes());
+        for (const ImDrawCmd& command : list.CmdBuffer)
+            hash = mixed(hash, &command.ClipRect, sizeof command.ClipRect);
+    }
+    return hash;
+}
+
+} // namespace
+
+void Viewer::State::useImGui(Modifiers modifiers) {
+    ImGui::SetCurrentContext(imgui);
+    ImGuiIO& io = ImGui::GetIO();
+    io.KeyShift = modifiers.shift;
+    io.KeyCtrl = modifiers.control;
+    io.KeyAlt = modifiers.alt;
+}
+
+// One frame of ImGui: what was done in the panel takes effect, nothing is drawn yet.
+void Viewer::State::frame() {
+    if (pixels.x <= 0 || pixels.y <= 0) return;
+    ImGui::SetCurrentContext(imgui);
+    ImGuiIO& io = ImGui::GetIO();
+    const double now = secondsNow();
+    io.DeltaTime = float(std::clamp(now - frameTime, 1e-4, 1.0));
+    frameTime = now;
+    io.DisplaySize = {canvas().x, canvas().y};
+    io.DisplayFramebufferScale = {scale, scale};
+    fonts().select(scale);
+    panel.setCanvas(canvas());
+
+    ImGui::NewFrame();
+    std::vector<Edit> edits;
+    if (scene)
+        edits = panel.draw({.title = scene->title,
+                            .controls = controls,
+                            .focus = focus == "divider" ? "" : focus, // which is not in the panel
+                            .canvas = canvas(),
+                            .touch = touch},
+                           theme(dark));
+    overlays();
+    ImGui::Render();
+    settled = false;
+    for (const Edit& edit : edits)
+        if (Status set = change(edit.path, edit.text, burst(edit.path)); !set) message = set.error().message;
+}
+
+void Viewer::State::overlays() {
+    const vec2 size = pictureSize();
+    if (scene && scene->view.lightDot) {
+        ImDrawList& list = *ImGui::GetBackgroundDrawList();
+        const Rect place = picturePlace();
+        list.PushClipRect({place.low.x, place.low.y}, {place.high.x, place.high.y});
+        for (std::size_t i = 0; i < scene->lights.size(); ++i)
+            if (const auto dot = dotOf(i)) drawLightDot(*dot, pointLight(i)->color);
+        list.PopClipRect();
+    }
+    compareOverlay();
+    if (showStats && renderer && compare.mode == CompareMode::Off) // whose card holds the cost as well
+        drawStats(renderer->stats(), openSize(), theme(dark));
+    if (help && drawHelp(size, theme(dark))) help = false;
+    if (!message.empty() && drawMessage(message, size, theme(dark))) message.clear();
+    if (const Control* control = find(tooltip); control && panel.hovered() == tooltip)
+        drawTooltip(control->bound.param->doc, panel.hoveredPlace(), canvas(), theme(dark));
+}
+
+std::uint64_t Viewer::State::frameHash() const {
+    return ImGui::GetDrawData() ? hashOf(*ImGui::GetDrawData()) : 0;
+}
+
+// ImGui lays out after what it measured in the frame before: frames until two are alike.
+void Viewer::State::settle() {
+    constexpr int kMostFrames = 5;
+    std::uint64_t before = 0;
+    for (int i = 0; i < kMostFrames; ++i) {
+        frame();
+        const std::uint64_t now = frameHash();
+        if (now == before) break;
+        before = now;
+    }
+    settled = true;
+}
+
+void Viewer::State::typeKey(const std::string& key, Modifiers modifiers) {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool isText =
+        !modifiers.control && !key.empty() && (key.size() == 1 || (unsigned char)key[0] >= 0x80);
+    if (isText) io.AddInputCharactersUTF8(key.c_str());
+    const int special = isText ? -1 : textKey(key);
+    for (const bool pressed : {true, false}) {
+        if (special >= 0) io.KeysDown[special] = pressed;
+        frame();
+    }
+}
+
+// Shows a tooltip after a short rest on a control. @return seconds until then, 0 when nothing is awaited
+double Viewer::State::tooltipWait(double now) {
+    if (panel.hovered() != hovered) {
+        hovered = panel.hovered();
+        hoverTime = now;
+        if (!tooltip.empty()) settled = false;
+        tooltip.clear();
+    }
+    if (hovered.empty() || tooltip == hovered) return 0;
+    if (now - hoverTime < kTooltipAfter) return kTooltipAfter - (now - hoverTime);
+    tooltip = hovered;
+    settled = false;
+    return 0;
+}
+
+} // namespace lucent::viewer

@@ -1,0 +1,53 @@
+// Work on the picture, and the way to the screen.
+#include "viewer/State.h"
+
+#include <algorithm>
+
+namespace lucent::viewer {
+
+// Works on the picture. A quick look is always finished before the next begins, so that a slow machine shows
+// something while a hand moves. @return true when there is something new to present
+bool Viewer::State::advance() {
+    if (!scene) return false;
+    const ivec2 room = glm::max(ivec2(glm::round(pictureSize() * scale)), ivec2(1));
+    const ivec2 size = comparing() ? truth->image.size() : room;
+    if (size != picturePixels) {
+        picturePixels = size;
+        shown = false;
+        stale = true;
+        phase = Phase::Done;
+    }
+    if (stale && phase != Phase::Look) {
+        picture = *scene;
+        picture.camera = seenCamera();
+        ++pictureNumber;
+        stale = false;
+        phase = Phase::Look;
+    }
+    if (phase == Phase::Done || (phase == Phase::Refine && held)) return false;
+    if (!renderer) renderer = std::make_unique<frame::Renderer>(*context);
+    const Result<frame::Progress> progress =
+        renderer->advance(picture, pictureNumber, size, phase == Phase::Look);
+    if (!progress) {
+        phase = Phase::Done;
+        message = progress.error().message;
+        settled = false;
+        return false;
+    }
+    if (!progress->complete) return phase == Phase::Refine;
+    phase = phase == Phase::Look ? Phase::Refine : Phase::Done;
+    shown = true;
+    if (showStats) settled = false;
+    return true;
+}
+
+Status Viewer::State::paint() {
+    imguiHost->clear(pixels.x, pixels.y);
+    if (scene && shown) {
+        Status presented = comparing() ? renderer->present(picture, beside()) : renderer->present(picture);
+        if (!presented) return presented;
+    }
+    return imguiHost->draw(*ImGui::GetDrawData(), fonts().atlas, pixels.x, pixels.y);
+}
+
+} // namespace lucent::viewer

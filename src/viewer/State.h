@@ -1,0 +1,160 @@
+#pragma once
+/// What a viewer holds. Private to this folder: each concern has its own file.
+///   Editing.cpp   the scene, its controls, undo
+///   Hands.cpp     drags, wheel and keys on the picture
+///   Panels.cpp    frames of ImGui
+///   Pictures.cpp  work on the picture and the screen
+///   Comparing.cpp the picture beside its truth
+
+#include "scene/Load.h"
+#include "viewer/Compare.h"
+#include "viewer/History.h"
+#include "viewer/Interaction.h"
+#include "viewer/Overlays.h"
+#include "viewer/Report.h"
+#include "viewer/Viewer.h"
+
+#include <imgui.h>
+
+#include <chrono>
+
+namespace lucent::viewer {
+
+/// Seconds of a clock that only runs forward.
+inline double secondsNow() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+struct Viewer::State {
+    State(gl::Context& gl, gl::ImGuiHost& host) : context(&gl), imguiHost(&host) {}
+
+    // What the pointer has gripped, and how things were then: drags add up without drift.
+    enum class Grip { None, Light, Map, Roll, Orbit, Divider };
+    // The picture: a quick look first, so that something is seen while a hand moves; then the fine one.
+    enum class Phase { Look, Refine, Done };
+
+    gl::Context* context;
+    gl::ImGuiHost* imguiHost;
+    ImGuiContext* imgui = nullptr;
+    std::unique_ptr<frame::Renderer> renderer; // made when first drawn
+
+    std::unique_ptr<scene::Scene> scene;
+    std::vector<Control> controls; // of the scene
+    std::map<std::string, std::string> loaded;
+    History history;
+    std::uint64_t revision = 0, gesture = 1;
+    std::string burstPath;
+    double burstTime = -1e9;
+
+    ivec2 pixels{0};
+    float scale = 1;
+    bool dark = false;
+    Panel panel;
+    std::string message, focus;
+    bool help = false, showStats = false, touch = false;
+
+    scene::Scene picture; // what is being drawn: the scene as it was when this picture began
+    std::uint64_t pictureNumber = 0;
+    ivec2 picturePixels{0};
+    Phase phase = Phase::Done;
+    bool stale = false, shown = false; // the scene changed since; there is a picture to present
+    bool settled = true;               // ImGui has nothing new to say
+    std::uint64_t shownHash = 0;
+    int drawCount = 0;
+    double frameTime = 0, hoverTime = 0;
+    std::string hovered, tooltip;
+
+    CompareSettings compare;
+    std::optional<Truth> truth;
+    std::uint64_t truthNumber = 0;
+    std::uint64_t freshAt = 0; // revision at which `fresh` was found, 0: not yet
+    bool fresh = false;        // the truth shows the scene as it is now
+    std::optional<measure::Metrics> numbers;
+    std::uint64_t numbersOf = 0;          // picture that was measured
+    std::optional<scene::Scene> asLoaded; // whose truth lies in files
+    std::optional<scene::Scene> asked;    // whose truth is being computed
+
+    bool held = false;
+    Grip grip = Grip::None;
+    vec2 gripStart{0};
+    std::size_t light = 0; // the light that drags, wheel and keys move
+    scene::Camera gripCamera;
+    vec3 gripValue{0};
+
+    // --- sizes
+    vec2 canvas() const { return vec2(pixels) / scale; }
+    vec2 pictureSize() const { return glm::max(panel.pictureSize(canvas()), vec2(1)); }
+    vec2 openSize() const { return panel.openSize(canvas()); }
+    Rect picturePlace() const;
+    scene::Camera seenCamera() const {
+        return comparing() ? scene->camera : framed(scene->camera, scene->size, pictureSize());
+    }
+    Lens lens() const {
+        const Rect place = picturePlace();
+        return Lens(seenCamera(), place.high - place.low, place.low);
+    }
+
+    // --- scene
+    void adopt(scene::Scene newScene);
+    void bind();
+    const Control* find(const std::string& path) const;
+    Status change(const std::string& path, const std::string& value, std::uint64_t step);
+    Status changeView(const BoundParam& bound, const std::string& value);
+    void assign(const void* member, vec3 value);
+    void assign(const void* member, float value);
+    void apply(const std::vector<Change>& changes, bool back);
+    std::uint64_t burst(const std::string& path);
+    void changed();
+
+    // --- lights and gestures
+    bool mapShines() const { return scene->environment && scene->environment->enabled; }
+    bool inMapMode() const { return mapShines() && scene->lights.empty(); }
+    scene::PointLight* pointLight(std::size_t index) const {
+        return index < scene->lights.size() ? std::get_if<scene::PointLight>(&scene->lights[index]) : nullptr;
+    }
+    std::optional<vec2> dotOf(std::size_t index) const;
+    float pickLight(vec2 position);
+    Grip gripAt(vec2 position, int button, Modifiers modifiers);
+    void startGrip(Grip wanted, vec2 position);
+    void drag(vec2 position);
+    void moveLight(vec2 from, vec2 to, vec2 turns);
+    void lift(float factor);
+    void zoom(float factor);
+    void resetPose();
+    void nextCompareMode();
+    bool shortcut(const std::string& key, Modifiers modifiers);
+    bool arrow(vec2 step, Modifiers modifiers);
+
+    // --- the truth beside the picture
+    bool comparing() const { return scene && truth && compare.mode != CompareMode::Off; }
+    bool truthIsFresh();
+    void takeTruth(Truth newTruth);
+    void dropTruth();
+    float dividerPlace() const;
+    void moveDivider(float x);
+    void measurePicture();
+    frame::Beside beside();
+    std::string compareText();
+    void compareOverlay();
+    ComparisonReport comparison();
+
+    // --- ImGui
+    void frame();
+    void overlays();
+    void settle();
+    void mouse(vec2 position) { ImGui::GetIO().MousePos = {position.x, position.y}; }
+    void typeKey(const std::string& key, Modifiers modifiers);
+    void useImGui(Modifiers modifiers);
+    double tooltipWait(double now);
+    std::uint64_t frameHash() const;
+
+    // --- drawing
+    bool advance();
+    Status paint();
+    bool working() const {
+        return scene && (stale || phase == Phase::Look || (phase == Phase::Refine && !held));
+    }
+};
+
+} // namespace lucent::viewer

@@ -1,0 +1,175 @@
+/// The module of the benchmark page: the sweep of `lucent bench`, step by step, and single pictures as
+/// numbers beside their truth. C functions as in Api.h; strings returned stay valid until the next call that
+/// returns one.
+///
+/// A page makes a WebGL2 context, makes it current, calls bench_start once and puts files. Then it either
+/// loads a scene and sets, draws, reads and solves it, or adds fields and environments and takes steps of the
+/// sweep.
+
+#include "frame/Renderer.h"
+#include "gl/Context.h"
+#include "measure/ReliefPlan.h"
+#include "measure/Sweep.h"
+#include "scene/Load.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+using namespace lucent;
+
+namespace {
+
+struct Bench {
+    std::unique_ptr<gl::Context> context;
+    std::unique_ptr<frame::Renderer> renderer;
+    std::map<std::string, Bytes> files;
+    scene::Scene scene;
+    std::uint64_t revision = 0;
+    Image pixels; // linear, 4 channels, row 0 at the top
+    std::vector<measure::BenchField> fields;
+    std::vector<measure::BenchEnvironment> environments;
+    std::unique_ptr<measure::Sweep> sweep;
+    std::string part; // of the sweep that is under way
+    std::string answer;
+};
+
+Bench& bench() {
+    static Bench only;
+    return only;
+}
+
+const char* answer(std::string text) {
+    bench().answer = std::move(text);
+    return bench().answer.c_str();
+}
+
+const char* answer(const Status& status) { return answer(status ? std::string() : status.error().message); }
+
+Result<Bytes> readPut(const std::string& path) {
+    const auto found = bench().files.find(path);
+    if (found == bench().files.end()) return Error{path + ": was not put; must be before it is read"};
+    return found->second;
+}
+
+Status load(const std::string& path) {
+    Result<scene::Scene> scene = scene::load(path, readPut, frame::techniques());
+    if (!scene) return scene.error();
+    bench().scene = std::move(*scene);
+    return Done{};
+}
+
+Status draw(Bench& b) {
+    if (Status done = b.renderer->finish(b.scene, ++b.revision, b.scene.size); !done) return done;
+    return b.renderer->present(b.scene);
+}
+
+// Keeps the pixels for bench_pixels().
+Status keep(Result<Image> image) {
+    if (!image) return image.error();
+    bench().pixels = std::move(*image);
+    return Done{};
+}
+
+// One thread: a page has no more.
+Result<truth::Picture> solve(const scene::Scene& scene, int directions, const truth::Tile& rows) {
+    return measure::solveRelief(scene, directions, rows, 1);
+}
+
+Status addEnvironment(const std::string& path) {
+    const Result<Bytes> bytes = readPut(path);
+    if (!bytes) return bytes.error();
+    const auto map = scene::loadEnvironmentMap(path, *bytes);
+    if (!map) return map.error();
+    bench().environments.push_back({path, *map});
+    return Done{};
+}
+
+} // namespace
+
+extern "C" {
+
+/// Takes the current WebGL2 context; "" or the message why it cannot be used.
+const char* bench_start() {
+    Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
+    if (!context) return answer(context.error().message);
+    bench().context = std::move(*context);
+    bench().renderer = std::make_unique<frame::Renderer>(*bench().context);
+    return answer(std::string());
+}
+
+/// Name of the driver.
+const char* bench_driver() { return answer(bench().context->caps().renderer); }
+
+/// Keeps a file for later loads; the bytes are copied.
+void bench_file_put(const char* path, const std::uint8_t* bytes, int size) {
+    const auto content = std::as_bytes(std::span(bytes, std::size_t(size)));
+    bench().files[path] = Bytes(content.begin(), content.end());
+}
+
+// --- single pictures
+
+/// Loads a scene file that was put; "" or the message.
+const char* bench_load(const char* path) { return answer(load(path)); }
+
+/// Sets a parameter of the scene ("lights.0.direction"); "" or the message.
+const char* bench_set(const char* path, const char* value) {
+    return answer(scene::setParam(bench().scene, path, value));
+}
+
+/// Draws the whole picture anew, first hits included, on the canvas, which must have its size. Reading a
+/// pixel of the canvas then waits for it. "" or the message.
+const char* bench_draw() { return answer(draw(bench())); }
+
+/// Reads what the scene shows, as it was drawn; "" or the message.
+const char* bench_read() {
+    return answer(keep(bench().renderer->read(bench().scene, bench().scene.view.show)));
+}
+
+/// Solves exactly, on the CPU, what the scene shows (d or colours); "" or the message.
+///
+/// @param directions  that stand for an environment
+const char* bench_solve(int directions) {
+    Result<truth::Picture> solved = solve(bench().scene, directions, {});
+    return answer(solved ? keep(std::move(solved->values)) : Status(solved.error()));
+}
+
+/// What was read or solved last: rows from the top, 4 floats a pixel, of the scene's size.
+const float* bench_pixels() { return bench().pixels.pixels.data(); }
+
+// --- the sweep
+
+/// Adds the height field of the loaded scene's first object to what the sweep measures.
+void bench_add_field(const char* name) {
+    const scene::HeightField& shape = bench().scene.objects.front().shape;
+    bench().fields.push_back({name, shape.heights, shape.heightScale / shape.width});
+}
+
+/// Adds an environment map that was put; "" or the message.
+const char* bench_add_environment(const char* path) { return answer(addEnvironment(path)); }
+
+/// Begins the benchmark of relief on noise and what was added; each part is wanted or not (0).
+void bench_sweep(int methods, int environments, int scaling, int hard, int quick) {
+    Bench& b = bench();
+    const measure::ReliefParts parts{methods != 0, environments != 0, scaling != 0, hard != 0};
+    b.sweep = std::make_unique<measure::Sweep>(
+        *b.context, measure::reliefPlan(parts, b.fields, b.environments, quick != 0), solve,
+        [](const std::string& line) { bench().part = line; });
+}
+
+/// Some rows of an exact solution, or one picture; 0 when all is done.
+int bench_step() { return bench().sweep->step(); }
+
+/// Done part of the sweep, [0,1].
+double bench_share() { return bench().sweep->share(); }
+
+/// What the sweep is at.
+const char* bench_part() { return answer(bench().part); }
+
+/// What the sweep found, as "lucent-bench-1"; the page adds date, commit and machine.
+const char* bench_report() { return answer(bench().sweep->report().json()); }
+
+/// The same as lines for people.
+const char* bench_report_text() { return answer(bench().sweep->report().text()); }
+}

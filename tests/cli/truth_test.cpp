@@ -1,0 +1,197 @@
+#include "tests/cli/Program.h"
+
+#include <algorithm>
+#include <csignal>
+#include <thread>
+
+namespace lucent::test {
+namespace {
+
+/// A rough little field under a soft lamp and a sky: everything in it is sampled.
+class Truth : public ProgramTest {
+protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        writeBump("bump.pfm");
+        writeScene("\"bump.pfm\"", R"("depth": 0.1)", R"("environment": { "source": "sky" })");
+    }
+    static inline const std::string kFew = " --directions 32 --samples 16 --set lights.0.radius=0.2";
+
+    void expectRefusal(const std::string& arguments, const std::string& message) const {
+        const std::size_t before = fileCount();
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.code, 1) << arguments;
+        EXPECT_EQ(outcome.out, "") << arguments;
+        EXPECT_EQ(outcome.err, "lucent: " + message + "\n") << arguments;
+        EXPECT_EQ(fileCount(), before) << arguments;
+    }
+    void expectDone(const std::string& arguments) const {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.code, 0) << arguments << "\n" << outcome.err;
+        EXPECT_EQ(outcome.err, "") << arguments;
+    }
+};
+
+TEST_F(Truth, SaysItsStandardErrorAndWritesWhatItIsBesideThePicture) {
+    const Outcome outcome = run("truth scene.json -o a.pfm --seed 7 --errors e.pfm" + kFew);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.rfind("a.pfm: standard error 0.0", 0), 0u) << outcome.out;
+    const std::string facts = text("a.pfm.json");
+    for (const char* fact : {"\"scene\": \"scene.json\"", "\"width\": 16", "\"height\": 16",
+                             "\"aov\": \"color\"", "\"estimator\": \"relief\"", "\"seed\": 7",
+                             "\"samples\": 16", "\"directions\": 32", "\"standardError\": 0.0"})
+        EXPECT_NE(facts.find(fact), std::string::npos) << fact << " in " << facts;
+    EXPECT_TRUE(exists("e.pfm"));
+    // A lamp without size alone leaves nothing to sample.
+    EXPECT_EQ(run("truth scene.json -o b.pfm --set environment.enabled=false").out,
+              "b.pfm: standard error 0\n");
+}
+
+TEST_F(Truth, DependsOnTheSeedAndNotOnThreads) {
+    for (const char* estimator : {" --estimator relief --directions 32", " --estimator lambert"}) {
+        const std::string rest = estimator + std::string(" --samples 16 --set lights.0.radius=0.2");
+        expectDone("truth scene.json -o a.pfm --seed 1 --threads 1" + rest);
+        expectDone("truth scene.json -o b.pfm --seed 1 --threads 3" + rest);
+        expectDone("truth scene.json -o c.pfm --seed 2 --threads 1" + rest);
+        EXPECT_EQ(text("a.pfm"), text("b.pfm"));
+        EXPECT_EQ(text("a.pfm.json"), text("b.pfm.json"));
+        EXPECT_NE(text("a.pfm"), text("c.pfm"));
+    }
+}
+
+TEST_F(Truth, MergedTilesAreTheUntiledPictureBitByBit) {
+    expectDone("truth scene.json -o whole.pfm --errors whole-e.pfm" + kFew);
+    for (const char* tile : {"1", "2", "3"})
+        expectDone(std::string("truth scene.json -o ") + tile + ".tile --tile " + tile + "/3" + kFew);
+    expectDone("merge 2.tile 3.tile 1.tile -o merged.pfm --errors merged-e.pfm");
+    EXPECT_EQ(text("merged.pfm"), text("whole.pfm"));
+    EXPECT_EQ(text("merged.pfm.json"), text("whole.pfm.json"));
+    EXPECT_EQ(text("merged-e.pfm"), text("whole-e.pfm"));
+}
+
+TEST_F(Truth, MergeRefusesWhatDoesNotBelongTogether) {
+    for (const char* tile : {"1/2", "2/2"})
+        expectDone(std::string("truth scene.json -o ") + tile[0] + ".tile --tile " + tile + kFew);
+    expectDone("truth scene.json -o other.tile --tile 2/2 --seed 3" + kFew);
+    expectRefusal("merge 1.tile other.tile -o out.pfm", "other.tile: the seed is 3; must be 0 as in 1.tile");
+    expectRefusal("merge 2.tile -o out.pfm",
+                  "2.tile: is part 2 of 2 and these are missing: 1; must be given all 2");
+    expectRefusal("merge 1.tile 1.tile -o out.pfm",
+                  "1.tile: is part 1 of 2, as 1.tile is; must be given once");
+    expectRefusal("merge 1.tile bump.pfm -o out.pfm",
+                  "bump.pfm: is no part of a truth; must be a file that lucent truth --tile wrote");
+    expectRefusal("merge 1.tile none.tile -o out.pfm",
+                  "none.tile: cannot be read (No such file or directory)");
+    const std::string whole = text("2.tile");
+    write("cut.tile", whole.substr(0, whole.size() - 5));
+    expectRefusal("merge 1.tile cut.tile -o out.pfm", "cut.tile: has " + std::to_string(whole.size() - 5) +
+                                                          " bytes; must have " +
+                                                          std::to_string(whole.size()));
+    // The heights changed between the two parts.
+    Image heights(8, 8, 1);
+    *heights.at(1, 1) = 0.5f;
+    write("bump.pfm", heights);
+    expectDone("truth scene.json -o 2.tile --tile 2/2" + kFew);
+    const Outcome outcome = run("merge 1.tile 2.tile -o out.pfm");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.err.find("2.tile: the scene's fingerprint is "), std::string::npos) << outcome.err;
+}
+
+TEST_F(Truth, WrongOptionsAreRefused) {
+    for (const char* tile : {"0/3", "4/3", "1", "1/17", "x/2", "1/2/3", "-1/2"})
+        expectRefusal(std::string("truth scene.json -o a.tile --tile=") + tile,
+                      std::string("--tile: is \"") + tile +
+                          "\"; must be I/N with I from 1 to N, and N at most the picture's 16 rows");
+    expectRefusal("truth scene.json -o a.tile --tile 1/2 --errors e.pfm",
+                  "--errors: is of the whole picture; must be given to lucent merge");
+    expectRefusal("truth scene.json -o a.pfm --errors e.png",
+                  "e.png: PNG cannot hold standard errors; must be .hdr, .exr or .pfm");
+    expectRefusal("truth scene.json -o a.pfm --estimator lambert --directions 5",
+                  "--directions: is of the relief estimator; must be --samples for lambert");
+}
+
+TEST_F(Truth, StoppingATileLeavesNoFile) {
+    const std::string scene = path("scene.json"), out = path("out.tile"), err = path("err");
+    const std::size_t before = fileCount() + 1; // err
+    const pid_t program = fork();
+    if (program == 0) {
+        alarm(60);
+        if (std::freopen(err.c_str(), "w", stderr))
+            execl(LUCENT_PROGRAM, "lucent", "truth", scene.c_str(), "-o", out.c_str(), "--size", "2048x2048",
+                  "--tile", "1/2", nullptr);
+        _exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    kill(program, SIGINT);
+    int status = 0;
+    waitpid(program, &status, 0);
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
+    EXPECT_EQ(text("err"), "lucent: truth: stopped before the picture was complete\n");
+    EXPECT_EQ(fileCount(), before);
+}
+
+class TruthScript : public Truth {
+protected:
+    void SetUp() override {
+        Truth::SetUp();
+        if (std::system("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "parallel is not installed";
+    }
+    /// Runs scripts/truth in the folder.
+    Outcome script(const std::string& arguments, const std::string& program = LUCENT_PROGRAM) const {
+        const std::string command = "cd '" + path("") + "' && LUCENT='" + program +
+                                    "' '" LUCENT_ROOT "/scripts/truth' " + arguments + " >.out 2>.err";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(".out"), text(".err")};
+    }
+    /// A program that runs `line` and then is lucent.
+    void writeProgram(const std::string& name, const std::string& line) const {
+        write(name, "#!/bin/sh\n" + line + "\nexec '" LUCENT_PROGRAM "' \"$@\"\n");
+        std::filesystem::permissions(path(name), std::filesystem::perms::owner_all);
+    }
+};
+
+TEST_F(TruthScript, MakesThePictureOfOneProcess) {
+    expectDone("truth scene.json -o whole.pfm" + kFew);
+    const Outcome outcome = script("scene.json -o out.pfm --parts 3" + kFew);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(text("out.pfm"), text("whole.pfm"));
+    EXPECT_EQ(text("out.pfm.json"), text("whole.pfm.json"));
+    EXPECT_FALSE(exists("out.pfm.parts"));
+}
+
+TEST_F(TruthScript, MakesOnlyWhatIsMissing) {
+    // The first run ends at the merge, as if it had been stopped there; then one part is lost.
+    writeProgram("stopping.sh", "[ $1 != merge ] || exit 1");
+    writeProgram("counting.sh", "echo $* >>calls");
+    const std::string wish = "scene.json -o out.pfm --parts 3" + kFew;
+    EXPECT_NE(script(wish, "./stopping.sh").code, 0);
+    ASSERT_FALSE(exists("out.pfm"));
+    std::size_t removed = 0;
+    for (const auto& folder : std::filesystem::directory_iterator(path("out.pfm.parts")))
+        removed += std::filesystem::remove(folder.path() / "2.tile");
+    ASSERT_EQ(removed, 1u);
+    const Outcome outcome = script(wish, "./counting.sh");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::string calls = text("calls");
+    EXPECT_EQ(std::count(calls.begin(), calls.end(), '\n'), 2) << calls;
+    EXPECT_NE(calls.find("--tile 2/3"), std::string::npos) << calls;
+    EXPECT_NE(calls.find("merge"), std::string::npos) << calls;
+    EXPECT_TRUE(exists("out.pfm"));
+}
+
+TEST_F(TruthScript, NamesWhatIsWrong) {
+    EXPECT_EQ(script("scene.json").err,
+              "truth: scene or output is missing; expected scripts/truth SCENE -o FILE\n");
+    EXPECT_EQ(script("none.json -o a.pfm").err, "truth: none.json cannot be read; expected a scene file\n");
+    EXPECT_EQ(script("scene.json -o a.pfm --parts 0").err,
+              "truth: --parts is \"0\"; expected a whole number above 0\n");
+    EXPECT_EQ(script("scene.json -o a.pfm --tile 1/2").err,
+              "truth: --tile is not passed on; expected an option that all parts share\n");
+    const Outcome outcome = script("scene.json -o a.pfm --aov shine");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.err.find("--aov: is \"shine\""), std::string::npos) << outcome.err;
+    EXPECT_FALSE(exists("a.pfm"));
+}
+
+} // namespace
+} // namespace lucent::test

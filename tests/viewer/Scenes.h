@@ -1,0 +1,57 @@
+#pragma once
+/// Scenes in memory for the tests of this folder.
+
+#include "base/File.h"
+#include "base/Image.h"
+
+#include <cmath>
+#include <span>
+#include <string>
+
+namespace lucent::viewer {
+
+/// A lamp over a small field: 1 m wide, 2 m of height shown, so that a 400 pixel high canvas has 0.005 m a
+/// pixel.
+inline constexpr const char* kLampScene =
+    R"({"lucent": 1, "title": "Lamp", "caption": "A wave", "size": [512, 512],
+ "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 2},
+ "lights": [{"type": "point", "position": [0.2, 0.1, 0.5]}],
+ "environment": {"source": "uniform", "enabled": false},
+ "technique": {"relief": {"environmentLights": 8}},
+ "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
+
+/// The same field, seen from farther off, under an environment only: more of its lights than a quick look
+/// takes.
+inline constexpr const char* kMapScene = R"({"lucent": 1, "title": "Map", "size": [512, 512],
+ "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 4},
+ "environment": {"source": "rainbow"},
+ "technique": {"relief": {"environmentLights": 48}},
+ "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
+
+/// 16 x 16 texels, one channel. @param value  of column and row
+template <class Value>
+Bytes smallMap(Value value) {
+    Image image(16, 16, 1);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            *image.at(x, y) = value(x, y);
+    return *encodeImage(image, "map.pfm");
+}
+
+inline Bytes waveMap() {
+    return smallMap(
+        [](int x, int y) { return 0.5f + 0.5f * std::sin(float(x) * 0.8f) * std::cos(float(y)); });
+}
+
+/// "scene.json" with this text, a wave of heights and an alpha with holes in its left half.
+inline ReadFile sceneFiles(std::string scene) {
+    return [scene](const std::string& path) -> Result<Bytes> {
+        const auto text = std::as_bytes(std::span(scene));
+        if (path == "scene.json") return Bytes(text.begin(), text.end());
+        if (path == "wave.pfm") return waveMap();
+        if (path == "holes.pfm") return smallMap([](int x, int y) { return x < 8 && y % 2 ? 0.f : 1.f; });
+        return Error{path + ": is not there"};
+    };
+}
+
+} // namespace lucent::viewer

@@ -1,0 +1,78 @@
+// What a comparison is made of, without a picture: scales, sameness of scenes, scenes as files.
+#include "tests/viewer/Scenes.h"
+#include "viewer/Compare.h"
+
+#include "frame/Renderer.h"
+#include "scene/Load.h"
+
+#include <gtest/gtest.h>
+
+namespace lucent::viewer {
+namespace {
+
+scene::Scene loaded(const std::string& text) {
+    Result<scene::Scene> scene = scene::load("scene.json", sceneFiles(text), frame::techniques());
+    EXPECT_TRUE(scene.ok()) << (scene ? "" : scene.error().message);
+    return std::move(*scene);
+}
+
+TEST(FullScale, IsTheNextRoundNumber) {
+    EXPECT_DOUBLE_EQ(fullScale(0.3), 0.5);
+    EXPECT_DOUBLE_EQ(fullScale(0.5), 0.5);
+    EXPECT_DOUBLE_EQ(fullScale(0.51), 1);
+    EXPECT_DOUBLE_EQ(fullScale(0.0012), 0.002);
+    EXPECT_DOUBLE_EQ(fullScale(0), 1e-7); // equal pictures have a scale too
+}
+
+TEST(SamePicture, ForgetsHowItIsComputedAndShown) {
+    const scene::Scene a = loaded(kLampScene);
+    scene::Scene b = a;
+    for (const auto& [path, value] : {std::pair{"technique.relief.method", "march"},
+                                      {"technique.relief.steps", "7"},
+                                      {"view.exposure", "2"},
+                                      {"view.lightDot", "false"}})
+        ASSERT_TRUE(scene::setParam(b, path, value).ok()) << path;
+    EXPECT_TRUE(samePicture(a, b));
+}
+
+TEST(SamePicture, SeesWhateverChangesTheLight) {
+    const scene::Scene a = loaded(kLampScene);
+    for (const auto& [path, value] : {std::pair{"lights.0.intensity", "2"},
+                                      {"objects.field.material.depth", "0.07"},
+                                      {"camera.height", "1.5"},
+                                      {"environment.enabled", "true"},
+                                      {"technique.relief.attenuation", "exponential"},
+                                      {"view.show", "d"}}) {
+        scene::Scene b = a;
+        ASSERT_TRUE(scene::setParam(b, path, value).ok()) << path;
+        EXPECT_FALSE(samePicture(a, b)) << path;
+    }
+    scene::Scene other = a; // a file of the same name with other heights
+    other.objects[0].shape.heights = std::make_shared<Image>(*a.objects[0].shape.heights);
+    EXPECT_FALSE(samePicture(a, other));
+}
+
+TEST(PackScene, LoadsToTheSameScene) {
+    std::string text = kLampScene;
+    text.replace(text.find("\"wave.pfm\""), 10,
+                 R"("wave.pfm", "width": 0.7, "alpha": "holes.pfm", "alphaIsSolid": false)");
+    const scene::Scene scene = loaded(text);
+    const auto files = packScene(scene);
+    const ReadFile read = [&](const std::string& path) -> Result<Bytes> {
+        for (const auto& [name, bytes] : files)
+            if (name == path) return bytes;
+        return Error{path + ": was not packed"};
+    };
+    const Result<scene::Scene> again = scene::load("scene.json", read, frame::techniques());
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    const scene::HeightField &before = scene.objects[0].shape, &after = again->objects[0].shape;
+    EXPECT_EQ(before.heights->pixels, after.heights->pixels); // holes are dug once
+    EXPECT_EQ(before.alpha->pixels, after.alpha->pixels);
+    EXPECT_EQ(before.width, after.width);
+    EXPECT_EQ(before.heightScale, after.heightScale);
+    EXPECT_EQ(scene.environment->map->pixels, again->environment->map->pixels);
+    EXPECT_EQ(scene::toJson(scene).find("wave.pfm") != std::string::npos, true); // the original is untouched
+}
+
+} // namespace
+} // namespace lucent::viewer

@@ -1,0 +1,50 @@
+/** The benchmark page: the sweep runs, says how far it is, stops when told to, and hands out its figures. */
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { openPage, openStage } from './support.mjs';
+
+let stage;
+before(async () => (stage = await openStage()));
+after(() => stage.close());
+
+async function start(parts) {
+  const page = await openPage(stage, 'bench.html');
+  for (const part of ['methods', 'environments', 'scaling', 'hard'])
+    await page.setChecked(`input[name=${part}]`, parts.includes(part));
+  await page.click('#start');
+  return page;
+}
+
+test('cancelled in the middle, the page hands out what it has found so far', async () => {
+  const page = await start(['hard']);
+  await page.waitForFunction(() => document.querySelector('#share').value > 0.1);
+  await page.click('#cancel');
+  await page.waitForSelector('#download:not([hidden])');
+  assert.match(await page.textContent('#part'), /^cancelled after \d+ s$/);
+  const found = await page.evaluate(() => window.found);
+  assert.equal(found.format, 'lucent-bench-1');
+  assert.equal(found.quick, true);
+  assert.equal(found.machine.where, 'browser');
+  assert.match(found.machine.browser, /Chrom/);
+  assert.match(found.date, /^\d{4}-\d\d-\d\d$/);
+  assert.equal(found.timing, 'finished-frame'); // both test drivers are software
+  assert.equal(found.measurements.length, 0);
+  const exact = found.hardCases.filter(({ method }) => method === 'hierarchy');
+  assert.ok(exact.length > 0);
+  for (const { name, status, error } of exact) assert.equal(status, 'pass', `${name}: RMSE ${error}`);
+  assert.deepEqual(page.problems, []);
+  assert.deepEqual(await page.violations(), []);
+  await page.leave();
+});
+
+test('after a cancelled run the next one starts anew', async () => {
+  const page = await start(['hard']);
+  await page.waitForFunction(() => document.querySelector('#share').value > 0.1);
+  await page.click('#cancel');
+  await page.waitForSelector('#start:enabled');
+  await page.click('#start');
+  await page.waitForFunction(() => document.querySelector('#part').value.startsWith('hard case'));
+  assert.ok(await page.isEnabled('#cancel'));
+  assert.ok((await page.evaluate(() => document.querySelector('#share').value)) < 0.9);
+  await page.leave();
+});

@@ -1,0 +1,219 @@
+/** The picture beside its exact truth: computed live in a worker, from a file, and what is said about both. */
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { boxOf, brightness, complete, eventOf, openPage, openStage, openViewers, quiet, shownBy } from './support.mjs';
+
+const kDome = '<lucent-viewer src="made/dome.json" alt="A dome"></lucent-viewer>';
+const kDepth = 'objects.relief.material.depth';
+
+let stage;
+before(async () => (stage = await openStage()));
+after(() => stage.close());
+
+const comparison = (page) => page.evaluate(() => document.querySelector('lucent-viewer').comparison());
+const set = (page, path, value) =>
+  page.evaluate(([name, to]) => document.querySelector('lucent-viewer').set(name, to), [path, value]);
+
+async function open(markup = kDome, options) {
+  const page = await openViewers(stage, markup, options);
+  await page.evaluate(() => {
+    for (const one of document.querySelectorAll('lucent-viewer'))
+      Object.assign(one.style, { width: '400px', height: '300px' });
+  });
+  await complete(page);
+  return page;
+}
+
+/** Waits until the numbers of a comparison are there. */
+async function numbers(page) {
+  await page.waitForFunction(() => 'rmse' in document.querySelector('lucent-viewer').comparison(), null, {
+    polling: 50,
+  });
+  return comparison(page);
+}
+
+const compute = (page) => page.click('lucent-viewer .truth button:text-matches("Compute")');
+
+test('a truth computed in a worker is what the picture is, under the strict policy', async () => {
+  const page = await open();
+  await set(page, 'compare', 'error');
+  assert.equal((await comparison(page)).truth, 'none');
+  const [worker] = await Promise.all([page.waitForEvent('worker'), compute(page)]);
+  assert.match(worker.url(), /lucent-truth\.js$/);
+  const found = await numbers(page);
+  assert.deepEqual(found.size, [256, 256]);
+  assert.equal(found.noise, 0); // one lamp of no size: nothing is sampled
+  assert.ok(found.relRmse <= 1e-5, `relative RMSE ${found.relRmse}`);
+  assert.ok(found.rmse > 0 && found.max >= found.rmse, `RMSE ${found.rmse}, max ${found.max}`); // floats round
+  assert.ok(found.milliseconds > 0 && found.passes > 0);
+  assert.equal(await page.locator('lucent-viewer .truth').isVisible(), false);
+  assert.deepEqual(page.problems, []);
+  assert.deepEqual(await page.violations(), []);
+  await page.leave();
+});
+
+test('after a change the truth is stale, nothing is compared, and it can be computed again', async () => {
+  const page = await open();
+  await set(page, 'compare', 'truth');
+  await compute(page);
+  await numbers(page);
+  await set(page, kDepth, 0.2);
+  await complete(page);
+  const stale = await comparison(page);
+  assert.equal(stale.truth, 'stale');
+  assert.equal('rmse' in stale, false);
+  assert.equal(await page.textContent('lucent-viewer .truth button:visible'), 'Compute the truth again');
+  await compute(page);
+  assert.ok((await numbers(page)).relRmse <= 1e-5);
+  await page.evaluate(() => document.querySelector('lucent-viewer').undo());
+  assert.equal((await comparison(page)).truth, 'stale');
+  await page.leave();
+});
+
+test('the work shows its progress and ends when it is cancelled', async () => {
+  const page = await open(kDome.replace('dome.json', 'sky.json'));
+  await set(page, 'compare', 'truth');
+  await compute(page);
+  await page.waitForFunction(() =>
+    /\d+ s left/.test(document.querySelector('lucent-viewer').shadowRoot.querySelector('.truth').textContent),
+  );
+  assert.ok((await page.locator('lucent-viewer progress').evaluate((one) => one.value)) > 0);
+  assert.equal(page.workers().length, 1);
+  const ended = new Promise((done) => page.workers()[0].on('close', done));
+  await page.click('lucent-viewer .truth button:text("Cancel")');
+  await ended;
+  assert.equal(await page.locator('lucent-viewer progress').isVisible(), false);
+  assert.equal((await comparison(page)).truth, 'none');
+  assert.deepEqual(page.problems, []);
+  await page.leave();
+});
+
+test('without workers the page computes the same truth itself and says so', async () => {
+  const page = await open(kDome, { init: () => delete window.Worker });
+  await set(page, 'compare', 'error');
+  await compute(page);
+  await page.waitForSelector('lucent-viewer .truth :text("no worker")');
+  assert.ok((await numbers(page)).relRmse <= 1e-5);
+  await page.leave();
+});
+
+test('the divider moves by keyboard and by drag', async () => {
+  const page = await open(
+    kDome.replace('alt', 'compare="truth" divider="0.25" truth="made/black.pfm" truth-noise="0.5" alt'),
+  );
+  const found = await numbers(page);
+  assert.equal(found.divider, 0.25);
+  assert.equal(found.noise, 0.5);
+  assert.deepEqual(found.size, [48, 48]);
+  const [left, , width] = found.place;
+  await page.focus('lucent-viewer #divider');
+  for (let i = 0; i < 5; ++i) await page.keyboard.press('ArrowRight');
+  assert.ok(Math.abs((await comparison(page)).divider - 0.3) < 1e-6);
+  const box = await boxOf(page);
+  const at = (share) => [box.x + left + share * width, box.y + 200];
+  await page.mouse.move(...at(0.3));
+  await page.mouse.down();
+  await page.mouse.move(...at(0.6));
+  await page.mouse.up();
+  await quiet(page);
+  assert.ok(Math.abs((await comparison(page)).divider - 0.6) < 0.01);
+  const shown = await shownBy(page);
+  const share = (place) => (left + place * width) / shown.width;
+  assert.ok(brightness(shown, [share(0.4), 0.4, share(0.58), 0.6]) > 30, 'the picture lies left of it');
+  assert.ok(brightness(shown, [share(0.66), 0.4, share(0.9), 0.6]) < 1, 'the black truth right of it');
+  await page.leave();
+});
+
+test('the file of a truth is fetched when compare is on, and belongs to the untouched scene', async () => {
+  const page = await open(kDome.replace('alt', 'truth="made/black.pfm" alt'));
+  const fetched = [];
+  page.on('request', (request) => fetched.push(request.url().split('/').pop()));
+  await set(page, kDepth, 0.2);
+  await set(page, 'compare', 'error');
+  await page.waitForFunction(() => document.querySelector('lucent-viewer').comparison().truth === 'stale');
+  assert.deepEqual(fetched, ['black.pfm']);
+  await page.evaluate(() => document.querySelector('lucent-viewer').reset());
+  await set(page, 'compare', 'error');
+  assert.ok((await numbers(page)).rmse > 0.1);
+  assert.equal('noise' in (await comparison(page)), false);
+  assert.deepEqual(fetched, ['black.pfm']);
+  await page.leave();
+});
+
+test('a truth that is not there says so', async () => {
+  const page = await open(kDome.replace('alt', 'truth="made/nowhere.pfm" alt'));
+  const error = await eventOf(page, 'error', () => set(page, 'compare', 'error'));
+  assert.deepEqual(error, { code: 'fetch', message: 'nowhere.pfm: the server answers 404; must be there' });
+  assert.equal((await comparison(page)).truth, 'none');
+  await page.leave();
+});
+
+test('compare is an attribute, a property, a control and part of the link', async () => {
+  const page = await openPage(stage);
+  await complete(page);
+  await page.evaluate(() => (document.querySelector('lucent-viewer').compare = 'error'));
+  assert.equal(await page.locator('lucent-viewer select[aria-label=Compare]').inputValue(), 'error');
+  await page.waitForFunction(() => location.hash.includes('compare=error'));
+  const other = await openPage(stage, 'index.html' + (await page.evaluate(() => location.hash)));
+  await complete(other);
+  assert.equal(await other.evaluate(() => document.querySelector('lucent-viewer').compare), 'error');
+  await page.leave();
+  await other.leave();
+});
+
+test('the page computes the truth that the program computed', async () => {
+  const page = await openViewers(stage, '', { gallery: 'own' });
+  const names = ['elevation.json', 'elevation.png', 'elevation-color.png'];
+  const largest = await page.evaluate(async (files) => {
+    const bytes = async (name) => new Uint8Array(await (await fetch('gallery/' + name)).arrayBuffer());
+    const request = { files: new Map(), directions: 1 };
+    for (const name of files) request.files.set(name.replace('elevation.json', 'scene.json'), await bytes(name));
+    const file = await bytes('elevation-truth.pfm');
+    const header = new TextDecoder().decode(file.subarray(0, 40)).split('\n', 3);
+    [request.width, request.height] = header[1].split(' ').map(Number);
+    const native = new Float32Array(file.slice(header.join('\n').length + 1).buffer);
+    const { computeTruth } = await import('./lucent-truth.js');
+    const { pixels } = await computeTruth(request, () => true);
+    let most = 0;
+    for (let y = 0; y < request.height; ++y)
+      for (let x = 0; x < request.width; ++x)
+        for (let channel = 0; channel < 3; ++channel) {
+          const row = request.height - 1 - y; // PFM starts at the bottom
+          const difference = native[3 * (row * request.width + x) + channel] - pixels[4 * (y * request.width + x) + channel];
+          most = Math.max(most, Math.abs(difference));
+        }
+    return most;
+  }, names);
+  // Both count in doubles and store floats below 2: one rounding to the other side.
+  assert.ok(largest <= 2 ** -23, `largest difference ${largest}`);
+  console.log(`# ${process.env.LUCENT_DRIVER}: largest difference from the program's truth ${largest}`);
+  await page.leave();
+});
+
+test("the gallery's own truths agree with its pictures", async () => {
+  const page = await openViewers(stage, '<lucent-viewer></lucent-viewer>', { gallery: 'own' });
+  const scenes = await page.evaluate(async () => {
+    Object.assign(document.querySelector('lucent-viewer').style, { width: '192px', height: '192px' });
+    return await (await fetch('gallery/index.json')).json();
+  });
+  for (const { scene, truth } of scenes) {
+    if (truth.directions > 1) continue; // light from all around takes software drivers minutes
+    await eventOf(page, 'load', () =>
+      page.evaluate(
+        ([name, { file, noise }]) => {
+          const viewer = document.querySelector('lucent-viewer');
+          Object.assign(viewer, { truth: 'gallery/' + file, truthNoise: noise, src: 'gallery/' + name });
+        },
+        [scene, truth],
+      ),
+    );
+    await set(page, 'compare', 'error');
+    const found = await numbers(page);
+    assert.deepEqual(found.size, truth.size);
+    // Colour maps are half floats on the GPU: 2^-11 relative at most for each value.
+    assert.ok(found.relRmse < 4.9e-4, `${scene}: relative RMSE ${found.relRmse}`);
+    console.log(`# ${process.env.LUCENT_DRIVER}: ${scene}: relative RMSE ${found.relRmse.toExponential(2)}`);
+  }
+  assert.deepEqual(page.problems, []);
+  await page.leave();
+});

@@ -1,0 +1,153 @@
+/**
+ * The truth beside a viewer's picture: from a file where there is one, else computed when a person asks for it. The
+ * bar says how far that is and ends it.
+ */
+import { fetchPicture } from './files.js';
+import { LucentError } from './runtime.js';
+
+// Longer side of a computed truth in pixels, so that it is there within half a minute or so: a lamp is one question
+// a pixel, soft lamps and light from all around are hundreds.
+const kSide = { hard: 256, soft: 128 };
+const kDirections = 128;
+
+const kAddress = new URL('lucent-truth.js', import.meta.url).href;
+
+class NoWorker extends Error {}
+
+const cancelled = () => new DOMException('cancelled', 'AbortError');
+
+function computeInWorker(request, report, signal) {
+  let worker;
+  try {
+    worker = new Worker(kAddress, { type: 'module' });
+  } catch (error) {
+    throw new NoWorker(error.message); // a sandboxed frame, a script from another site
+  }
+  return new Promise((done, failed) => {
+    const end = (settle, value) => {
+      worker.terminate();
+      settle(value);
+    };
+    signal.addEventListener('abort', () => end(failed, cancelled()));
+    worker.addEventListener('error', ({ message }) => end(failed, new NoWorker(message ?? 'it cannot be loaded')));
+    worker.addEventListener('message', ({ data: { share, truth, message } }) => {
+      if (truth) end(done, truth);
+      else if (message) end(failed, new LucentError('scene', message));
+      else report(share);
+    });
+    worker.postMessage(request);
+  });
+}
+
+async function computeOnPage(request, report, signal) {
+  const { computeTruth } = await import(kAddress);
+  const truth = await computeTruth(request, (share) => (report(share), !signal.aborted));
+  if (!truth) throw cancelled();
+  return truth;
+}
+
+const isSoft = (light) => light.radius > 0 || light.angle > 0;
+
+/** What to compute for the files of a scene. */
+function requestFor(files) {
+  const scene = JSON.parse(new TextDecoder().decode(files.get('scene.json')));
+  const shines = scene.environment && scene.environment.enabled !== false;
+  const side = shines || scene.lights.some(isSoft) ? kSide.soft : kSide.hard;
+  const [width, height] = scene.size.map((length) => Math.max(1, Math.round((length * side) / Math.max(...scene.size))));
+  return { files, width, height, directions: kDirections };
+}
+
+export class TruthBar {
+  #actions;
+  #work = null; // AbortController of what is running
+  #text = document.createElement('span');
+  #progress = document.createElement('progress');
+  #compute = document.createElement('button');
+  #cancel = document.createElement('button');
+  element = document.createElement('div');
+
+  /**
+   * @param actions  ask(): the scene's files; take({pixels, width, height, noise}); open({name, bytes}, noise);
+   *                 fail(error); changed(): the bar wants an update
+   */
+  constructor(actions) {
+    this.#actions = actions;
+    this.#cancel.textContent = 'Cancel';
+    this.#compute.addEventListener('click', () => this.compute());
+    this.#cancel.addEventListener('click', () => this.cancel());
+    this.element.className = 'truth';
+    this.element.append(this.#text, this.#progress, this.#compute, this.#cancel);
+    this.update({ mode: 'off' });
+  }
+
+  get busy() {
+    return this.#work !== null;
+  }
+
+  /** Shows what there is to do. @param comparison  of the viewer */
+  update({ mode, truth }) {
+    const wanted = mode !== 'off' && truth !== 'fresh';
+    this.element.hidden = !wanted && !this.busy;
+    this.#compute.hidden = this.busy;
+    this.#compute.textContent = truth === 'stale' ? 'Compute the truth again' : 'Compute the truth';
+    this.#text.hidden = this.#progress.hidden = this.#cancel.hidden = !this.busy;
+  }
+
+  cancel() {
+    this.#work?.abort();
+    this.#work = null;
+  }
+
+  /** Takes the truth from a file. @param noise  number or null */
+  fetch(url, noise) {
+    return this.#run(async (signal) => {
+      this.#report('Fetching the truth…');
+      const picture = await fetchPicture(url);
+      if (!signal.aborted) this.#actions.open(picture, noise);
+    });
+  }
+
+  /** Computes the truth of the scene that is showing. */
+  compute() {
+    return this.#run(async (signal) => {
+      const request = requestFor(this.#actions.ask());
+      const { width, height } = request;
+      const start = performance.now();
+      let place = 'Computing the truth';
+      const report = (share) => {
+        const left = Math.ceil(((performance.now() - start) / 1000) * (1 / share - 1));
+        const time = share > 0.02 ? `, ${left} s left` : '';
+        this.#report(`${place}, ${width} × ${height} pixels: ${Math.floor(100 * share)} %${time}`, share);
+      };
+      report(0);
+      let truth;
+      try {
+        truth = await computeInWorker(request, report, signal);
+      } catch (error) {
+        if (!(error instanceof NoWorker)) throw error;
+        place = 'This page may start no worker; computing the truth here';
+        truth = await computeOnPage(request, report, signal);
+      }
+      if (!signal.aborted) this.#actions.take({ ...truth, width, height });
+    });
+  }
+
+  async #run(work) {
+    this.cancel();
+    const mine = (this.#work = new AbortController());
+    try {
+      await work(mine.signal);
+    } catch (error) {
+      if (!mine.signal.aborted) this.#actions.fail(error);
+    }
+    if (this.#work === mine) this.#work = null;
+    this.#actions.changed();
+  }
+
+  #report(text, share) {
+    this.#text.textContent = text;
+    if (share === undefined) this.#progress.removeAttribute('value');
+    else this.#progress.value = share;
+    this.#actions.changed();
+  }
+}
