@@ -203,7 +203,7 @@ function machineCards() {
     const { machine } = report;
     const facts = {
       runs: machine.where === 'browser' ? `in ${machine.browser ?? 'a browser'}` : 'natively',
-      driver: `${machine.driver}, ${machine.version}`,
+      driver: [machine.driver, machine.version].filter(Boolean).join(', '),
       processor: [machine.cpu, machine.cores && `${machine.cores} cores`, machine.memoryMB && `${number(machine.memoryMB / 1024)} GB`].filter(Boolean).join(', '),
       commit: report.commit,
       date: report.date,

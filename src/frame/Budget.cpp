@@ -128,27 +128,42 @@ Status Budget::drawSurface(const scene::Scene& scene) {
     return Done{};
 }
 
-Status Budget::drawReference(const scene::Scene& scene) {
-    Result<Image> image = draw(scene, reference_);
-    if (!image) return image.error();
-    exact_ = std::move(*image);
-    mean_ = 0;
+double Budget::meanOf(const Image& image) const {
+    double sum = 0;
     for (std::size_t pixel : covered_)
         for (std::size_t c = 0; c < 3; ++c)
-            mean_ += exact_.pixels[4 * pixel + c] / (3.0 * double(covered_.size()));
+            sum += image.pixels[4 * pixel + c];
+    return sum / (3.0 * double(covered_.size()));
+}
+
+Status Budget::drawReference(const scene::Scene& scene) {
+    const Result<Image> base = draw(scene, reference_, Part::Nothing);
+    if (!base) return base.error();
+    mean_ = meanOf(*base);
+    for (const Part part : {Part::Lamps, Part::Environment}) {
+        Result<Image> image = draw(scene, reference_, part);
+        if (!image) return image.error();
+        mean_ += meanOf(*image) - meanOf(*base);
+        exact_[int(part)] = std::move(*image);
+    }
     phase_ = hasLargeLamp(scene) ? Phase::Lamps : Phase::Environment;
     return Done{};
 }
 
-// The sample of the picture with all lights of these settings, or with transfers and the lights beside them.
-Result<Image> Budget::draw(const scene::Scene& scene, const relief::Settings& settings,
+// The sample of the picture by one part of the lights.
+Result<Image> Budget::draw(const scene::Scene& scene, const relief::Settings& settings, Part part,
                            const RecordTransfers* transfers) {
     using relief::Relief;
     Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, images_);
     if (!objects) return objects.error();
-    const std::vector<relief::LightSource> lights =
-        Relief::lights(scene, settings, settings.environmentLights);
-    const int count = int(lights.size()), placed = int(Relief::lights(scene, settings, 0).size());
+    const std::vector<relief::LightSource> lamps = Relief::lights(scene, settings, 0);
+    std::vector<relief::LightSource> lights;
+    if (part == Part::Lamps) lights = lamps;
+    if (part == Part::Environment) {
+        lights = Relief::lights(scene, settings, settings.environmentLights);
+        lights.erase(lights.begin(), lights.begin() + std::ptrdiff_t(lamps.size()));
+    }
+    const int count = int(lights.size());
     const Image table = Relief::lightTable(lights);
     gl::Device& device = context_.device();
     const graph::Texture lightTable(device, {.size = table.size(), .format = Format::RGBA32F},
@@ -179,7 +194,7 @@ Result<Image> Budget::draw(const scene::Scene& scene, const relief::Settings& se
                                 .lightTable = import(lightTable),
                                 .first = first,
                                 .end = std::min(count, first + Relief::kMostLightsAtOnce),
-                                .placed = placed,
+                                .placed = transfers ? 0 : count,
                                 .transferred = std::move(transferred),
                                 .show = scene::Aov::Color};
         if (Status s = relief_.record(graph, in, settings); !s) return s.error();
@@ -193,14 +208,15 @@ Result<Image> Budget::draw(const scene::Scene& scene, const relief::Settings& se
 }
 
 // RMSE of a sample over the mean of the exact one.
-Result<float> Budget::errorOf(const scene::Scene& scene, const relief::Settings& settings,
+Result<float> Budget::errorOf(const scene::Scene& scene, const relief::Settings& settings, Part part,
                               const RecordTransfers* transfers) {
-    const Result<Image> image = draw(scene, settings, transfers);
+    const Result<Image> image = draw(scene, settings, part, transfers);
     if (!image) return image.error();
+    const Image& exact = exact_[int(part)];
     double sum = 0;
     for (std::size_t pixel : covered_) {
         for (std::size_t c = 0; c < 3; ++c) {
-            const double d = double(image->pixels[4 * pixel + c]) - exact_.pixels[4 * pixel + c];
+            const double d = double(image->pixels[4 * pixel + c]) - exact.pixels[4 * pixel + c];
             sum += d * d / (3.0 * double(covered_.size()));
         }
     }
@@ -212,7 +228,7 @@ Result<float> Budget::errorOfTransfer(const scene::Scene& scene, const relief::S
     while (phase_ == Phase::Surface || phase_ == Phase::Reference)
         if (Status stepped = step(scene); !stepped) return stepped.error();
     if (covered_.empty()) return 0.0f;
-    return errorOf(scene, settings, &record);
+    return errorOf(scene, settings, Part::Environment, &record);
 }
 
 // --- candidates, cheapest first
@@ -220,7 +236,7 @@ Result<float> Budget::errorOfTransfer(const scene::Scene& scene, const relief::S
 Status Budget::tryLamps(const scene::Scene& scene) {
     relief::Settings settings = reference_;
     settings.lightSamples = kLampSamples[next_];
-    const Result<float> error = errorOf(scene, settings);
+    const Result<float> error = errorOf(scene, settings, Part::Lamps);
     if (!error) return error.error();
     choice_.settings.lightSamples = settings.lightSamples;
     const bool last = ++next_ == std::size(kLampSamples);
@@ -250,7 +266,7 @@ Status Budget::tryEnvironment(const scene::Scene& scene) {
         relief::Settings settings = reference_;
         settings.environmentSampling = sampling;
         settings.environmentLights = directions;
-        const Result<float> error = errorOf(scene, settings);
+        const Result<float> error = errorOf(scene, settings, Part::Environment);
         if (!error) return error.error();
         if (*error >= best) continue;
         best = *error;

@@ -56,11 +56,13 @@ public:
 private:
     enum class Phase { Surface, Reference, Lamps, Environment, Done };
     Status drawSurface(const scene::Scene& scene);
+    enum class Part : int { Lamps, Environment, Nothing }; ///< light adds up, so each can be tried alone
     Status drawReference(const scene::Scene& scene);
-    Result<Image> draw(const scene::Scene& scene, const relief::Settings& settings,
+    Result<Image> draw(const scene::Scene& scene, const relief::Settings& settings, Part part,
                        const RecordTransfers* transfers = nullptr);
-    Result<float> errorOf(const scene::Scene& scene, const relief::Settings& settings,
+    Result<float> errorOf(const scene::Scene& scene, const relief::Settings& settings, Part part,
                           const RecordTransfers* transfers = nullptr);
+    double meanOf(const Image& image) const;
     Status tryLamps(const scene::Scene& scene);
     Status tryEnvironment(const scene::Scene& scene);
     double transferRays(const scene::Scene& scene) const;
@@ -75,8 +77,8 @@ private:
     std::vector<std::size_t> covered_; ///< pixels of the sample that show an object
     float wanted_ = 0;                 ///< RMSE over the mean, of each part
     relief::Settings reference_;
-    Image exact_;
-    double mean_ = 0;
+    Image exact_[2];       ///< lamps alone, environment alone
+    double mean_ = 0;      ///< of both together
     std::size_t next_ = 0; ///< candidate
     bool mayTransfer_ = true;
     Choice choice_;

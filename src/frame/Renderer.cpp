@@ -294,7 +294,7 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort) {
         stages.push_back({seesWalls(scene) ? wanted : 0, true});
     else
         stages.push_back({wanted, false});
-    coarse = effort == Effort::Coarse && stages.size() > 1;
+    coarse = effort == Effort::Coarse && (stages.size() > 1 || limited(scene));
     if (coarse) stages.resize(1);
 }
 

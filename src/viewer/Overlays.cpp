@@ -152,15 +152,16 @@ bool drawHelp(vec2 picture, const Theme& theme) {
 }
 
 void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme) {
-    char text[128];
-    std::snprintf(text, sizeof text, "%.1f ms · %d passes · %d draws · %d %s · %s", stats.milliseconds,
+    char cost[128];
+    std::snprintf(cost, sizeof cost, "%.1f ms · %d passes · %d draws · %d %s · %s", stats.milliseconds,
                   stats.passes, stats.draws, stats.lights, stats.lights == 1 ? "light" : "lights",
                   bytesText(stats.bytes).c_str());
-    const vec2 size(ImGui::CalcTextSize(text).x + 20, 28);
+    const std::string text = stats.settings.empty() ? cost : stats.settings + " · " + cost;
+    const vec2 size(ImGui::CalcTextSize(text.c_str()).x + 20, 28);
     const ImVec2 low(kMargin, picture.y - kMargin - size.y);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, theme.card, kRound);
-    list.AddText({low.x + 10, low.y + (size.y - kText) / 2}, theme.text, text);
+    list.AddText({low.x + 10, low.y + (size.y - kText) / 2}, theme.text, text.c_str());
 }
 
 void drawDivider(float x, Rect picture, const char* right, bool lively, const Theme& theme) {

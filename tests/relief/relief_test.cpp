@@ -181,6 +181,45 @@ TEST_F(Relief, InverseSquareFallsWithTheSquareOfTheDistance) {
     EXPECT_NEAR(render(scene, scene::Aov::Color).at(2, 2)[0], 1, 1e-4);
 }
 
+TEST_F(Relief, LampsWithASizeAgreeWithTheTruth) {
+    auto scene = sceneOf(support::noise({64, 64}), 0.2f, 0.03f);
+    scene::DistantLight sun = distantLight(25, 60);
+    sun.angle = 15;
+    scene::PointLight bulb;
+    bulb.radius = 0.25f;
+    bulb.falloff = scene::LightFalloff::InverseSquare;
+    scene.objects[0].material.specularity = 0.3f;
+    scene.objects[0].material.forwardScatter = 0.5f;
+    scene.lights = {sun, bulb};
+    reliefSettings(scene).lightSamples = 1024;
+    // 256 points of the truth and 1024 of ours err by about 1e-3 of a light together; hard edges would miss
+    // by 0.03.
+    EXPECT_LT(difference(render(scene, scene::Aov::Color), truth(scene, scene::Aov::Color)).rms, 2e-3);
+    scene::Scene hard = scene;
+    std::get<scene::DistantLight>(hard.lights[0]).angle = 0;
+    std::get<scene::PointLight>(hard.lights[1]).radius = 0;
+    EXPECT_GT(difference(render(scene, scene::Aov::Color), render(hard, scene::Aov::Color)).rms, 0.02);
+}
+
+TEST_F(Relief, ImportanceNeedsFewerDirectionsUnderASmallSun) {
+    auto scene = sceneOf(support::noise({48, 48}), 0.2f, 0.03f);
+    auto map = std::make_shared<Image>(128, 64, 3);
+    std::fill(map->pixels.begin(), map->pixels.end(), 0.2f);
+    for (int y = 18; y < 22; ++y)
+        for (int x = 60; x < 64; ++x)
+            std::fill_n(map->at(x, y), 3, 150.0f);
+    scene.environment.emplace();
+    scene.environment->map = map;
+    scene.environment->rotation = {60, 0, 0};
+    relief::Settings& settings = reliefSettings(scene);
+    settings.environmentLights = 2000;
+    const Image exact = render(scene, scene::Aov::Color);
+    settings.environmentLights = 64;
+    const double equal = difference(render(scene, scene::Aov::Color), exact).rms;
+    settings.environmentSampling = EnvironmentSampling::Importance;
+    EXPECT_LT(difference(render(scene, scene::Aov::Color), exact).rms, equal / 2);
+}
+
 TEST_F(Relief, CountingIsTheThesisWordForWord) {
     // Level field at z = 0, light 1 m straight above, t = 0.25, 100 steps of 0.0125 from z = -0.25: points 0
     // to 19 lie below the surface (point 20 is on it up to rounding, which may count it): d = 1/21 or 1/22.

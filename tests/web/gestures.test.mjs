@@ -132,7 +132,7 @@ test('in an environment a drag turns the map and the picture with it', async () 
 });
 
 test('a slider of the panel follows a real pointer', async () => {
-  const page = await open(kPanelViewer, { width: 900, height: 700, viewport: { width: 1000, height: 760 } });
+  const page = await open(kPanelViewer, { width: 900, height: 900, viewport: { width: 1000, height: 960 } });
   const path = 'objects.relief.material.specularity';
   const [x, y, width, height] = await page.evaluate(
     (name) => document.querySelector('lucent-viewer').stats().panel[name],
