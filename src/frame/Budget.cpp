@@ -54,12 +54,14 @@ ivec2 sampleSizeFor(ivec2 size, int count) {
 
 std::string Budget::Choice::text() const {
     const bool equal = settings.environmentSampling == EnvironmentSampling::Equal;
-    std::string text = settings.method == relief::Method::Transfer
-                           ? "transfer"
-                           : std::to_string(settings.environmentLights) + " directions " +
-                                 (equal ? "evenly" : "by importance");
-    text += ", " + std::to_string(settings.lightSamples) + " points a lamp, error about " +
-            shortest(std::round(predicted * 1e4f) / 100) + " %";
+    std::string text;
+    if (environment && settings.method == relief::Method::Transfer)
+        text = "transfer, ";
+    else if (environment)
+        text = std::to_string(settings.environmentLights) + " directions " +
+               (equal ? "evenly, " : "by importance, ");
+    if (largeLamp) text += std::to_string(settings.lightSamples) + " points a lamp, ";
+    text += "error about " + shortest(std::round(predicted * 1e4f) / 100) + " %";
     return kept ? text : text + ": nothing keeps the wanted error";
 }
 
@@ -71,7 +73,7 @@ void Budget::start(const scene::Scene& scene, ivec2 size) {
         scene.quality.maxError / std::sqrt(std::max(1.0f, parts)) / kSafety; // errors of parts are unrelated
     size_ = size;
     sampleSize_ = sampleSizeFor(size, kSamplePixels);
-    choice_ = {settingsOf(scene), 0, true};
+    choice_ = {settingsOf(scene), 0, true, hasEnvironment(scene), hasLargeLamp(scene)};
     choice_.settings.method = relief::Method::Hierarchy;
     reference_ = choice_.settings;
     reference_.environmentSampling = EnvironmentSampling::Equal;

@@ -27,6 +27,7 @@ public:
         relief::Settings settings;
         float predicted = 0; ///< RMSE over the mean
         bool kept = true;    ///< false: nothing at hand keeps the wanted error; the settings come nearest
+        bool environment = false, largeLamp = false; ///< what there is to choose for
 
         /// "45 directions by importance, error about 0.8 %", for people.
         std::string text() const;

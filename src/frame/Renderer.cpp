@@ -381,7 +381,9 @@ Result<bool> Renderer::State::prepareTransfers(const scene::Scene& scene,
     const Result<float> error = budget.errorOfTransfer(scene, settings, record);
     planMs += now() - before;
     if (!error) return error.error();
-    choice = {settings, *error, true};
+    choice = budget.choice();
+    choice->settings = settings;
+    choice->predicted = *error;
     if (*error <= scene.quality.maxError) return true;
     budget.refuseTransfer();
     planning = true;

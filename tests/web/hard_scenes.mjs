@@ -23,7 +23,9 @@ const distant = (elevation, azimuth) => {
 };
 const lamp = (...position) => ({ type: 'point', position });
 
-// name: [width, height, heights, heightScale, depth, light]
+const sky = (relief) => ({ lights: [], environment: { source: 'sky', rotation: [70, 20, 0] }, technique: { relief } });
+
+// name: [width, height, heights, heightScale, depth, light, what else differs]
 const kCases = {
   'hard-cliff': [64, 64, (x) => (x < 32 ? 1 : 0), 0.5, 0.05, distant(30, 20)],
   'hard-spikes': [64, 64, (x, y) => Number(x % 8 === 3 && y % 8 === 5), 0.4, 0.05, distant(20, 77)],
@@ -42,9 +44,13 @@ const kCases = {
   'hard-inside': [64, 64, waves, 0.2, 0.03, lamp(0.1, 0.1, 0.05)],
   'hard-near': [64, 64, waves, 0.1, 0.03, lamp(1e-4, 0, 1e-4)],
   'hard-far': [64, 64, waves, 0.1, 0.03, lamp(6e5, 0, 8e5)],
+  'hard-wide-sun': [64, 64, waves, 0.2, 0.03, { ...distant(4, 30), angle: 20 }], // half of it below the horizon
+  'hard-wide-lamp': [64, 64, waves, 0.2, 0.03, { ...lamp(0.1, 0, 0.3), radius: 0.6 }],
+  'hard-importance': [64, 64, waves, 0.2, 0.03, null, sky({ environmentSampling: 'importance', environmentLights: 60 })],
+  'hard-transfer': [64, 64, waves, 0.2, 0.03, null, sky({ method: 'transfer' })],
 };
 
-const scene = (name, [width, height, , heightScale, depth, light]) => ({
+const scene = (name, [width, height, , heightScale, depth, light, other]) => ({
   lucent: 1,
   title: name,
   size: [64, Math.max(1, Math.round((64 * height) / width))],
@@ -58,6 +64,7 @@ const scene = (name, [width, height, , heightScale, depth, light]) => ({
       material: { depth },
     },
   ],
+  ...other,
 });
 
 export const kHardScenes = Object.fromEntries(
