@@ -105,13 +105,12 @@ std::shared_ptr<const Image> thinned(std::shared_ptr<const Image> heights, int s
     return heights;
 }
 
-// The heights of a gallery scene's first object, for a field 1 m wide.
-Result<measure::BenchField> fieldOf(const std::string& path, bool quick) {
+// The heights of a gallery scene's first object, for a field 1 m wide with at most `side` texels a side.
+Result<measure::BenchField> fieldOf(const std::string& path, int side) {
     const Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), frame::techniques());
     if (!scene) return scene.error();
     const scene::HeightField& shape = scene->objects.front().shape;
-    return measure::BenchField{fs::path(path).stem().string(),
-                               quick ? thinned(shape.heights, 256) : shape.heights,
+    return measure::BenchField{fs::path(path).stem().string(), thinned(shape.heights, side),
                                shape.heightScale / shape.width};
 }
 
@@ -132,7 +131,7 @@ Result<measure::Plan> makePlan(const BenchOptions& options, const measure::Relie
         return measure::reliefPlan(parts, fields, environments, options.quick);
     }
     for (const char* name : {"elevation.json", "dragon.json"}) {
-        Result<measure::BenchField> field = fieldOf(options.gallery + "/" + name, options.quick);
+        Result<measure::BenchField> field = fieldOf(options.gallery + "/" + name, options.quick ? 256 : 4096);
         if (!field) return field.error();
         fields.push_back(std::move(*field));
     }
@@ -176,10 +175,10 @@ measure::BenchReport runPlan(gl::Context& context, measure::Plan plan, const std
 // The proof of quality.maxError on the gallery's fields and light probes and on synthetic ones; its totals go
 // into the report, each result into budget.json.
 Status proveBudget(gl::Context& context, const BenchOptions& options, measure::BenchReport& report) {
-    constexpr int kSide = 96; // pixels
+    constexpr int kSide = 96, kFieldSide = 128; // pixels, texels
     std::vector<measure::BenchField> fields;
     for (const char* name : {"elevation", "dragon", "coin", "weave", "bunny"}) {
-        Result<measure::BenchField> field = fieldOf(options.gallery + "/" + name + ".json", false);
+        Result<measure::BenchField> field = fieldOf(options.gallery + "/" + name + ".json", kFieldSide);
         if (!field) return field.error();
         fields.push_back(std::move(*field));
     }

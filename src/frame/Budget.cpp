@@ -24,7 +24,8 @@ constexpr int kFewestCovered = 256; // fewer say too little
 // Steps of a factor of the square root of two.
 constexpr int kDirections[] = {8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256, 362, 512, 724, 1024, 1448, 2048};
 constexpr int kLampSamples[] = {1, 2, 3, 4, 6, 8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256};
-constexpr int kMostDirections = 2048, kMostLampSamples = 512; // of the reference
+constexpr int kMostDirections = 4096, kMostLampSamples = 1024; // of the reference
+constexpr int kFinerBy = 4;                                    // a reference than what is held against it
 
 bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
 
@@ -41,7 +42,7 @@ const relief::Settings& settingsOf(const scene::Scene& scene) {
     return scene.technique.at("relief").as<relief::Settings>();
 }
 
-// Lights whose own error is a quarter of the wanted one or less: error falls about as the number rises.
+// Lights whose own error is a small part of the wanted one: error falls about as the number rises.
 int referenceCount(float wanted, int most) { return std::clamp(int(6 / wanted), most / 32, most); }
 
 // About `count` pixels in the picture's shape; odd numbers keep in step with few patterns.
@@ -76,7 +77,7 @@ void Budget::start(const scene::Scene& scene, ivec2 size) {
     choice_ = {settingsOf(scene), 0, true, hasEnvironment(scene), hasLargeLamp(scene)};
     choice_.settings.method = relief::Method::Hierarchy;
     reference_ = choice_.settings;
-    reference_.environmentSampling = EnvironmentSampling::Equal;
+    reference_.environmentSampling = EnvironmentSampling::Importance; // nearer for the same number
     reference_.environmentLights = referenceCount(wanted_, kMostDirections);
     reference_.lightSamples = hasLargeLamp(scene) ? referenceCount(wanted_, kMostLampSamples) : 1;
     next_ = 0;
@@ -230,12 +231,21 @@ Result<float> Budget::errorOfTransfer(const scene::Scene& scene, const relief::S
     while (phase_ == Phase::Surface || phase_ == Phase::Reference)
         if (Status stepped = step(scene); !stepped) return stepped.error();
     if (covered_.empty()) return 0.0f;
+    // As fine as the sum of directions that a transfer stands for.
+    if (Status refined = refine(scene, Part::Environment, reference_.environmentLights,
+                                std::min(kMostDirections / kFinerBy, int(3 / wanted_)), kMostDirections);
+        !refined)
+        return refined.error();
     return errorOf(scene, settings, Part::Environment, &record);
 }
 
 // --- candidates, cheapest first
 
 Status Budget::tryLamps(const scene::Scene& scene) {
+    if (Status refined =
+            refine(scene, Part::Lamps, reference_.lightSamples, kLampSamples[next_], kMostLampSamples);
+        !refined)
+        return refined;
     relief::Settings settings = reference_;
     settings.lightSamples = kLampSamples[next_];
     const Result<float> error = errorOf(scene, settings, Part::Lamps);
@@ -263,6 +273,10 @@ Status Budget::tryEnvironment(const scene::Scene& scene) {
         phase_ = Phase::Done;
         return Done{};
     }
+    if (Status refined =
+            refine(scene, Part::Environment, reference_.environmentLights, directions, kMostDirections);
+        !refined)
+        return refined;
     float best = 1e30f;
     for (EnvironmentSampling sampling : {EnvironmentSampling::Equal, EnvironmentSampling::Importance}) {
         relief::Settings settings = reference_;
@@ -289,6 +303,17 @@ void Budget::refuseTransfer() {
     choice_.settings.method = relief::Method::Hierarchy;
     choice_.predicted = 0;
     phase_ = Phase::Surface;
+}
+
+// Makes the reference of a part finer than a candidate by far, so that none is held against the like of
+// itself.
+Status Budget::refine(const scene::Scene& scene, Part part, int& count, int candidate, int most) {
+    if (count >= std::min(most, kFinerBy * candidate)) return Done{};
+    count = std::min(most, 2 * kFinerBy * candidate);
+    Result<Image> image = draw(scene, reference_, part);
+    if (!image) return image.error();
+    exact_[int(part)] = std::move(*image);
+    return Done{};
 }
 
 double Budget::transferRays(const scene::Scene& scene) const {

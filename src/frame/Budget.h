@@ -64,6 +64,7 @@ private:
     Result<float> errorOf(const scene::Scene& scene, const relief::Settings& settings, Part part,
                           const RecordTransfers* transfers = nullptr);
     double meanOf(const Image& image) const;
+    Status refine(const scene::Scene& scene, Part part, int& count, int candidate, int most);
     Status tryLamps(const scene::Scene& scene);
     Status tryEnvironment(const scene::Scene& scene);
     double transferRays(const scene::Scene& scene) const;
