@@ -129,7 +129,6 @@ Status Transfer::step(graph::TexturePool& pool, const views::DrawnObject& drawn)
     const int rows = rowsAtOnce_;
     const Status done = phase_ == Phase::Sample ? sample(pool, drawn) : trace(pool, drawn);
     const double took = now() - before;
-    bakeMs_ += took;
     rowsAtOnce_ = std::max(1, int(std::min(double(rows) * 4, rows * kStepMs / std::max(took, 0.1))));
     return done;
 }

@@ -43,10 +43,7 @@ public:
     float share() const;
     /// One piece of the work, a few million rays at most; waits until the GPU has done it.
     Status step(graph::TexturePool& pool, const views::DrawnObject& drawn);
-    /// Milliseconds that the finished steps took together.
-    double bakeMs() const { return bakeMs_; }
     std::size_t bytes() const { return coefficients_.desc().bytes(); }
-    const Basis& basis() const { return basis_; }
 
     /// Brings an environment onto the basis: what follows shows it.
     ///
@@ -85,7 +82,6 @@ private:
     int row_ = 0;  ///< of the sample, or of the blocks of a tile
     int tile_ = 0; ///< being traced
     int rowsAtOnce_ = 1;
-    double bakeMs_ = 0;
     graph::Texture directions_, sampled_, traced_, coefficients_, gloss_;
     Basis basis_;
     int termsUsed_ = 0;

@@ -134,6 +134,7 @@ class TruthScript : public Truth {
 protected:
     void SetUp() override {
         Truth::SetUp();
+        // scripts/setup installs it; without it the rest of these tests still says something.
         if (std::system("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "parallel is not installed";
     }
     /// Runs scripts/truth in the folder.

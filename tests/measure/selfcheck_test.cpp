@@ -202,7 +202,8 @@ TEST(WithoutFloatTargets, ThereIsAMessageAndNoContext) {
     const auto poor = gl::Context::create(without);
     ASSERT_FALSE(poor.ok());
     EXPECT_EQ(poor.error().fault, Fault::Machine);
-    if (poor.error().message.starts_with("gl:")) GTEST_SKIP() << poor.error().message; // none at all
+    // Without any GL the message is another one; whether that may be is for the other tests here to say.
+    if (poor.error().message.starts_with("gl:")) GTEST_SKIP() << poor.error().message;
     EXPECT_NE(poor.error().message.find("EXT_color_buffer_float missing"), std::string::npos);
 }
 
