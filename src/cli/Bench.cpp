@@ -109,7 +109,7 @@ std::shared_ptr<const Image> thinned(std::shared_ptr<const Image> heights, int s
 Result<measure::BenchField> fieldOf(const std::string& path, int side) {
     const Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), frame::techniques());
     if (!scene) return scene.error();
-    const scene::HeightField& shape = scene->objects.front().shape;
+    const scene::HeightField& shape = scene->objects.front().field();
     return measure::BenchField{fs::path(path).stem().string(), thinned(shape.heights, side),
                                shape.heightScale / shape.width};
 }

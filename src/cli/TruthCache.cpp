@@ -76,7 +76,7 @@ std::string truthPath(const std::string& folder, const scene::Scene& scene, int 
     if (scene.environment) hash.add(scene.environment->map.get());
     for (const scene::Object& object : scene.objects) {
         const scene::Material& material = object.material;
-        for (const auto& map : {object.shape.heights, object.shape.alpha, material.baseMap,
+        for (const auto& map : {object.field().heights, object.field().alpha, material.baseMap,
                                 material.diffuseMap, material.specularMap})
             hash.add(map.get());
     }

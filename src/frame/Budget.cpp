@@ -319,7 +319,7 @@ Status Budget::refine(const scene::Scene& scene, Part part, int& count, int cand
 double Budget::transferRays(const scene::Scene& scene) const {
     double rays = 0;
     for (const scene::Object& object : scene.objects)
-        if (object.visible) rays += relief::transferRays(object.shape.texels(), relief::kMostTerms);
+        if (object.visible) rays += relief::transferRays(object.field().texels(), relief::kMostTerms);
     return rays;
 }
 

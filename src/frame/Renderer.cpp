@@ -85,6 +85,7 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
     DisplayBlock block;
     switch (scene.view.show) {
     case Aov::Color:
+    case Aov::Irradiance:
         block.scale = vec4(std::exp2(scene.view.exposure));
         block.encode = 1;
         break;
@@ -97,7 +98,12 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
         block.isScalar = 1;
         block.scale = vec4(1.0f / 128);
         break;
+    case Aov::Layers: // white at 16 interfaces
+        block.isScalar = 1;
+        block.scale = vec4(1.0f / 16);
+        break;
     case Aov::Normal:
+    case Aov::Direction:
         block.scale = vec4(0.5f);
         block.shift = vec4(0.5f);
         break;
@@ -142,8 +148,8 @@ struct SurfaceKey {
 SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size) {
     SurfaceKey key{{}, views::makeEye(scene, float(size.x) / float(size.y)).clipFromWorld, size};
     for (const scene::Object& object : scene.objects)
-        key.objects.push_back({object.shape.heights, object.shape.alpha, object.shape.width,
-                               object.shape.heightScale, object.transform.worldFromObject(), object.visible});
+        key.objects.push_back({object.field().heights, object.field().alpha, object.field().width,
+                               object.field().heightScale, object.transform.worldFromObject(), object.visible});
     return key;
 }
 
@@ -360,7 +366,7 @@ void Renderer::State::lightTransfers(const scene::Scene& scene,
         vec3 view[4];
         for (int corner = 0; corner < 4; ++corner) {
             const vec2 sign(corner % 2 ? 1 : -1, corner / 2 ? -1 : 1);
-            const vec3 at(0.5f * sign * object.shape.footprint(), 0);
+            const vec3 at(0.5f * sign * object.field().footprint(), 0);
             view[corner] = from.w == 0 ? vec3(from) : glm::normalize(at - vec3(from));
         }
         transfers[i]->setEnvironment(object, environment, view, Budget::kTransferShare * wanted);

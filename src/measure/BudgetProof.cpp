@@ -278,7 +278,7 @@ Result<BudgetReport> proveBudget(gl::Context& context, const std::vector<BenchFi
         for (std::size_t j = 0; j < lights.size(); ++j) {
             const float depth = 0.004f * std::pow(4.0f, hashed(int(i), int(j)) * 2); // 4 mm to 64 mm
             scene::Scene scene = fieldScene(fields[i], depth);
-            const vec2 footprint = scene.objects[0].shape.footprint();
+            const vec2 footprint = scene.objects[0].field().footprint();
             scene.size = ivec2(side, std::max(1, int(float(side) * footprint.y / footprint.x)));
             scene.view.show = scene::Aov::Color;
             scene.objects[0].material.forwardScatter = j % 3 == 1 ? 0.6f : 0;

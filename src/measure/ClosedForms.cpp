@@ -48,12 +48,12 @@ relief::Settings& settingsOf(Scene& scene) {
 Scene sceneOf(Heights heights, float heightScale, float depth) {
     Scene scene;
     scene::Object object;
-    object.shape.heights = std::move(heights);
-    object.shape.heightScale = heightScale;
+    object.field().heights = std::move(heights);
+    object.field().heightScale = heightScale;
     object.material.depth = depth;
     object.material.diffuse = vec3(1);
-    scene.size = object.shape.texels();
-    scene.camera.height = object.shape.footprint().y;
+    scene.size = object.field().texels();
+    scene.camera.height = object.field().footprint().y;
     scene.camera.eye = {0, 0, 2 + 3 * heightScale};
     for (const ParamTable* table : frame::techniques())
         scene.technique.emplace(std::string(table->name), Settings(*table));
@@ -213,9 +213,9 @@ Finding addedBlocker(Studio& studio) {
     Scene scene = sceneOf(waves({32, 32}), 0.1f, 0.03f);
     scene.lights.push_back(lampAt(20, 0));
     const Image before = studio.draw(scene);
-    auto higher = std::make_shared<Image>(*scene.objects[0].shape.heights);
+    auto higher = std::make_shared<Image>(*scene.objects[0].field().heights);
     *higher->at(24, 16) = 2;
-    scene.objects[0].shape.heights = higher;
+    scene.objects[0].field().heights = higher;
     const Image after = studio.draw(scene);
     Finding finding;
     for (int y = 0; y < 32; ++y)
@@ -238,7 +238,7 @@ Finding lightAndField(Studio& studio) {
     Scene scene = sceneOf(waves({48, 48}), 0.2f, 0.04f);
     scene.lights.push_back(lampAt(25, 10));
     const Image before = studio.draw(scene);
-    const Heights map = scene.objects[0].shape.heights;
+    const Heights map = scene.objects[0].field().heights;
     // A quarter turn to the left: the texel at column x, row y goes to column y, row 47 - x.
     Scene turned =
         sceneOf(heightsOf({48, 48}, [&](int x, int y) { return *map->at(47 - y, x); }), 0.2f, 0.04f);
@@ -331,7 +331,7 @@ Finding lightsAdd(Studio& studio) {
 Finding inverseSquare(Studio& studio) {
     constexpr double depth = 1e-6;
     Scene scene = sceneOf(level({1, 1}), 0, float(depth));
-    scene.objects[0].shape.width = 1e-3f;
+    scene.objects[0].field().width = 1e-3f;
     scene.camera.height = 1e-3f;
     Finding finding;
     for (const float distance : {0.5f, 2.0f}) {
@@ -412,7 +412,7 @@ Finding places(Studio& studio) {
         for (int x = 0; x < 32; ++x) {
             finding.take(xOf(scene, x), position.at(x, y)[0]);
             finding.take(yOf(scene, y), position.at(x, y)[1]);
-            finding.take(0.3f * *scene.objects[0].shape.heights->at(x, y), position.at(x, y)[2]);
+            finding.take(0.3f * *scene.objects[0].field().heights->at(x, y), position.at(x, y)[2]);
         }
     }
     return finding;

@@ -251,11 +251,11 @@ scene::Scene fieldScene(const BenchField& field, float depth) {
     scene::Scene scene;
     scene::Object object;
     object.name = field.name;
-    object.shape.heights = field.heights;
-    object.shape.heightScale = field.heightScale;
+    object.field().heights = field.heights;
+    object.field().heightScale = field.heightScale;
     object.material.depth = depth;
-    scene.size = object.shape.texels();
-    scene.camera.height = object.shape.footprint().y;
+    scene.size = object.field().texels();
+    scene.camera.height = object.field().footprint().y;
     scene.camera.eye.z = 2 + field.heightScale;
     scene.view.show = scene::Aov::Illumination;
     for (const ParamTable* table : frame::techniques())

@@ -82,14 +82,14 @@ ReliefBlock makeBlock(const views::DrawnObject& drawn, const Settings& settings)
     const scene::Material& material = object.material;
     const float scale = object.transform.scale;
     ReliefBlock block{};
-    block.field = drawn.field->block(object.shape);
+    block.field = drawn.field->block(object.field());
     block.base = vec4(material.base, material.specularity);
     block.diffuse = vec4(material.diffuse, material.forwardScatter);
     block.specular = vec4(material.specular, material.depth / scale);
     block.falloffs = vec4(material.specularFalloff, material.scatterFalloff);
     block.objectFromWorld = mat4(1);
     block.metres = scale;
-    block.radius = glm::length(object.shape.footprint());
+    block.radius = glm::length(object.field().footprint());
     block.object = drawn.index;
     block.exponential = settings.attenuation == Attenuation::Exponential;
     block.steps = settings.steps;

@@ -103,8 +103,8 @@ std::vector<SmallLight> smallLights(const scene::Scene& scene, const Settings& s
 }
 
 Transfer::Key Transfer::keyOf(const scene::Object& object, const Settings& settings) {
-    return {object.shape.heights,     object.shape.width,
-            object.shape.heightScale, object.material.depth / object.transform.scale,
+    return {object.field().heights,     object.field().width,
+            object.field().heightScale, object.material.depth / object.transform.scale,
             settings.attenuation,     roundUp(settings.terms, 4)};
 }
 

@@ -20,11 +20,11 @@ std::string stemOf(const std::string& path) {
 Status replaceHeights(Object& object, const std::string& name, std::span<const std::byte> bytes) {
     Result<std::shared_ptr<const Image>> heights = decodeHeights(bytes, name);
     if (!heights) return heights.error();
-    object.shape.heights = *heights;
-    object.shape.source = {};
-    object.shape.source.file = name;
-    object.shape.alpha = nullptr;
-    object.shape.alphaFile.clear();
+    object.field().heights = *heights;
+    object.field().source = {};
+    object.field().source.file = name;
+    object.field().alpha = nullptr;
+    object.field().alphaFile.clear();
     Material& material = object.material;
     material.baseMap = material.diffuseMap = material.specularMap = nullptr;
     for (std::string* file : {&material.baseMapFile, &material.diffuseMapFile, &material.specularMapFile})
@@ -44,7 +44,7 @@ Result<Scene> sceneFromHeights(const std::string& name, std::span<const std::byt
     object.material.specularity = 0.2f;
     if (Status loaded = replaceHeights(object, name, bytes); !loaded) return loaded.error();
 
-    const vec2 footprint = object.shape.footprint();
+    const vec2 footprint = object.field().footprint();
     scene.camera.height = 1.06f * std::max(footprint.x, footprint.y); // a little air around a square picture
     scene.camera.eye.z = std::max(2.0f, 2 * scene.camera.height);
     scene.lights.emplace_back(PointLight{});

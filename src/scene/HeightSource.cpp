@@ -60,7 +60,7 @@ void digHoles(HeightField& field) {
 }
 
 void fitHeights(Object& object) {
-    HeightField& field = object.shape;
+    HeightField& field = object.field();
     const auto [low, high] = std::minmax_element(field.heights->pixels.begin(), field.heights->pixels.end());
     if (*low >= 0 && *high <= 1) return;
     const float range = *high - *low;

@@ -291,7 +291,7 @@ private:
         return optional(place, "visible", &Loader::readBool, object.visible) &&
                optional(place, "transform", &Loader::readTransform, object.transform) &&
                optional(place, "material", &Loader::readMaterial, object.material) &&
-               optional(place, "shape", &Loader::readShape, object.shape);
+               optional(place, "shape", &Loader::readShape, object.field());
     }
     bool readTransform(const Place& place, Transform& transform) {
         return readKeys(place, transformKeys(), {&transform});

@@ -1,25 +1,105 @@
 #pragma once
-/// Triangles, and the heights that a height field can take from them.
+/// Triangles and how they move, and the heights that a height field can take from them.
 
 #include "base/File.h"
 #include "base/Image.h"
 #include "base/Math.h"
+#include "scene/Scene.h"
 
+#include <glm/gtc/quaternion.hpp>
+
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace lucent::scene {
 
-struct Mesh {
-    std::vector<vec3> positions;        ///< m
-    std::vector<std::uint32_t> indices; ///< three a triangle, counter-clockwise seen from outside
+/// Displacements of a morph target, one a vertex.
+struct MorphTarget {
+    std::vector<vec3> positions, normals; ///< normals may be empty
 };
 
-/// The plain form in which meshes reach the loader: "LUCENTM1", counts, positions, indices, little-endian.
-/// The readers write it from glTF, natively and in the page alike.
+/// What moves a node of a file: values at times, between them linear, stepped or cubic (glTF 2.0, 3.11).
+struct Channel {
+    enum class Path { Translation, Rotation, Scale, Weights };
+    enum class Interpolation { Linear, Step, CubicSpline };
+    int node = 0;
+    Path path = Path::Translation;
+    Interpolation interpolation = Interpolation::Linear;
+    std::vector<float> times; ///< s, ascending
+    std::vector<float>
+        values; ///< 3, 4 (quaternion x, y, z, w) or as many as there are targets, for each time;
+                ///< three times as many for a cubic spline: tangent in, value, tangent out
+};
+
+/// A node of a file's tree: scaled, turned, then moved in its parent's space.
+struct Node {
+    int parent = -1; ///< always before the node in the list
+    vec3 translate{0};
+    glm::quat rotate{1, 0, 0, 0};
+    vec3 scale{1};
+};
+
+/// How a mesh moves. Vertices of a mesh with joints are moved by the joints alone.
+struct Rig {
+    std::vector<Node> nodes;
+    std::vector<int> joints;         ///< nodes; a vertex's joint indices count in this list
+    std::vector<mat4> jointFromMesh; ///< inverse bind matrices, one a joint
+    std::vector<MorphTarget> targets;
+    std::vector<float> weights;    ///< of the targets, at rest
+    std::vector<Channel> channels; ///< of the first animation; others are named on stderr
+    float duration = 0;            ///< s; the animation begins again after it
+};
+
+struct Mesh {
+    std::vector<vec3> positions;        ///< m, at rest
+    std::vector<std::uint32_t> indices; ///< three a triangle, counter-clockwise seen from outside
+    std::vector<vec3> normals{};        ///< unit, one a position; empty: areaWeightedNormals()
+    std::vector<std::array<std::uint16_t, 4>> joints{}; ///< of each position, in Rig::joints; empty: none
+    std::vector<vec4> jointWeights{};                   ///< >= 0, their sum 1
+    Rig rig{};
+
+    /// Triangles by material, in the order of `indices`; empty for files without materials.
+    struct Part {
+        std::string material; ///< unique within the mesh
+        std::uint32_t firstIndex = 0, indexCount = 0;
+        Material values; ///< what the file says of it
+    };
+    std::vector<Part> parts{};
+
+    bool moves() const { return rig.duration > 0; }
+};
+
+/// The rest of a vertex's motion at one time: p = sum of weight * joints[j] * (p0 + sum of weights *
+/// targets).
+struct Pose {
+    std::vector<mat4> joints;   ///< in the mesh's space; empty: the mesh has none
+    std::vector<float> weights; ///< of the morph targets
+};
+/// Where the rig stands at `time` [s], which wraps around at the duration.
+Pose poseAt(const Rig& rig, float time);
+
+/// Normals of the vertices: those of the triangles around, weighted by area. Vertices at the same place with
+/// the same index only; of no triangle: +y. Triangles without area count nothing.
+std::vector<vec3> areaWeightedNormals(std::span<const vec3> positions,
+                                      std::span<const std::uint32_t> indices);
+
+/// Meshes of the shapes that are neither files nor fields, centred in their object's space, with normals.
+/// Their vertices lie on the shape; `segments` go once around (the other way in proportion).
+Mesh meshOf(const Plane& plane);
+Mesh meshOf(const Box& box);
+Mesh meshOf(const Sphere& sphere, int segments = 256);
+Mesh meshOf(const Torus& torus, int segments = 384);
+Mesh meshOf(const Cylinder& cylinder, int segments = 256);
+/// The triangles of one material.
+Mesh partOf(const Mesh& mesh, const Mesh::Part& part);
+
+/// The plain form in which meshes reach the loader: "LUCENTM2" and then everything above, little-endian.
+/// The readers write it from glTF and OBJ, natively and in the page alike.
 Bytes encodeMesh(const Mesh& mesh);
-/// Error "NAME: what; expected" for truncated files and indices out of range.
+/// Error "NAME: what; expected" for truncated files, indices out of range and values that are not finite.
 Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& name);
 
 /// The mesh's depth as heights (height-field thesis 2017, 3.1.2): seen along -z after `rotation`, the

@@ -441,7 +441,7 @@ std::vector<BoundParam> bindParams(Scene& scene) {
         const std::string path = "objects." + object.name;
         const bool first = &object == &scene.objects.front();
         binder.add(path + ".material", first ? "material" : "", materialParams(), &object.material);
-        binder.add(path + ".shape", first ? "shape" : "", heightFieldParams(), &object.shape);
+        binder.add(path + ".shape", first ? "shape" : "", heightFieldParams(), &object.field());
         binder.add(path + ".transform", first ? "transform" : "", transformParams(), &object.transform);
     }
     if (scene.environment) binder.add("environment", "env", environmentParams(), &*scene.environment);

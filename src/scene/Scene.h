@@ -49,7 +49,67 @@ struct HeightField {
     vec2 footprint() const { return vec2(heights->size()) * texelSize(); }
 };
 
-/// What the surface does with light. The relief model's colours and factors (height-field thesis 2017, 3.5).
+struct Mesh;
+
+/// Triangles of a file, or of one of its materials.
+struct MeshShape {
+    std::string source;               ///< as the scene file names it
+    std::string part;                 ///< only triangles of this material of the file; "": all
+    bool flatNormals = false;         ///< light meets the triangles themselves, not interpolated normals
+    std::shared_ptr<const Mesh> mesh; ///< never null once loaded
+};
+
+/// A rectangle in its object's xz plane, centred, facing +y.
+struct Plane {
+    vec2 size{1}; ///< m along x and z, > 0
+};
+
+/// A block, centred.
+struct Box {
+    vec3 size{1}; ///< m, > 0
+};
+
+struct Sphere {
+    float radius = 1; ///< m, > 0
+};
+
+/// All points at distance `minor` from a circle of radius `major` around the y axis.
+struct Torus {
+    float major = 1, minor = 0.25f; ///< m, 0 < minor <= major
+};
+
+/// Around the y axis, centred.
+struct Cylinder {
+    float radius = 0.5f, height = 1; ///< m, > 0
+    bool open = false;               ///< a band without lids: a ring
+};
+
+/// A surface of water: a rectangle in its object's xz plane, centred, facing +y, whose height obeys the wave
+/// equation. It begins as a travelling sine; drops fall in from there on.
+struct Water {
+    vec2 size{1};             ///< m along x and z, > 0
+    int cells = 128;          ///< along the longer side
+    float speed = 0.5f;       ///< of waves, m/s
+    float damping = 0.2f;     ///< 1/s, >= 0
+    float amplitude = 0;      ///< of the sine, m, >= 0
+    float wavelength = 0.25f; ///< m, > 0
+    vec2 direction{1, 0};     ///< in which it travels, in x and z; any length > 0
+    float dropInterval = 0;   ///< s between drops at random places; 0: none but the pointer's
+};
+
+using Shape = std::variant<HeightField, MeshShape, Plane, Box, Sphere, Torus, Cylinder, Water>;
+
+/// A wave through an object's points: p moves by amplitude sin(2 pi (d . p / wavelength - t / period)), with
+/// d the direction. Normals follow exactly, by the inverse transpose of the derivative.
+struct Wave {
+    vec3 amplitude{0};       ///< m in the object's space; 0: none
+    vec3 direction{1, 0, 0}; ///< any length > 0
+    float wavelength = 0.5f; ///< m, > 0
+    float period = 1;        ///< s, > 0
+};
+
+/// What the surface does with light. The relief model's colours and factors (height-field thesis 2017, 3.5)
+/// hold for height fields; of other shapes `base` and `diffuse` are an opaque surface's own light and albedo.
 struct Material {
     vec3 base{0};               ///< cB, shown without light
     vec3 diffuse{0.8f};         ///< cD
@@ -59,6 +119,21 @@ struct Material {
     float depth = 0.05f;        ///< t: how far below the surface the light is looked at, m, > 0
     vec2 specularFalloff{0, 1}; ///< s_min, s_max
     vec2 scatterFalloff{0, 1};  ///< f_min, f_max
+
+    // Refraction, where transmission > 0; not for height fields. As glTF defines the words.
+    float transmission = 0;        ///< share of the light inside that passes, [0,1]
+    float ior = 1.5f;              ///< index of refraction of the inside over that of vacuum, > 0
+    vec3 attenuationColor{1};      ///< what is left of white after `attenuationDistance`, [0,1]
+    float attenuationDistance = 0; ///< m; 0: nothing is absorbed
+    float dispersion = 0;          ///< 20 / Abbe number
+    bool fresnel = true;           ///< false: all light is transmitted where Snell's law lets it
+    // Mirrors, where reflectance > 0.
+    vec3 reflectance{0}; ///< share of mirrored light at any angle, [0,1]
+
+    bool isRefractive() const { return transmission > 0; }
+    bool isMirror() const { return reflectance != vec3(0); }
+    /// Absorption coefficient: light falls by exp(-sigma l) on a way of l metres.
+    vec3 absorption() const;
 
     std::shared_ptr<const Image> baseMap, diffuseMap,
         specularMap;                                          ///< 3 channels, linear; multiply the colours
@@ -75,10 +150,16 @@ struct Transform {
 
 struct Object {
     std::string name;
-    HeightField shape; ///< becomes a variant when the second shape comes
+    Shape shape;
     Material material;
     Transform transform;
+    Wave wave;           ///< not for height fields and water
     bool visible = true; ///< false: hidden from the camera only
+
+    bool isField() const { return std::holds_alternative<HeightField>(shape); }
+    /// The shape, which must be a height field.
+    HeightField& field() { return std::get<HeightField>(shape); }
+    const HeightField& field() const { return std::get<HeightField>(shape); }
 };
 
 /// How the light of a point source fades: not at all (the thesis) or with the square of the distance
@@ -101,7 +182,25 @@ struct DistantLight {
         0; ///< degrees across, [0,90]: an even disc of directions; the sun has 0.53; 0: one direction
 };
 
-using Light = std::variant<PointLight, DistantLight>;
+/// A point that shines into a cone. Its light fades with the square of the distance.
+struct SpotLight {
+    vec3 position{0, 1, 0};
+    vec3 direction{0, -1, 0}; ///< any length > 0
+    vec3 color{1};
+    float intensity = 1; ///< W/sr inside the inner cone
+    float innerAngle = 20,
+          outerAngle = 25; ///< degrees from the axis; between them light fades as glTF has it
+};
+
+/// A parallelogram that shines from one side: that from which edgeU turns to edgeV counter-clockwise.
+struct AreaLight {
+    vec3 corner{-0.25f, 1, -0.25f};
+    vec3 edgeU{0.5f, 0, 0}, edgeV{0, 0, 0.5f}; ///< m, not parallel
+    vec3 color{1};
+    float radiance = 1; ///< factor of the color, W/(m² sr)
+};
+
+using Light = std::variant<PointLight, DistantLight, SpotLight, AreaLight>;
 
 /// Light from all around, on a lat-long map: row 0 = +y, centre column = -z, to the right = +x.
 struct Environment {
@@ -123,13 +222,25 @@ struct Camera {
 };
 
 /// What is shown instead of the picture: one of the quantities behind it.
-enum class Aov : int { Color, Illumination, Visibility, Normal, Depth, Position, Iterations };
+enum class Aov : int {
+    Color,
+    Illumination,
+    Visibility,
+    Normal,
+    Depth,
+    Position,
+    Iterations,
+    Irradiance, ///< what arrives at an opaque surface, before its albedo
+    Direction,  ///< unit, in which light seen through refractive objects came in, or the eye ray's
+    Layers      ///< interfaces that the eye ray crosses
+};
 
 /// How linear light becomes a picture: exposure, clamp, sRGB curve; nothing else.
 struct View {
     float exposure = 0; ///< ev: the image is multiplied by 2^ev
     Aov show = Aov::Color;
     bool lightDot = true; ///< the viewer marks the light's place
+    float time = 0;       ///< s, of waves, water and animations
 };
 
 /// How exact the picture must be.

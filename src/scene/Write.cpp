@@ -67,7 +67,7 @@ void writeShape(JsonWriter& json, const HeightField& field) {
 void writeObject(JsonWriter& json, const Object& object) {
     json.beginObject();
     json.key("name").value(object.name);
-    writeShape(json, object.shape);
+    writeShape(json, object.field());
     json.key("material").beginObject();
     writeParams(json, materialParams(), &object.material);
     writeText(json, "baseMap", object.material.baseMapFile);

@@ -142,7 +142,7 @@ std::string fingerprint(const scene::Scene& scene) {
     hash.add(std::as_bytes(std::span(json)));
     for (const scene::Object& object : scene.objects) {
         const scene::Material& material = object.material;
-        for (const auto& map : {object.shape.heights, object.shape.alpha, material.baseMap,
+        for (const auto& map : {object.field().heights, object.field().alpha, material.baseMap,
                                 material.diffuseMap, material.specularMap})
             hash.add(map);
     }

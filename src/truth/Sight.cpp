@@ -19,7 +19,7 @@ Placement::Placement(const scene::Transform& transform)
 std::vector<PlacedField> placeAll(const scene::Scene& scene) {
     std::vector<PlacedField> placed;
     for (const scene::Object& object : scene.objects)
-        placed.push_back({&object, Field(object.shape), Placement(object.transform)});
+        placed.push_back({&object, Field(object.field()), Placement(object.transform)});
     return placed;
 }
 
@@ -66,7 +66,7 @@ Sight Eye::look(const Ray& ray, std::span<const PlacedField> objects) const {
         const Ray local{dvec3(0), origin + foot * direction, direction};
         const auto hit = firstHit(placed.field, local, {perspective_ ? -foot : -kInfinity, kInfinity});
         if (!hit) continue;
-        const Image* alpha = placed.object->shape.alpha.get();
+        const Image* alpha = placed.object->field().alpha.get();
         const double coverage = sampleMap(alpha, placed.field.placeOnMap(hit->position)).x;
         const double distance = glm::dot(hit->position - origin, direction) * placed.placement.scale;
         if (coverage > 0 && distance < nearest.distance) nearest = {&placed, *hit, distance, coverage};

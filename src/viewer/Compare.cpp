@@ -20,7 +20,7 @@ std::vector<const void*> imagesOf(const scene::Scene& scene) {
     for (const scene::Object& object : scene.objects) {
         const scene::Material& material = object.material;
         images.insert(images.end(),
-                      {object.shape.heights.get(), object.shape.alpha.get(), material.baseMap.get(),
+                      {object.field().heights.get(), object.field().alpha.get(), material.baseMap.get(),
                        material.diffuseMap.get(), material.specularMap.get()});
     }
     return images;
@@ -123,7 +123,7 @@ std::vector<std::pair<std::string, Bytes>> packScene(scene::Scene scene) {
     std::vector<std::pair<std::string, Bytes>> files{{"scene.json", {}}};
     if (scene.environment) packImage(files, scene.environment->map, scene.environment->source);
     for (scene::Object& object : scene.objects) {
-        scene::HeightField& shape = object.shape;
+        scene::HeightField& shape = object.field();
         shape.source = {};
         shape.alphaIsSolid = true;
         packImage(files, shape.heights, shape.source.file);

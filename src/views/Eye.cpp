@@ -13,7 +13,7 @@ vec4 Eye::inObject(const mat4& worldFromObject) const {
 }
 
 Bounds boundsOf(const scene::Object& object) {
-    const scene::HeightField& field = object.shape;
+    const scene::HeightField& field = object.field();
     const HeightRange range = heightRange(*field.heights);
     const vec2 half = 0.5f * field.footprint();
     const mat4 worldFromObject = object.transform.worldFromObject();

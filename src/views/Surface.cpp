@@ -69,11 +69,11 @@ Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCa
         const scene::Object& object = scene.objects[i];
         if (!object.visible) continue;
         DrawnObject one{.object = &object, .index = int(i)};
-        Result<const FieldTextures*> field = images.field(object.shape.heights);
+        Result<const FieldTextures*> field = images.field(object.field().heights);
         if (!field) return field.error();
         one.field = *field;
         const std::pair<const std::shared_ptr<const Image>*, graph::TextureHandle*> maps[] = {
-            {&object.shape.alpha, &one.alpha},
+            {&object.field().alpha, &one.alpha},
             {&object.material.baseMap, &one.baseMap},
             {&object.material.diffuseMap, &one.diffuseMap},
             {&object.material.specularMap, &one.specularMap}};
@@ -107,7 +107,7 @@ Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& 
                                          .objectFromPixel =
                                              mat4(glm::inverse(glm::dmat4(clipFromObject)) * clipFromPixel),
                                          .eye = eye.inObject(worldFromObject),
-                                         .field = drawn.field->block(drawn.object->shape),
+                                         .field = drawn.field->block(drawn.object->field()),
                                          .size = vec2(size),
                                          .object = drawn.index,
                                          .hasAlpha = drawn.alpha != graph::TextureHandle::None};
@@ -140,7 +140,7 @@ Status recordGeometry(graph::FrameGraph& graph, gl::Context& context, const Eye&
                 const GeometryBlock block{.worldFromObject = drawn.object->transform.worldFromObject(),
                                           .eye = vec4(eye.position, 1),
                                           .forward = vec4(eye.forward, 0),
-                                          .field = drawn.field->block(drawn.object->shape),
+                                          .field = drawn.field->block(drawn.object->field()),
                                           .object = drawn.index};
                 auto textures = drawn.field->bindings();
                 textures.push_back({"uSurface", resources[surface]});

@@ -142,7 +142,7 @@ const float* bench_pixels() { return bench().pixels.pixels.data(); }
 
 /// Adds the height field of the loaded scene's first object to what the sweep measures.
 void bench_add_field(const char* name) {
-    const scene::HeightField& shape = bench().scene.objects.front().shape;
+    const scene::HeightField& shape = bench().scene.objects.front().field();
     bench().fields.push_back({name, shape.heights, shape.heightScale / shape.width});
 }
 

@@ -157,7 +157,7 @@ TEST_F(Frame, ReleaseGivesTheMemoryBackAndThePictureComesAgain) {
 
 TEST_F(Frame, AMapLargerThanTheGpuAllowsIsRefusedByItsSize) {
     const int limit = context->caps().maxTextureSize;
-    scene.objects[0].shape.heights = support::heights({limit + 1, 1}, [](int, int) { return 0.0f; });
+    scene.objects[0].field().heights = support::heights({limit + 1, 1}, [](int, int) { return 0.0f; });
     Renderer renderer(*context);
     const Status status = renderer.finish(scene, 1, {8, 8});
     ASSERT_FALSE(status.ok());

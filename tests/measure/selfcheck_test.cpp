@@ -106,7 +106,7 @@ TEST_F(Checks, APictureThatCannotBeDrawnFailsWithTheMessage) {
                                 scene::Scene scene;
                                 scene.size = {4, 4};
                                 scene::Object object;
-                                object.shape.heights = std::make_shared<Image>(1 << 20, 1, 1);
+                                object.field().heights = std::make_shared<Image>(1 << 20, 1, 1);
                                 scene.objects.push_back(std::move(object));
                                 for (const ParamTable* params : frame::techniques())
                                     scene.technique.emplace(std::string(params->name), Settings(*params));

@@ -78,7 +78,7 @@ TEST_F(Relief, LightAndFieldTurnedTogetherTurnTheImage) {
     auto scene = sceneOf(support::waves({48, 48}), 0.2f, 0.04f);
     scene.lights.push_back(distantLight(25, 10));
     const Image before = render(scene);
-    const auto& map = *scene.objects[0].shape.heights;
+    const auto& map = *scene.objects[0].field().heights;
     // A quarter turn to the left: the texel at column x, row y goes to column y, row 47 - x.
     auto turned =
         sceneOf(support::heights({48, 48}, [&](int x, int y) { return *map.at(47 - y, x); }), 0.2f, 0.04f);
@@ -134,9 +134,9 @@ TEST_F(Relief, ANewBlockerOutsideTheNeighboursNeverBrightens) {
     auto scene = sceneOf(support::waves({32, 32}), 0.1f, 0.03f);
     scene.lights.push_back(distantLight(20, 0));
     const Image before = render(scene);
-    auto higher = std::make_shared<Image>(*scene.objects[0].shape.heights);
+    auto higher = std::make_shared<Image>(*scene.objects[0].field().heights);
     *higher->at(24, 16) = 2;
-    scene.objects[0].shape.heights = higher;
+    scene.objects[0].field().heights = higher;
     const Image after = render(scene);
     for (int y = 0; y < 32; ++y) {
         for (int x = 0; x < 32; ++x) {
@@ -171,7 +171,7 @@ TEST_F(Relief, LightsAddAndTheBaseCountsOnce) {
 TEST_F(Relief, InverseSquareFallsWithTheSquareOfTheDistance) {
     // A field so small that every point is 0.5 or 1 m from the light; t/r does not matter straight below it.
     auto scene = sceneOf(flat(4), 0, 1e-6f);
-    scene.objects[0].shape.width = 1e-3f;
+    scene.objects[0].field().width = 1e-3f;
     scene.camera.height = 1e-3f;
     scene::PointLight light{.position = {0, 0, 0.5f}, .falloff = scene::LightFalloff::InverseSquare};
     scene.lights = {light};

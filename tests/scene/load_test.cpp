@@ -60,10 +60,10 @@ TEST(Load, SceneOfTheSpecificationIsRead) {
     EXPECT_EQ(std::get<DistantLight>(scene->lights[1]).irradiance, 0.5f);
     const Object& coin = scene->objects[0];
     EXPECT_EQ(coin.name, "coin");
-    EXPECT_EQ(coin.shape.heightScale, 0.12f);
-    EXPECT_EQ(coin.shape.texels(), ivec2(4, 2));
-    EXPECT_NEAR(*coin.shape.heights->at(3, 1), 223 / 255.0, 1e-6); // 7/8 in 8 bits
-    EXPECT_EQ(coin.shape.alpha->channels, 1);
+    EXPECT_EQ(coin.field().heightScale, 0.12f);
+    EXPECT_EQ(coin.field().texels(), ivec2(4, 2));
+    EXPECT_NEAR(*coin.field().heights->at(3, 1), 223 / 255.0, 1e-6); // 7/8 in 8 bits
+    EXPECT_EQ(coin.field().alpha->channels, 1);
     EXPECT_EQ(coin.material.diffuse, vec3(0.8f, 0.7f, 0.4f));
     EXPECT_EQ(coin.material.scatterFalloff, vec2(0.2f, 0.6f));
     EXPECT_EQ(coin.transform.scale, 2);
@@ -247,10 +247,10 @@ TEST(Load, HeightsAreTheFirstOfOneOrTwoChannelsElseTheMeanOfRgb) {
     files.content["scenes/two.png"] = test::makePng(1, 1, 8, 4, {std::byte(51), std::byte(200)});
     files.content["scenes/four.png"] =
         test::makePng(1, 1, 8, 6, {std::byte(0), std::byte(51), std::byte(102), std::byte(9)});
-    EXPECT_EQ(*test::load(files, around("", R"("heights": "two.png")"))->objects[0].shape.heights->at(0, 0),
+    EXPECT_EQ(*test::load(files, around("", R"("heights": "two.png")"))->objects[0].field().heights->at(0, 0),
               0.2f);
     EXPECT_NEAR(
-        *test::load(files, around("", R"("heights": "four.png")"))->objects[0].shape.heights->at(0, 0), 0.2,
+        *test::load(files, around("", R"("heights": "four.png")"))->objects[0].field().heights->at(0, 0), 0.2,
         1e-7);
 }
 
@@ -277,11 +277,11 @@ TEST(Load, AlphaThatIsNotSolidDigsHoles) {
     const std::string shape = R"("heights": "h.pfm", "heightScale": 0.5, "width": 2, "alpha": "a.png")";
     const Result<Scene> solid = test::load(files, around("", shape));
     ASSERT_TRUE(solid) << solid.error().message;
-    EXPECT_EQ(solid->objects[0].shape.heights->pixels, test::smallHeights().pixels);
+    EXPECT_EQ(solid->objects[0].field().heights->pixels, test::smallHeights().pixels);
     const Result<Scene> holes = test::load(files, around("", shape + ", \"alphaIsSolid\": false"));
     ASSERT_TRUE(holes) << holes.error().message;
     // The lowest height is 0, the footprint 2 x 1 m: 2 m below are -4 heights of 0.5 m.
-    EXPECT_EQ(holes->objects[0].shape.heights->pixels,
+    EXPECT_EQ(holes->objects[0].field().heights->pixels,
               (std::vector<float>{-4, -4, 2 / 8.0f, 3 / 8.0f, -4, -4, 6 / 8.0f, 7 / 8.0f}));
 }
 
@@ -294,13 +294,14 @@ TEST(Load, NormalMapKeepsItsSlopesUnlessAScaleIsGiven) {
     files.put("scenes/n.pfm", normals);
     const Result<Scene> scene = test::load(files, around("", R"("normalMap": "n.pfm", "width": 10)"));
     ASSERT_TRUE(scene) << scene.error().message;
-    const HeightField& field = scene->objects[0].shape;
+    const HeightField& field = scene->objects[0].field();
     EXPECT_NEAR(field.heightScale, 2 * 10 / 5.0, 1e-5); // 2 texels of 2 m
     for (int x = 0; x < 5; ++x)
         EXPECT_NEAR(*field.heights->at(x, 1), x / 4.0, 1e-5);
     EXPECT_EQ(test::load(files, around("", R"("normalMap": "n.pfm", "heightScale": 0.3)"))
                   ->objects[0]
-                  .shape.heightScale,
+                  .field()
+                  .heightScale,
               0.3f);
 }
 
@@ -311,7 +312,7 @@ TEST(Load, MeshBecomesItsDepth) {
     const Result<Scene> scene =
         test::load(files, around("", R"("mesh": "m.mesh", "resolution": [8, 4], "margin": 0.125)"));
     ASSERT_TRUE(scene) << scene.error().message;
-    const Image& heights = *scene->objects[0].shape.heights;
+    const Image& heights = *scene->objects[0].field().heights;
     EXPECT_EQ(heights.size(), ivec2(8, 4));
     // A margin of one texel leaves 6 x 2 for the square: 2 x 2 texels in the middle.
     for (int y = 0; y < 4; ++y)
@@ -360,7 +361,7 @@ TEST(Load, DroppedHeightsInMetresAreScaledToATenthOfTheWidth) {
     heights.pixels = {300, 700};
     const Result<Scene> scene = sceneFromHeights("dem.pfm", *encodeImage(heights, "a.pfm"), {});
     ASSERT_TRUE(scene);
-    EXPECT_FLOAT_EQ(scene->objects[0].shape.heightScale, 0.1f / 400);
+    EXPECT_FLOAT_EQ(scene->objects[0].field().heightScale, 0.1f / 400);
     EXPECT_FLOAT_EQ(scene->objects[0].transform.translate.z, -300 * 0.1f / 400); // the lowest lies at z = 0
 }
 
@@ -373,11 +374,11 @@ TEST(Load, ReplacedHeightsDropWhatBelongedToTheOldPicture) {
     Object& object = scene->objects[0];
     const Object before = object;
     EXPECT_FALSE(replaceHeights(object, "new.png", {}));
-    EXPECT_EQ(object.shape.heights, before.shape.heights); // a failed load keeps what was there
+    EXPECT_EQ(object.field().heights, before.field().heights); // a failed load keeps what was there
     ASSERT_TRUE(replaceHeights(object, "new.png", *encodeImage(Image(3, 3, 1), "a.png")));
-    EXPECT_EQ(object.shape.texels(), ivec2(3));
-    EXPECT_EQ(object.shape.source.file, "new.png");
-    EXPECT_FALSE(object.shape.alpha);
+    EXPECT_EQ(object.field().texels(), ivec2(3));
+    EXPECT_EQ(object.field().source.file, "new.png");
+    EXPECT_FALSE(object.field().alpha);
     EXPECT_FALSE(object.material.baseMap);
     EXPECT_EQ(object.material.depth, 0.2f);
 }

@@ -20,7 +20,7 @@ Scene fullScene() {
     scene.objects[0].name = "coin";
     scene.objects[1].name = "wall";
     for (Object& object : scene.objects)
-        object.shape.heights = std::make_shared<Image>(test::smallHeights());
+        object.field().heights = std::make_shared<Image>(test::smallHeights());
     return scene;
 }
 

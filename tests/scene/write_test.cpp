@@ -73,13 +73,13 @@ TEST(ToJson, KeepsTheSourceOfMeshAndNormalHeights) {
         { "shape": { "type": "heightfield", "mesh": "m", "resolution": [6, 4], "meshRotate": [1, 2, 3], "margin": 0.1,
                      "floorGap": 0.3 } } ] })");
     ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(scene->objects[0].shape.heightScale, 0); // a flat map
+    EXPECT_EQ(scene->objects[0].field().heightScale, 0); // a flat map
     const Result<Scene> back = test::load(files, toJson(*scene));
     ASSERT_TRUE(back) << back.error().message;
-    EXPECT_EQ(back->objects[0].shape.heightScale, 0);
-    EXPECT_EQ(back->objects[1].shape.source.meshRotate, vec3(1, 2, 3));
-    EXPECT_EQ(back->objects[1].shape.source.floorGap, 0.3f);
-    EXPECT_EQ(back->objects[1].shape.heights->pixels, scene->objects[1].shape.heights->pixels);
+    EXPECT_EQ(back->objects[0].field().heightScale, 0);
+    EXPECT_EQ(back->objects[1].field().source.meshRotate, vec3(1, 2, 3));
+    EXPECT_EQ(back->objects[1].field().source.floorGap, 0.3f);
+    EXPECT_EQ(back->objects[1].field().heights->pixels, scene->objects[1].field().heights->pixels);
 }
 
 TEST(JsonSchema, IsJsonAndListsEveryKey) {

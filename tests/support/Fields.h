@@ -56,12 +56,12 @@ inline scene::Scene sceneOf(std::shared_ptr<const Image> map, float heightScale,
     scene::Scene scene;
     scene::Object object;
     object.name = "field";
-    object.shape.heights = std::move(map);
-    object.shape.heightScale = heightScale;
+    object.field().heights = std::move(map);
+    object.field().heightScale = heightScale;
     object.material.depth = depth;
     object.material.diffuse = vec3(1);
-    scene.size = object.shape.texels();
-    scene.camera.height = object.shape.footprint().y;
+    scene.size = object.field().texels();
+    scene.camera.height = object.field().footprint().y;
     scene.camera.eye = {0, 0, 2 + heightScale};
     for (const ParamTable* table : frame::techniques())
         scene.technique.emplace(std::string(table->name), Settings(*table));

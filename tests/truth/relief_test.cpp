@@ -317,7 +317,7 @@ constexpr dvec3 kDown{0, 0, -1};
 TEST(ReliefShading, AddsBaseDiffuseAndSpecularWithTheirWeights) {
     scene::Object object = flatObject();
     object.material.specularity = 0.25f;
-    const Field field(object.shape);
+    const Field field(object.field());
     LightSource light = distant({0, 0, 1});
     light.color = {2, 2, 2};
     // From above d = 1, f = clamp(-1) = 0, s = 1: c = 0.75 (cB + cD 2) + 0.25 cS 2.
@@ -335,7 +335,7 @@ TEST(ReliefShading, SpecularIsOneWhereTheNormalIsHalfway) {
     object.material.specularity = 1;
     // The plane z = x / 2 under a light in the mirror direction of the eye: s = 1 and nothing else is left.
     object.shape = test::shapeOf(64, 64, 1, 0.5f, [](int x, int) { return float(x) / 64; });
-    const Field field(object.shape);
+    const Field field(object.field());
     const SurfacePoint point = field.pointAbove({0, 0});
     const dvec3 mirrored = 2 * point.normal.z * point.normal - dvec3(0, 0, 1);
     const LightSource light = distant(mirrored);
@@ -348,7 +348,7 @@ TEST(ReliefShading, ForwardScatterFollowsTheAngleBetweenEyeAndLight) {
     scene::Object object = flatObject();
     object.material.base = vec3(0);
     object.material.forwardScatter = 0.5f;
-    const Field field(object.shape);
+    const Field field(object.field());
     // A lamp straight below: f = v . l = 1, so the factor (1 - kf) + kf f is 1; at 30 degrees under the
     // horizon f = 1/2 and the factor 3/4. Both are half a metre of ground away from a point 0.25 m deep: d =
     // 1/2.
@@ -365,7 +365,7 @@ TEST(ReliefShading, ForwardScatterFollowsTheAngleBetweenEyeAndLight) {
 TEST(ReliefShading, FalloffsRemapAndAStepNeedsNoDivision) {
     scene::Object object = flatObject();
     object.material.specularity = 1;
-    const Field field(object.shape);
+    const Field field(object.field());
     const LightSource light = distant(elevated(30)); // s = sin(30 degrees) = 1/2
     const auto specular = [&](vec2 falloff) {
         object.material.specularFalloff = falloff;
@@ -384,7 +384,7 @@ TEST(ReliefShading, InverseSquareFalloffUsesWorldMetres) {
     scene::Object object = flatObject();
     object.material.base = vec3(0);
     object.transform.scale = 2;
-    const Field field(object.shape);
+    const Field field(object.field());
     LightSource light = at(field.pointAbove({0, 0}).position + dvec3(0, 0, 1));
     light.inverseSquare = true;
     // A depth of 0.25 m is 0.125 m of the object: from there to the lamp it is 1.125, in the world 2.25 m.
@@ -399,7 +399,7 @@ TEST(ReliefShading, ColourMapsMultiplyBilinearlyAndAreClampedAtTheBorder) {
     map->pixels = {0, 0, 0, 1, 1, 1};
     object.material.base = vec3(1);
     object.material.baseMap = map;
-    const Field field(object.shape);
+    const Field field(object.field());
     const auto red = [&](double x) {
         return shade(field, object, field.pointAbove({x, 0}), kDown, {}, Attenuation::Ratio).color.r;
     };

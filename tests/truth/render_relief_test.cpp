@@ -184,7 +184,7 @@ Image rendered(const scene::Scene& scene, ivec2 size, scene::Aov aov, int thread
 TEST(RenderRelief, FromAboveEveryPixelIsTheModelAtItsPlace) {
     const scene::Scene scene = roughScene();
     const Image image = rendered(scene, {8, 8}, scene::Aov::Illumination);
-    const Field field(scene.objects[0].shape);
+    const Field field(scene.objects[0].field());
     LightSource lamp;
     lamp.place = dvec3(scene::PointLight{}.position);
     for (int y = 0; y < 8; ++y)
@@ -250,7 +250,7 @@ TEST(RenderRelief, AlphaIsCoverageOnly) {
     const Image opaque = rendered(scene, {4, 4}, scene::Aov::Color);
     auto alpha = std::make_shared<Image>(2, 1, 1);
     alpha->pixels = {0, 1};
-    scene.objects[0].shape.alpha = alpha;
+    scene.objects[0].field().alpha = alpha;
     const Image masked = rendered(scene, {4, 4}, scene::Aov::Color);
     // Pixel centres at 1/8, 3/8, 5/8, 7/8; alpha is 0 up to 1/4 and 1 from 3/4, linear between.
     const float expected[] = {0, 0.25f, 0.75f, 1};

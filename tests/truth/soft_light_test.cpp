@@ -34,7 +34,7 @@ scene::Object flatObject(float depth) {
 
 Shading shadeMiddle(const scene::Object& object, const LightSource& lamp, int samples = 256,
                     std::uint64_t seed = 1) {
-    const Field field(object.shape);
+    const Field field(object.field());
     return shade(field, object, field.pointAbove({0, 0}), kDown, {{lamp}, {}}, Attenuation::Ratio,
                  {samples, Random(seed, 0, 0)});
 }
@@ -80,7 +80,7 @@ TEST(SoftLight, ALampWiderThanItsDistanceFadesPointByPoint) {
     // The lamp hangs D over p', 3 D in radius. Without falloff the mean cosine is as that of a sun with T =
     // 3; with the square of each point's own distance it is 2/R² (1 - D / sqrt(D² + R²)).
     const scene::Object object = flatObject(0.25f);
-    const Field field(object.shape);
+    const Field field(object.field());
     const double D = 0.5, R = 3 * D;
     LightSource lamp;
     lamp.place = field.pointAbove({0, 0}).position + dvec3(0, 0, D - 0.25);
@@ -122,7 +122,7 @@ TEST(SoftLight, HardFieldsAndDiscsNeverLeaveTheUnitInterval) {
         for (const float depth : {1e-6f, 0.05f, 10.f}) {
             scene::Object object = flatObject(depth);
             object.shape = test::shapeOf(9, 7, 1, height, noise(2));
-            const Field field(object.shape);
+            const Field field(object.field());
             const SurfacePoint point = field.pointAbove({0.1, 0.05});
             const dvec3 below = point.position - double(depth) * point.normal;
             for (const double radius : {1e-9, 0.3, 1e6})
@@ -190,7 +190,7 @@ TEST(Environment, TheStandardErrorIsThatOfOtherSeedsAndShrinks) {
     environment.map = std::make_shared<Image>(map);
     scene::Object object = flatObject(0.05f);
     object.shape = test::shapeOf(16, 16, 1, 0.3f, noise(5));
-    const Field field(object.shape);
+    const Field field(object.field());
     const auto estimate = [&](int count, Choice choice, int seed) {
         const Lighting lighting{{}, environmentLights(environment, count, choice, std::uint64_t(seed))};
         Shading shading =

@@ -48,7 +48,7 @@ TEST(SamePicture, SeesWhateverChangesTheLight) {
         EXPECT_FALSE(samePicture(a, b)) << path;
     }
     scene::Scene other = a; // a file of the same name with other heights
-    other.objects[0].shape.heights = std::make_shared<Image>(*a.objects[0].shape.heights);
+    other.objects[0].field().heights = std::make_shared<Image>(*a.objects[0].field().heights);
     EXPECT_FALSE(samePicture(a, other));
 }
 
@@ -65,7 +65,7 @@ TEST(PackScene, LoadsToTheSameScene) {
     };
     const Result<scene::Scene> again = scene::load("scene.json", read, frame::techniques());
     ASSERT_TRUE(again.ok()) << again.error().message;
-    const scene::HeightField &before = scene.objects[0].shape, &after = again->objects[0].shape;
+    const scene::HeightField &before = scene.objects[0].field(), &after = again->objects[0].field();
     EXPECT_EQ(before.heights->pixels, after.heights->pixels); // holes are dug once
     EXPECT_EQ(before.alpha->pixels, after.alpha->pixels);
     EXPECT_EQ(before.width, after.width);

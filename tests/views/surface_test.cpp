@@ -25,7 +25,7 @@ TEST_F(Surface, SeenFromAboveEveryPixelIsATexel) {
             // high.
             EXPECT_NEAR(position.at(x, y)[0], (x + 0.5f) / 32 - 0.5f, 1e-6);
             EXPECT_NEAR(position.at(x, y)[1], 24.0f / 64 - (y + 0.5f) / 32, 1e-6);
-            EXPECT_NEAR(position.at(x, y)[2], 0.3f * *scene.objects[0].shape.heights->at(x, y), 1e-6);
+            EXPECT_NEAR(position.at(x, y)[2], 0.3f * *scene.objects[0].field().heights->at(x, y), 1e-6);
             EXPECT_EQ(position.at(x, y)[3], 1);
         }
     }
@@ -87,7 +87,7 @@ TEST_F(Surface, TheNearerObjectHidesTheFarther) {
 
 TEST_F(Surface, AlphaMasksThePictureOnly) {
     auto scene = support::sceneOf(support::waves({32, 32}), 0.1f, 0.05f);
-    scene.objects[0].shape.alpha = support::heights({2, 1}, [](int x, int) { return float(x); });
+    scene.objects[0].field().alpha = support::heights({2, 1}, [](int x, int) { return float(x); });
     const Image image = show(scene, scene::Aov::Position, {32, 32});
     // Two alpha texels, 0 and 1, bilinear between their centres at a quarter and three quarters of the width.
     EXPECT_EQ(image.at(4, 16)[3], 0);
