@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace lucent::frame {
@@ -26,6 +27,10 @@ constexpr int kDirections[] = {8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256, 362
 constexpr int kLampSamples[] = {1, 2, 3, 4, 6, 8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256};
 constexpr int kMostDirections = 4096, kMostLampSamples = 1024; // of the reference
 constexpr int kFinerBy = 4;                                    // a reference than what is held against it
+
+// A transfer that keeps less is rare, and finding that out costs more than directions do: lucent bench
+// environment.
+constexpr float kTransferReach = 0.004f;
 
 bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
 
@@ -51,6 +56,9 @@ ivec2 sampleSizeFor(ivec2 size, int count) {
     return ivec2(int(std::sqrt(count * aspect)), int(std::sqrt(count / aspect))) | 1;
 }
 
+// The number half-way, by ratio, between one that does not keep the error and the next that does.
+int between(int fewer, int more) { return int(std::lround(std::sqrt(double(fewer) * more))); }
+
 } // namespace
 
 std::string Budget::Choice::text() const {
@@ -69,9 +77,7 @@ std::string Budget::Choice::text() const {
 bool Budget::matters(const scene::Scene& scene) { return hasEnvironment(scene) || hasLargeLamp(scene); }
 
 void Budget::start(const scene::Scene& scene, ivec2 size) {
-    const float parts = float(int(hasEnvironment(scene)) + int(hasLargeLamp(scene)));
-    wanted_ =
-        scene.quality.maxError / std::sqrt(std::max(1.0f, parts)) / kSafety; // errors of parts are unrelated
+    wanted_ = scene.quality.maxError / kSafety;
     size_ = size;
     sampleSize_ = sampleSizeFor(size, kSamplePixels);
     choice_ = {settingsOf(scene), 0, true, hasEnvironment(scene), hasLargeLamp(scene)};
@@ -81,7 +87,8 @@ void Budget::start(const scene::Scene& scene, ivec2 size) {
     reference_.environmentLights = referenceCount(wanted_, kMostDirections);
     reference_.lightSamples = hasLargeLamp(scene) ? referenceCount(wanted_, kMostLampSamples) : 1;
     next_ = 0;
-    mayTransfer_ = true;
+    lampDifference_.clear();
+    mayTransfer_ = wanted_ >= kTransferReach;
     phase_ = matters(scene) ? Phase::Surface : Phase::Done;
 }
 
@@ -210,18 +217,28 @@ Result<Image> Budget::draw(const scene::Scene& scene, const relief::Settings& se
     return image;
 }
 
-// RMSE of a sample over the mean of the exact one.
-Result<float> Budget::errorOf(const scene::Scene& scene, const relief::Settings& settings, Part part,
-                              const RecordTransfers* transfers) {
+// What a sample of one part of the lights differs by from the exact one.
+Result<std::vector<float>> Budget::differenceOf(const scene::Scene& scene, const relief::Settings& settings,
+                                                Part part, const RecordTransfers* transfers) {
     const Result<Image> image = draw(scene, settings, part, transfers);
     if (!image) return image.error();
     const Image& exact = exact_[int(part)];
+    std::vector<float> difference;
+    for (std::size_t pixel : covered_)
+        for (std::size_t c = 4 * pixel; c < 4 * pixel + 3; ++c)
+            difference.push_back(image->pixels[c] - exact.pixels[c]);
+    return difference;
+}
+
+// RMSE over the mean of all light; that of the environment with what the lamps chosen before it leave.
+Result<float> Budget::errorOf(const scene::Scene& scene, const relief::Settings& settings, Part part,
+                              const RecordTransfers* transfers) {
+    Result<std::vector<float>> difference = differenceOf(scene, settings, part, transfers);
+    if (!difference) return difference.error();
     double sum = 0;
-    for (std::size_t pixel : covered_) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double d = double(image->pixels[4 * pixel + c]) - exact.pixels[4 * pixel + c];
-            sum += d * d / (3.0 * double(covered_.size()));
-        }
+    for (std::size_t i = 0; i < difference->size(); ++i) {
+        const double d = double((*difference)[i]) + (lampDifference_.empty() ? 0 : lampDifference_[i]);
+        sum += d * d / double(difference->size());
     }
     return float(std::sqrt(sum) / std::max(mean_, 1e-20));
 }
@@ -242,22 +259,66 @@ Result<float> Budget::errorOfTransfer(const scene::Scene& scene, const relief::S
 // --- candidates, cheapest first
 
 Status Budget::tryLamps(const scene::Scene& scene) {
-    if (Status refined =
-            refine(scene, Part::Lamps, reference_.lightSamples, kLampSamples[next_], kMostLampSamples);
-        !refined)
-        return refined;
-    relief::Settings settings = reference_;
-    settings.lightSamples = kLampSamples[next_];
-    const Result<float> error = errorOf(scene, settings, Part::Lamps);
+    // Beside an environment they leave it half the squared error.
+    const float wanted = hasEnvironment(scene) ? wanted_ / std::sqrt(2.0f) : wanted_;
+    const auto attempt = [&](int count) -> Result<float> {
+        if (Status refined = refine(scene, Part::Lamps, reference_.lightSamples, count, kMostLampSamples);
+            !refined)
+            return refined.error();
+        relief::Settings settings = reference_;
+        settings.lightSamples = count;
+        return errorOf(scene, settings, Part::Lamps);
+    };
+    const int count = kLampSamples[next_];
+    Result<float> error = attempt(count);
     if (!error) return error.error();
-    choice_.settings.lightSamples = settings.lightSamples;
-    const bool last = ++next_ == std::size(kLampSamples);
-    if (*error > wanted_ && !last) return Done{};
-    choice_.kept = choice_.kept && *error <= wanted_;
-    choice_.predicted = std::hypot(choice_.predicted, *error * kSafety);
+    const bool last = next_ + 1 == std::size(kLampSamples);
+    if (*error > wanted && !last) {
+        ++next_;
+        return Done{};
+    }
+    choice_.settings.lightSamples = count;
+    choice_.kept = *error <= wanted;
+    const int fewer = next_ > 0 ? between(kLampSamples[next_ - 1], count) : count;
+    if (choice_.kept && fewer < count && fewer > kLampSamples[next_ - 1]) {
+        const Result<float> less = attempt(fewer);
+        if (!less) return less.error();
+        if (*less <= wanted) {
+            choice_.settings.lightSamples = fewer;
+            error = less;
+        }
+    }
+    choice_.predicted = *error * kSafety;
     next_ = 0;
-    phase_ = hasEnvironment(scene) ? Phase::Environment : Phase::Done;
+    phase_ = Phase::Done;
+    if (!hasEnvironment(scene)) return Done{};
+    relief::Settings settings = reference_;
+    settings.lightSamples = choice_.settings.lightSamples;
+    auto difference = differenceOf(scene, settings, Part::Lamps);
+    if (!difference) return difference.error();
+    lampDifference_ = std::move(*difference);
+    phase_ = Phase::Environment;
     return Done{};
+}
+
+// The better of the two ways to place `count` directions. @return its error
+Result<float> Budget::tryDirections(const scene::Scene& scene, int count, EnvironmentSampling& better) {
+    if (Status refined =
+            refine(scene, Part::Environment, reference_.environmentLights, count, kMostDirections);
+        !refined)
+        return refined.error();
+    float best = std::numeric_limits<float>::infinity();
+    for (EnvironmentSampling sampling : {EnvironmentSampling::Equal, EnvironmentSampling::Importance}) {
+        relief::Settings settings = reference_;
+        settings.environmentSampling = sampling;
+        settings.environmentLights = count;
+        const Result<float> error = errorOf(scene, settings, Part::Environment);
+        if (!error) return error.error();
+        if (*error >= best) continue;
+        best = *error;
+        better = sampling;
+    }
+    return best;
 }
 
 Status Budget::tryEnvironment(const scene::Scene& scene) {
@@ -268,31 +329,32 @@ Status Budget::tryEnvironment(const scene::Scene& scene) {
     if (mayTransfer_ && directions * pixels > transferRays(scene)) {
         choice_.settings.method = relief::Method::Transfer;
         choice_.settings.terms = relief::kMostTerms;
-        choice_.predicted =
-            std::hypot(choice_.predicted, wanted_ * kSafety); // it takes the terms that keep it
+        choice_.predicted = wanted_ * kSafety; // it takes the terms that keep it
         phase_ = Phase::Done;
         return Done{};
     }
-    if (Status refined =
-            refine(scene, Part::Environment, reference_.environmentLights, directions, kMostDirections);
-        !refined)
-        return refined;
-    float best = 1e30f;
-    for (EnvironmentSampling sampling : {EnvironmentSampling::Equal, EnvironmentSampling::Importance}) {
-        relief::Settings settings = reference_;
-        settings.environmentSampling = sampling;
-        settings.environmentLights = directions;
-        const Result<float> error = errorOf(scene, settings, Part::Environment);
-        if (!error) return error.error();
-        if (*error >= best) continue;
-        best = *error;
-        choice_.settings.environmentSampling = sampling;
-        choice_.settings.environmentLights = directions;
+    relief::Settings& chosen = choice_.settings;
+    Result<float> error = tryDirections(scene, directions, chosen.environmentSampling);
+    if (!error) return error.error();
+    const bool last = next_ + 1 == std::size(kDirections);
+    if (*error > wanted_ && !last) {
+        ++next_;
+        return Done{};
     }
-    const bool last = ++next_ == std::size(kDirections);
-    if (best > wanted_ && !last) return Done{};
-    choice_.kept = choice_.kept && best <= wanted_;
-    choice_.predicted = std::hypot(choice_.predicted, best * kSafety);
+    chosen.environmentLights = directions;
+    choice_.kept = *error <= wanted_;
+    if (choice_.kept && next_ > 0) {
+        const int fewer = between(kDirections[next_ - 1], directions);
+        EnvironmentSampling sampling = chosen.environmentSampling;
+        const Result<float> less = tryDirections(scene, fewer, sampling);
+        if (!less) return less.error();
+        if (*less <= wanted_) {
+            chosen.environmentLights = fewer;
+            chosen.environmentSampling = sampling;
+            error = less;
+        }
+    }
+    choice_.predicted = *error * kSafety;
     phase_ = Phase::Done;
     return Done{};
 }
@@ -302,6 +364,7 @@ void Budget::refuseTransfer() {
     next_ = 0;
     choice_.settings.method = relief::Method::Hierarchy;
     choice_.predicted = 0;
+    lampDifference_.clear();
     phase_ = Phase::Surface;
 }
 

@@ -61,11 +61,14 @@ private:
     Status drawReference(const scene::Scene& scene);
     Result<Image> draw(const scene::Scene& scene, const relief::Settings& settings, Part part,
                        const RecordTransfers* transfers = nullptr);
+    Result<std::vector<float>> differenceOf(const scene::Scene& scene, const relief::Settings& settings,
+                                            Part part, const RecordTransfers* transfers = nullptr);
     Result<float> errorOf(const scene::Scene& scene, const relief::Settings& settings, Part part,
                           const RecordTransfers* transfers = nullptr);
     double meanOf(const Image& image) const;
     Status refine(const scene::Scene& scene, Part part, int& count, int candidate, int most);
     Status tryLamps(const scene::Scene& scene);
+    Result<float> tryDirections(const scene::Scene& scene, int count, relief::EnvironmentSampling& better);
     Status tryEnvironment(const scene::Scene& scene);
     double transferRays(const scene::Scene& scene) const;
 
@@ -77,11 +80,12 @@ private:
     ivec2 size_{0}, sampleSize_{0};
     graph::Texture surface_;
     std::vector<std::size_t> covered_; ///< pixels of the sample that show an object
-    float wanted_ = 0;                 ///< RMSE over the mean, of each part
+    float wanted_ = 0;                 ///< RMSE over the mean, on the sample
     relief::Settings reference_;
-    Image exact_[2];       ///< lamps alone, environment alone
-    double mean_ = 0;      ///< of both together
-    std::size_t next_ = 0; ///< candidate
+    Image exact_[2];                    ///< lamps alone, environment alone
+    double mean_ = 0;                   ///< of both together
+    std::vector<float> lampDifference_; ///< of the chosen lamp samples, beside an environment
+    std::size_t next_ = 0;              ///< candidate
     bool mayTransfer_ = true;
     Choice choice_;
 };

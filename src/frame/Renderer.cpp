@@ -3,7 +3,7 @@
 #include "frame/Budget.h"
 #include "graph/FrameGraph.h"
 #include "relief/Relief.h"
-#include "relief/Transfer.h"
+#include "relief/Transfers.h"
 #include "views/Surface.h"
 
 #include <algorithm>
@@ -149,7 +149,8 @@ SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size) {
     SurfaceKey key{{}, views::makeEye(scene, float(size.x) / float(size.y)).clipFromWorld, size};
     for (const scene::Object& object : scene.objects)
         key.objects.push_back({object.field().heights, object.field().alpha, object.field().width,
-                               object.field().heightScale, object.transform.worldFromObject(), object.visible});
+                               object.field().heightScale, object.transform.worldFromObject(),
+                               object.visible});
     return key;
 }
 
@@ -171,7 +172,6 @@ struct Renderer::State {
     static constexpr double kSliceMs = 40;
     static constexpr int kFirstStage = 20; // directions
     static constexpr int kStageFactor = 4;
-    static constexpr float kTransferError = 0.005f; // RMSE over the mean, when none is wanted
 
     struct Stage {
         int directions; // of the environment
@@ -181,14 +181,15 @@ struct Renderer::State {
     enum class Effort { Coarse, Progressive, Final }; // one first look; looks, then all; all at once
 
     explicit State(gl::Context& gl)
-        : context(gl), pool(gl.device()), images(gl), relief(gl), budget(gl, pool, images, relief) {}
+        : context(gl), pool(gl.device()), images(gl), relief(gl), transfers(gl),
+          budget(gl, pool, images, relief) {}
 
     gl::Context& context;
     graph::TexturePool pool;
     views::ImageCache images;
     relief::Relief relief;
     graph::Texture surface, shownSurface, shown, sum, scratch, lightTable;
-    std::vector<std::unique_ptr<relief::Transfer>> transfers; // of the visible objects
+    relief::Transfers transfers;
     Budget budget;
     std::optional<Budget::Choice> choice; // the budget's, for the last picture that had one
     graph::Texture truth;                 // beside the picture
@@ -221,11 +222,9 @@ struct Renderer::State {
                              Effort effort);
     void makeTargets();
     void startStage(const scene::Scene& scene);
-    bool transfersReady(const scene::Scene& scene) const;
     Result<bool> makeTransfers(const std::vector<views::DrawnObject>& objects);
     void lightTransfers(const scene::Scene& scene, const std::vector<views::DrawnObject>& objects);
     Result<bool> prepareTransfers(const scene::Scene& scene, const std::vector<views::DrawnObject>& objects);
-    Result<std::vector<relief::Transferred>> recordTransfers(graph::FrameGraph& graph) const;
     Status slice(const scene::Scene& scene);
     Status recordSlice(graph::FrameGraph& graph, const scene::Scene& scene, const views::Eye& eye,
                        const std::vector<views::DrawnObject>& objects, int end);
@@ -278,7 +277,7 @@ void Renderer::State::chooseSettings(const scene::Scene& scene, Effort effort) {
     settings.method = relief::Method::Transfer;
     settings.terms = relief::kMostTerms;
     if (planning) budget.start(scene, size);
-    if (hasEnvironment(scene) && transfersReady(scene)) {
+    if (hasEnvironment(scene) && transfers.ready(scene, settings)) {
         planning = false;
     } else if (effort == Effort::Coarse && choice) {
         settings = choice->settings;
@@ -292,7 +291,7 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort) {
     const bool manyLights = hasEnvironment(scene) && !isGeometric(scene.view.show);
     const int wanted = settings.environmentLights;
     const bool transfer = manyLights && settings.method == relief::Method::Transfer && showsLight(scene);
-    const bool atOnce = effort == Effort::Final || (transfer && transfersReady(scene));
+    const bool atOnce = effort == Effort::Final || (transfer && transfers.ready(scene, settings));
     const int summed = transfer ? kFirstStage * kStageFactor : wanted; // while the transfer is made
     for (int count = kFirstStage; manyLights && !atOnce && count * 2 < summed; count *= kStageFactor)
         stages.push_back({count, false});
@@ -322,55 +321,19 @@ Status Renderer::State::plan(const scene::Scene& scene) {
 
 // --- transfers
 
-bool Renderer::State::transfersReady(const scene::Scene& scene) const {
-    std::size_t next = 0;
-    for (const scene::Object& object : scene.objects) {
-        if (!object.visible) continue;
-        if (next == transfers.size() || !transfers[next]->ready() ||
-            transfers[next]->key() != relief::Transfer::keyOf(object, settings))
-            return false;
-        ++next;
-    }
-    return true;
-}
-
 // Works on the transfers for one slice of time. @return whether all are ready
 Result<bool> Renderer::State::makeTransfers(const std::vector<views::DrawnObject>& objects) {
-    transfers.resize(objects.size());
     const double start = now();
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        relief::Transfer::Key key = relief::Transfer::keyOf(*objects[i].object, settings);
-        if (!transfers[i] || transfers[i]->key() != key)
-            transfers[i] = std::make_unique<relief::Transfer>(context, std::move(key));
-        while (!transfers[i]->ready()) {
-            if (now() - start > kSliceMs) {
-                workMs += now() - start;
-                return false;
-            }
-            if (Status made = transfers[i]->step(pool, objects[i]); !made) return made.error();
-        }
-    }
+    Result<bool> ready = transfers.make(pool, objects, settings, kSliceMs);
     workMs += now() - start;
-    return true;
+    return ready;
 }
 
 // Brings the scene's environment onto the transfers, with as many terms as the error asks for.
 void Renderer::State::lightTransfers(const scene::Scene& scene,
                                      const std::vector<views::DrawnObject>& objects) {
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
-    const std::vector<relief::SmallLight> environment = relief::smallLights(scene, settings);
-    const float wanted = scene.quality.maxError > 0 ? scene.quality.maxError : kTransferError;
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        const scene::Object& object = *objects[i].object;
-        const vec4 from = eye.inObject(object.transform.worldFromObject());
-        vec3 view[4];
-        for (int corner = 0; corner < 4; ++corner) {
-            const vec2 sign(corner % 2 ? 1 : -1, corner / 2 ? -1 : 1);
-            const vec3 at(0.5f * sign * object.field().footprint(), 0);
-            view[corner] = from.w == 0 ? vec3(from) : glm::normalize(at - vec3(from));
-        }
-        transfers[i]->setEnvironment(object, environment, view, Budget::kTransferShare * wanted);
-    }
+    transfers.light(scene, eye, objects, settings, Budget::kTransferShare * scene.quality.maxError);
 }
 
 // Works until the transfers are there and show this scene's environment, for one slice of time. With an error
@@ -383,7 +346,7 @@ Result<bool> Renderer::State::prepareTransfers(const scene::Scene& scene,
     const double before = now();
     lightTransfers(scene, objects);
     if (!limited(scene) || dragged) return true;
-    const auto record = [this](graph::FrameGraph& graph) { return recordTransfers(graph); };
+    const auto record = [this](graph::FrameGraph& graph) { return transfers.record(graph); };
     const Result<float> error = budget.errorOfTransfer(scene, settings, record);
     planMs += now() - before;
     if (!error) return error.error();
@@ -397,16 +360,6 @@ Result<bool> Renderer::State::prepareTransfers(const scene::Scene& scene,
     return false;
 }
 
-Result<std::vector<relief::Transferred>> Renderer::State::recordTransfers(graph::FrameGraph& graph) const {
-    std::vector<relief::Transferred> list;
-    for (const auto& transfer : transfers) {
-        Result<graph::TextureId> irradiance = transfer->recordIrradiance(graph);
-        if (!irradiance) return irradiance.error();
-        list.push_back({*irradiance, transfer->gloss().handle()});
-    }
-    return list;
-}
-
 // How long a stage takes, in directions.
 float Renderer::State::work(const Stage& of) const {
     return float(of.transfer ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions) + 1;
@@ -414,10 +367,7 @@ float Renderer::State::work(const Stage& of) const {
 
 float Renderer::State::shareOfStage() const {
     if (!stages[stage].transfer) return float(next) / float(std::max<std::size_t>(1, lights.size()));
-    float share = 0;
-    for (const auto& transfer : transfers)
-        share += transfer ? transfer->share() : 0;
-    return share / float(std::max<std::size_t>(1, transfers.size()));
+    return transfers.share();
 }
 
 // --- one picture
@@ -482,7 +432,7 @@ Status Renderer::State::recordSlice(graph::FrameGraph& graph, const scene::Scene
     if (stages[stage].transfer) {
         transferred.resize(objects.size()); // slices after the first add light to walls only
         if (next == 0) {
-            auto recorded = recordTransfers(graph);
+            auto recorded = transfers.record(graph);
             if (!recorded) return recorded.error();
             transferred = std::move(*recorded);
         }
@@ -540,6 +490,8 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     startStage(scene);
     if (stage >= stages.size()) {
         stats.milliseconds = workMs;
+        stats.technique = scene.technique;
+        *static_cast<relief::Settings*>(stats.technique.at("relief").data()) = settings;
         stats.planMilliseconds = planMs;
         stats.draws = context.device().drawCount() - drawsBefore;
         stats.passes = passes;
@@ -795,8 +747,8 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
                  std::to_string(texture->desc().size.y) + " " + graph::name(texture->desc().format),
              texture->desc().bytes());
     line("heights, pyramids and maps of the objects", s.images.bytes());
-    for (const auto& transfer : s.transfers)
-        line("relief.coefficients, the transfer of one object", transfer->bytes());
+    if (s.transfers.bytes() > 0)
+        line("relief.coefficients, the transfers of all objects", s.transfers.bytes());
     const std::string left = s.leftOut(scene, *objects);
     return text + "left out\n" + (left.empty() ? "  nothing\n" : left);
 }

@@ -8,6 +8,7 @@
 #include "scene/Scene.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,12 +26,14 @@ struct Progress {
 
 /// What the last complete picture cost.
 struct Stats {
-    int passes = 0;              ///< passes since the picture began
-    int draws = 0;               ///< draw calls since the picture began
-    int lights = 0;              ///< lights summed (an environment counts its samples)
-    std::size_t bytes = 0;       ///< GPU memory of textures
-    double milliseconds = 0;     ///< from the first slice to the finished last one
-    std::string settings;        ///< what quality.maxError chose, for people; "" without it
+    int passes = 0;          ///< passes since the picture began
+    int draws = 0;           ///< draw calls since the picture began
+    int lights = 0;          ///< lights summed (an environment counts its samples)
+    std::size_t bytes = 0;   ///< GPU memory of textures
+    double milliseconds = 0; ///< from the first slice to the finished last one
+    std::string settings;    ///< what quality.maxError chose, for people; "" without it
+    /// By technique: what the picture was made with, chosen or the scene's own.
+    std::map<std::string, Settings> technique;
     double predicted = 0;        ///< RMSE over the mean that was predicted for it
     double planMilliseconds = 0; ///< of them, for choosing
 };

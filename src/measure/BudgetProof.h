@@ -18,7 +18,7 @@ struct BudgetResult {
     float wanted = 0;
     std::string chosen;   ///< settings, for people
     double predicted = 0; ///< RMSE over the mean, by the budget
-    double error = 0;     ///< and in truth: against 4096 directions and 1024 points a lamp, summed exactly
+    double error = 0;     ///< and in truth: against 8192 directions and 1024 points a lamp, summed exactly
     double ms = 0;        ///< the picture with the chosen settings
     double planMs = 0;    ///< choosing them
     double bestMs = 0;    ///< the quickest setting that keeps the error, of all; 0: none does

@@ -55,10 +55,10 @@ bool ask(gl::Context& context, const char* question, TextureHandle target, const
     if (!program) return false;
     graph::Draw draw;
     draw.program = *program;
-    draw.add = add;
+    draw.blend = add ? graph::Blend::Add : graph::Blend::None;
     draw.block = block;
     if (source != TextureHandle::None) draw.textures.push_back({"uSource", source});
-    context.device().runPass({question, {target}, TextureHandle::None, {}},
+    context.device().runPass({.label = question, .colors = {{.texture = target}}},
                              [&](graph::Commands& commands) { commands.draw(draw); });
     return context.takeError().empty();
 }

@@ -3,6 +3,7 @@
 
 #include "frame/Renderer.h"
 #include "relief/Relief.h"
+#include "scene/Environment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -251,13 +252,17 @@ Finding lightAndField(Studio& studio) {
     return finding;
 }
 
+void turnEverything(Scene& scene) {
+    scene.objects[0].transform.rotate = {0, 0, 90};
+    scene.environment->rotation = {0, 0, 90};
+    scene.camera.up = {-1, 0, 0};
+}
+
 Finding everything(Studio& studio) {
     Scene scene = sceneOf(waves({16, 16}), 0.2f, 0.08f);
     addSky(scene, [](int x, int y) { return (3 * x + 5 * y) % 7 / 7.0; });
     const Image before = studio.draw(scene, Aov::Color);
-    scene.objects[0].transform.rotate = {0, 0, 90};
-    scene.environment->rotation = {0, 0, 90};
-    scene.camera.up = {-1, 0, 0};
+    turnEverything(scene);
     return difference(studio.draw(scene, Aov::Color), before);
 }
 
@@ -277,17 +282,19 @@ double mean(const Image& image) {
     return 4 * sum / double(image.pixels.size());
 }
 
-Finding fullTurn(Studio& studio) {
-    Scene scene = sceneOf(level({4, 4}), 0.2f, 1e-6f);
+// Turned about a level field's normal.
+Finding fullTurnOf(Studio& studio, Scene scene) {
     addSky(scene, [](int x, int) { return x / 32.0; });
     const double before = mean(studio.draw(scene, Aov::Color));
     Finding finding;
     for (const float degrees : {45.0f, 90.0f, 180.0f, 270.0f, 360.0f}) {
-        scene.environment->rotation = {0, 0, degrees}; // about the field's normal
+        scene.environment->rotation = {0, 0, degrees};
         finding.take(before, mean(studio.draw(scene, Aov::Color)));
     }
     return finding;
 }
+
+Finding fullTurn(Studio& studio) { return fullTurnOf(studio, sceneOf(level({4, 4}), 0.2f, 1e-6f)); }
 
 // --- light from all around. The map's poles are turned to the field's normal. With 16 rings of height a = pi
 // / 16 the sum over their middles is 1 / cos(a / 2) times the integral: that is how far the quadrature stands
@@ -311,6 +318,131 @@ Finding wholeSphere(Studio& studio) {
 Finding upperHalf(Studio& studio) {
     Finding finding;
     finding.take(0.5, 2 * skyColor(studio, [](int, int y) { return y < 8; })); // half of all directions
+    return finding;
+}
+
+// --- transfer: an environment's light by one dot product a texel
+
+Scene transferredSceneOf(const Heights& heights, float depth) {
+    Scene scene = sceneOf(heights, 0.2f, depth);
+    settingsOf(scene).method = relief::Method::Transfer;
+    settingsOf(scene).terms = 16;
+    return scene;
+}
+
+// The same image each time: draws that follow one another share its transfer, which takes most of their time.
+Scene transferredWaves() {
+    static const Heights heights = waves({8, 8});
+    return transferredSceneOf(heights, 0.1f);
+}
+
+Finding transferOfWhite(Studio& studio) {
+    Scene scene = transferredSceneOf(level({4, 4}), 1e-6f);
+    addSky(scene, [](int, int) { return 1; });
+    Finding finding;
+    finding.take(0.25, mean(studio.draw(scene, Aov::Color)));
+    return finding;
+}
+
+double distanceOverMean(const Image& image, const Image& reference) {
+    double squares = 0, sum = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        if (i % 4 == 3) continue; // coverage
+        squares += std::pow(double(image.pixels[i]) - double(reference.pixels[i]), 2);
+        sum += reference.pixels[i];
+    }
+    return std::sqrt(squares * 0.75 * double(image.pixels.size())) / sum;
+}
+
+Finding transferTurned(Studio& studio) {
+    Scene scene = transferredWaves();
+    addSky(scene, [](int x, int y) { return (3 * x + 5 * y) % 7 / 7.0; });
+    const Image before = studio.draw(scene, Aov::Color);
+    turnEverything(scene);
+    return difference(studio.draw(scene, Aov::Color), before);
+}
+
+Finding transferOfRainbow(Studio& studio) {
+    Scene scene = transferredWaves();
+    scene.environment.emplace().map =
+        std::make_shared<const Image>(scene::proceduralEnvironment("rainbow"));
+    const Image transferred = studio.draw(scene, Aov::Color);
+    settingsOf(scene).method = relief::Method::Hierarchy;
+    settingsOf(scene).environmentLights = 4096;
+    Finding finding;
+    finding.take(0, distanceOverMean(transferred, studio.draw(scene, Aov::Color)));
+    return finding;
+}
+
+Finding transferFullTurn(Studio& studio) {
+    return fullTurnOf(studio, transferredSceneOf(level({4, 4}), 1e-6f));
+}
+
+// --- lamps with a size: points evenly on a disc of radius R that faces what it lights, at a distance D. The
+// cosine at a level surface is (h + z) / sqrt(D^2 + rho^2), with h the height of the disc's centre and z that of
+// a point at rho above it. z cancels out; the mean of 1 / sqrt(D^2 + rho^2) over the disc is
+// 2 (sqrt(D^2 + R^2) - D) / R^2. A sun has D = 1, R = tan(angle / 2), h = sin(elevation).
+
+constexpr int kLampPoints = 1024;
+
+double meanCosine(double height, double distance, double radius) {
+    return height * 2 * (std::hypot(distance, radius) - distance) / (radius * radius);
+}
+
+scene::DistantLight largeSun(double elevation, double azimuth) {
+    scene::DistantLight sun = lampAt(elevation, azimuth);
+    sun.angle = 40;
+    return sun;
+}
+const double kSunRadius = std::tan(20 * kDegree);
+
+Finding sunOnLevelField(Studio& studio) {
+    Scene scene = sceneOf(level({16, 16}), 0.2f, 0.02f);
+    settingsOf(scene).lightSamples = kLampPoints;
+    scene.lights.push_back(largeSun(60, 0));
+    const Image d = studio.draw(scene);
+    const double expected = meanCosine(std::sin(60 * kDegree), 1, kSunRadius);
+    Finding finding;
+    for (int y = 2; y < 14; ++y) // ways end at the surface within 0.02 m / tan(40 degrees), 0.4 texels
+        for (int x = 2; x < 14; ++x)
+            finding.take(expected, d.at(x, y)[0]);
+    return finding;
+}
+
+Finding lampOnLevelField(Studio& studio) {
+    constexpr double depth = 0.02, height = 0.5; // of the lamp over the surface
+    constexpr float radius = 0.3f;
+    Scene scene = sceneOf(level({16, 16}), 0.2f, float(depth));
+    settingsOf(scene).lightSamples = kLampPoints;
+    scene.lights.push_back(scene::PointLight{.position = {0.1f, 0, 0.1 + height}, .radius = radius});
+    const Image d = studio.draw(scene);
+    Finding finding;
+    for (int y = 2; y < 14; ++y) {
+        for (int x = 2; x < 14; ++x) {
+            const dvec3 way = dvec3(double(0.1f), 0, height + depth) - dvec3(xOf(scene, x), yOf(scene, y), 0);
+            finding.take(meanCosine(way.z, glm::length(way), double(radius)), d.at(x, y)[0]);
+        }
+    }
+    return finding;
+}
+
+// A cliff of 4 texels at the middle of column 15, the sun's centre behind it 45 degrees high. From a texel
+// `way` texels off the edge cuts the disc in a straight line, tan(elevation of the edge - 45 degrees) above its
+// centre; what is beyond is a segment of the disc.
+Finding penumbra(Studio& studio) {
+    constexpr int size = 32, edge = 15, drop = 4;
+    Scene scene = sceneOf(heightsOf({size, size}, [](int x, int) { return x <= edge ? 1.0f : 0.0f; }),
+                          float(drop) / size, 1e-6f);
+    settingsOf(scene).lightSamples = kLampPoints;
+    scene.lights.push_back(largeSun(45, 180));
+    const Image visible = studio.draw(scene, Aov::Visibility);
+    Finding finding;
+    for (int way = 2; way <= 2 * drop; ++way) { // farther, light would come in beside the cliff
+        const double line = std::tan(std::atan2(drop, way) - 45 * kDegree) / kSunRadius;
+        const double s = std::clamp(line, -1.0, 1.0);
+        const double share = (std::acos(s) - s * std::sqrt(1 - s * s)) / std::numbers::pi;
+        finding.take(share, visible.at(edge + way, size / 2)[0]);
+    }
     return finding;
 }
 
@@ -496,6 +628,16 @@ constexpr Check kChecks[] = {
     {"Light and field turned", kTurned, kSteep, lightAndField},
     {"Environment and camera turned", kTurned, kSum, environmentAndCamera},
     {"Field, environment, camera turned", kTurned, kSteep, everything},
+    {"Transfer, white sphere", "Method transfer: the mean of d over all directions is 1/4 on a level field",
+     kExact, transferOfWhite},
+    {"Transfer, all turned", kTurned, kExact, transferTurned},
+    {"Transfer, rainbow", "Its RMSE over the mean, against 4096 directions by hierarchy", kExact,
+     transferOfRainbow},
+    {"Transfer, environment turned", "About a level field's normal it keeps the mean", kExact,
+     transferFullTurn},
+    {"Sun 40 degrees wide", "On a level field d is the mean cosine over its disc", kExact, sunOnLevelField},
+    {"Lamp 0.6 m wide", "On a level field d is the mean cosine over its disc", kExact, lampOnLevelField},
+    {"Penumbra behind a cliff", "The part of the sun's disc that stands above the edge", kExact, penumbra},
     {"Blocker added", "Nothing outside its neighbours gets brighter", kPlaces, addedBlocker},
     {"Two lights and a base", "Lights add, the base colour counts once: 0.1 + 0.5 (sin 30 + sin 50)",
      kVectors, lightsAdd},

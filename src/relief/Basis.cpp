@@ -263,7 +263,7 @@ void Basis::learn(const Image& image, int cells, int firstSensor, int sensors, i
     }
 }
 
-Projection Basis::project(std::span<const vec4> flux) const {
+Projection Basis::project(std::span<const vec4> flux, bool measures) const {
     Rows light(4, cells_); // a channel a row
     for (int cell = 0; cell < cells_; ++cell)
         for (int channel = 0; channel < 4; ++channel)
@@ -274,20 +274,23 @@ Projection Basis::project(std::span<const vec4> flux) const {
             sum[channel] = dot(values, light[channel], cells_);
         return sum;
     };
+    Projection projection;
+    for (int k = 0; k < terms_; ++k)
+        projection.light.push_back(along(&values_[std::size_t(k) * std::size_t(cells_)]));
+    if (!measures) return projection;
+
     std::vector<vec3> missing; // of each row that was kept back
     float mean = 0;
     for (int row = 0; row < kept_; ++row) {
         missing.push_back(vec3(along(&keptValues_[std::size_t(row) * std::size_t(cells_)])));
         mean += (missing.back().r + missing.back().g + missing.back().b) / float(3 * kept_);
     }
-    Projection projection;
     for (int k = 0; k < terms_; ++k) {
-        projection.light.push_back(along(&values_[std::size_t(k) * std::size_t(cells_)]));
         float square = 0;
         for (int row = 0; row < kept_; ++row) {
             const auto at = std::size_t(row);
-            missing[at] -=
-                keptCoefficients_[at * std::size_t(terms_) + std::size_t(k)] * vec3(projection.light.back());
+            missing[at] -= keptCoefficients_[at * std::size_t(terms_) + std::size_t(k)] *
+                           vec3(projection.light[std::size_t(k)]);
             square += glm::dot(missing[at], missing[at]) / float(3 * kept_);
         }
         if (k % 4 == 3) projection.errors.push_back(std::sqrt(square) / std::max(mean, 1e-20f));

@@ -49,8 +49,9 @@ public:
     int terms() const { return terms_; }
     /// How much of a value in sensor direction `sensor` goes into coefficient `term`.
     float fit(int term, int sensor) const { return fit_[std::size_t(term * sensors_ + sensor)]; }
-    /// @param flux  light that comes from each cell: colour, and share of the sphere; one for each cell
-    Projection project(std::span<const vec4> flux) const;
+    /// @param flux      light that comes from each cell: colour, and share of the sphere; one for each cell
+    /// @param measures  false: leaves the errors out, which take most of the time
+    Projection project(std::span<const vec4> flux, bool measures) const;
 
 private:
     int terms_ = 0, cells_ = 0, sensors_ = 0, kept_ = 0;

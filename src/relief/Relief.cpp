@@ -237,7 +237,7 @@ Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings
         for (const Transferred& light : transferred)
             if (light.irradiance) pass.sample(light.irradiance);
         pass.write(target);
-        pass.clear(vec4(0));
+        pass.clear(target, vec4(0));
         return [=](const graph::Resources& resources, graph::Commands& commands) {
             for (std::size_t i = 0; i < objects.size(); ++i) {
                 const views::DrawnObject& drawn = objects[i];

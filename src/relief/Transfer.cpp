@@ -37,7 +37,7 @@ struct ProjectBlock {
 };
 
 struct GatherBlock {
-    vec4 light[4 * kMostTerms];
+    vec4 light[kMostTerms];
     ivec2 size;
     int terms, columns;
 
@@ -105,7 +105,7 @@ std::vector<SmallLight> smallLights(const scene::Scene& scene, const Settings& s
 Transfer::Key Transfer::keyOf(const scene::Object& object, const Settings& settings) {
     return {object.field().heights,     object.field().width,
             object.field().heightScale, object.material.depth / object.transform.scale,
-            settings.attenuation,     roundUp(settings.terms, 4)};
+            settings.attenuation,       roundUp(settings.terms, 4)};
 }
 
 Transfer::Transfer(gl::Context& context, Key key)
@@ -259,39 +259,51 @@ Status Transfer::project(graph::TexturePool& pool, ivec2 corner) {
 
 // --- any environment
 
-std::vector<vec4> Transfer::fluxOf(const std::vector<SmallLight>& lights, const mat3& objectFromWorld,
-                                   const scene::Material& material, vec3 view) const {
+std::vector<Transfer::CellLight> Transfer::cellLights(const std::vector<SmallLight>& lights,
+                                                      const mat3& objectFromWorld) const {
+    std::vector<CellLight> list;
+    list.reserve(lights.size());
+    for (SmallLight light : lights) {
+        light.direction = objectFromWorld * light.direction;
+        list.push_back({light, cells_.cellOf(light.direction)});
+    }
+    return list;
+}
+
+std::vector<vec4> Transfer::fluxOf(const std::vector<CellLight>& lights, const scene::Material& material,
+                                   vec3 view) const {
     std::vector<vec4> flux(std::size_t(cells_.count()), vec4(0));
     const float kf = material.forwardScatter;
-    for (const SmallLight& light : lights) {
-        const vec3 direction = objectFromWorld * light.direction;
-        const float f = kf > 0 ? falloff(glm::dot(view, direction), material.scatterFalloff) : 0;
-        const float scatter = (1 - kf) + kf * f;
-        flux[std::size_t(cells_.cellOf(direction))] += vec4(scatter * light.color, light.weight);
+    for (const auto& [light, cell] : lights) {
+        const float f = kf > 0 ? falloff(glm::dot(view, light.direction), material.scatterFalloff) : 0;
+        flux[std::size_t(cell)] += vec4(((1 - kf) + kf * f) * light.color, light.weight);
     }
     return flux;
 }
 
-float Transfer::setEnvironment(const scene::Object& object, const std::vector<SmallLight>& lights,
-                               const vec3 (&view)[4], float error) {
-    const mat3 objectFromWorld = glm::transpose(rotationFromDegrees(object.transform.rotate));
-    const bool oneView = object.material.forwardScatter == 0 ||
-                         std::all_of(view, view + 4, [&](vec3 v) { return v == view[0]; });
-    light_.assign(std::size_t(oneView ? 1 : 4) * kMostTerms, vec4(0));
-    float measured = 0;
-    for (std::size_t node = 0; node < light_.size() / kMostTerms; ++node) {
-        const Projection projection =
-            basis_.project(fluxOf(lights, objectFromWorld, object.material, view[node]));
+void Transfer::setEnvironment(const scene::Object& object, const std::vector<SmallLight>& lights,
+                              const std::vector<vec3>& views, float error) {
+    const auto inCells = cellLights(lights, glm::transpose(rotationFromDegrees(object.transform.rotate)));
+    const std::size_t nodes = object.material.forwardScatter == 0 ? 1 : views.size();
+    light_.assign(nodes * kMostTerms, vec4(0));
+    termsUsed_ = basis_.terms();
+    for (std::size_t node = 0; node < nodes; ++node) {
+        // The middle of the field says how many terms are needed.
+        const bool measures = error > 0 && node == nodes / 2;
+        const Projection projection = basis_.project(fluxOf(inCells, object.material, views[node]), measures);
         std::copy(projection.light.begin(), projection.light.end(),
                   light_.begin() + std::ptrdiff_t(kMostTerms * node));
-        if (node > 0) continue;
+        if (!measures) continue;
         const auto good = std::find_if(projection.errors.begin(), projection.errors.end() - 1,
                                        [&](float e) { return e <= error; });
         termsUsed_ = 4 * int(good - projection.errors.begin()) + 4;
-        measured = *good;
     }
-    drawGloss(object.material, objectFromWorld, lights);
-    return measured;
+    if (nodes > 1) {
+        const TextureDesc desc{.size = {kMostTerms, int(nodes)}, .format = Format::RGBA32F};
+        if (!nodes_) nodes_ = graph::Texture(context_.device(), desc, "relief.nodes");
+        context_.device().upload(nodes_.handle(), 0, light_);
+    }
+    drawGloss(object.material, inCells);
 }
 
 Result<graph::TextureId> Transfer::recordIrradiance(graph::FrameGraph& graph) const {
@@ -300,7 +312,7 @@ Result<graph::TextureId> Transfer::recordIrradiance(graph::FrameGraph& graph) co
         "relief/gather", oneView ? std::vector<std::string>{} : std::vector<std::string>{"USE_NODES"});
     if (!program) return program.error();
     GatherBlock block{};
-    std::copy(light_.begin(), light_.end(), block.light);
+    if (oneView) std::copy(light_.begin(), light_.end(), block.light);
     block.size = grid_;
     block.terms = termsUsed_;
     block.columns = coefficients_.desc().size.x / grid_.x;
@@ -312,23 +324,24 @@ Result<graph::TextureId> Transfer::recordIrradiance(graph::FrameGraph& graph) co
                     " coefficients");
         pass.sample(source);
         target = pass.createColor("relief.irradiance", {.size = grid_, .format = Format::RGBA32F});
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
-            commands.draw(
-                {.program = program, .block = block, .textures = {{"uCoefficients", resources[source]}}});
+        return [=, program = *program, nodes = nodes_.handle()](const graph::Resources& resources,
+                                                                graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uCoefficients", resources[source]}};
+            if (!oneView) textures.push_back({"uNodes", nodes});
+            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
         };
     });
     return target;
 }
 
 // Stays black where nothing shines: the light pass then does not look.
-void Transfer::drawGloss(const scene::Material& material, const mat3& objectFromWorld,
-                         const std::vector<SmallLight>& lights) {
+void Transfer::drawGloss(const scene::Material& material, const std::vector<CellLight>& lights) {
     if (!gloss_)
         gloss_ = graph::Texture(context_.device(), {.size = kGlossSize, .format = Format::RGBA32F},
                                 "relief.gloss");
     if (material.specularity == 0) return;
     Image table(kGlossSize.x, kGlossSize.y, 4);
-    const std::vector<vec4> flux = fluxOf(lights, objectFromWorld, scene::Material{}, vec3(0));
+    const std::vector<vec4> flux = fluxOf(lights, scene::Material{}, vec3(0));
     for (int y = 0; y < kGlossSize.y; ++y) {
         for (int x = 0; x < kGlossSize.x; ++x) {
             const float azimuth = 2 * kPi * ((float(x) + 0.5f) / float(kGlossSize.x) - 0.5f);

@@ -47,12 +47,15 @@ public:
 
     /// Brings an environment onto the basis: what follows shows it.
     ///
-    /// @param view   unit direction eye -> surface in the object's space at the footprint's corners: top left
-    ///               and right, bottom left and right
-    /// @param error  wanted RMSE over the mean: no more terms are used than keep it
-    /// @return       RMSE over the mean as measured on texels kept back
-    float setEnvironment(const scene::Object& object, const std::vector<SmallLight>& lights,
-                         const vec3 (&view)[4], float error);
+    /// @param views  unit directions eye -> surface in the object's space: one, or those at kNodes x kNodes
+    ///               places spread over the footprint, the top row first
+    /// @param error  wanted RMSE over the mean, on texels kept back: no more terms are used than keep it; 0:
+    ///               all
+    void setEnvironment(const scene::Object& object, const std::vector<SmallLight>& lights,
+                        const std::vector<vec3>& views, float error);
+    /// Forward scatter changes with the direction to the eye: it is known at so many places along a side and
+    /// interpolated between them.
+    static constexpr int kNodes = 5;
     /// The environment's light on every texel (shaders/relief/gather.frag), ready to be sampled.
     Result<graph::TextureId> recordIrradiance(graph::FrameGraph& graph) const;
     /// The environment's part of the specular term by the direction of reflection (glossAt() of
@@ -62,17 +65,23 @@ public:
 private:
     enum class Phase { Sample, Trace, Ready };
     ivec2 tiles() const;
+    /// A small light in the object's space, with the cell that it shines from.
+    struct CellLight {
+        SmallLight light;
+        int cell;
+    };
+    std::vector<CellLight> cellLights(const std::vector<SmallLight>& lights,
+                                      const mat3& objectFromWorld) const;
     /// The light from each cell: colour as a material scatters it towards the eye, and share in the mean of
     /// d.
-    std::vector<vec4> fluxOf(const std::vector<SmallLight>& lights, const mat3& objectFromWorld,
-                             const scene::Material& material, vec3 view) const;
+    std::vector<vec4> fluxOf(const std::vector<CellLight>& lights, const scene::Material& material,
+                             vec3 view) const;
     Status run(graph::TexturePool& pool, const char* pass, const graph::Texture& target,
                const std::function<void(graph::Commands&)>& draw);
     Status sample(graph::TexturePool& pool, const views::DrawnObject& drawn);
     Status trace(graph::TexturePool& pool, const views::DrawnObject& drawn);
     Status project(graph::TexturePool& pool, ivec2 corner);
-    void drawGloss(const scene::Material& material, const mat3& objectFromWorld,
-                   const std::vector<SmallLight>& lights);
+    void drawGloss(const scene::Material& material, const std::vector<CellLight>& lights);
 
     gl::Context& context_;
     Key key_;
@@ -83,9 +92,10 @@ private:
     int tile_ = 0; ///< being traced
     int rowsAtOnce_ = 1;
     graph::Texture directions_, sampled_, traced_, coefficients_, gloss_;
+    graph::Texture nodes_; ///< light_ of several views, a row each
     Basis basis_;
     int termsUsed_ = 0;
-    std::vector<vec4> light_; ///< the environment on the basis, for one view or four
+    std::vector<vec4> light_; ///< the environment on the basis, for each view kMostTerms
 };
 
 /// Rays that making a transfer takes: what it costs, in the measure of a picture with one light.
