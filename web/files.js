@@ -1,8 +1,9 @@
-/** Brings files to the module: scenes with everything they name, and pictures that a person opens. */
+/** Brings files to the module: scenes with everything they name, and what a person opens. */
 import { LucentError } from './runtime.js';
 import { callWasm } from './wasm.js';
 
-const kForeign = /\.(exr|glb|gltf)$/i;
+const kForeign = /\.(exr|glb|gltf|obj)$/i;
+const kMesh = /\.(glb|gltf|obj|mesh)$/i;
 
 async function fetchBytes(url, name) {
   let response;
@@ -19,7 +20,7 @@ async function fetchBytes(url, name) {
 }
 
 let readers;
-/** The second module, which understands glTF and EXR; fetched when the first such file is met. */
+/** The second module, which understands glTF, OBJ and EXR; fetched when the first such file is met. */
 function loadReaders() {
   const address = (name) => new URL(name, import.meta.url).href;
   readers ??= import(address('lucent-readers.js'))
@@ -31,27 +32,37 @@ function loadReaders() {
 }
 
 /**
- * The bytes in a form that the loader reads: glTF and EXR are converted, everything else stays as it is.
- * @param base  URL against which the buffers that a .gltf names are resolved; without one it can have none
+ * The bytes in a form that the loader reads: glTF, OBJ and EXR are converted, everything else stays as it is.
+ * @param part  (name) => promise of the bytes of a file beside it that it names, undefined when there is none
  */
-async function toPlain(name, bytes, base) {
+async function toPlain(name, bytes, part) {
   if (!kForeign.test(name)) return bytes;
   const wasm = await loadReaders();
   if (!callWasm(wasm, 'reader_is_foreign', name, bytes)) return bytes;
   const parts = new Map([[name, bytes]]);
   callWasm(wasm, 'reader_file_put', name, bytes);
   for (const needed of JSON.parse(wasm.UTF8ToString(callWasm(wasm, 'reader_needs', name)))) {
-    if (!base)
-      throw new LucentError('file', `${name}: names ${needed}; must hold all its data (.glb) to be opened from disk`);
-    parts.set(needed, await fetchBytes(new URL(needed, base), needed));
+    const content = await part(needed).catch((error) => {
+      if (!/\.obj$/i.test(name)) throw error; // which has triangles without its materials
+    });
+    if (content) parts.set(needed, content);
   }
   // Without a pause from here on: the module forgets all files after a conversion.
-  for (const [part, content] of parts) callWasm(wasm, 'reader_file_put', part, content);
+  for (const [path, content] of parts) callWasm(wasm, 'reader_file_put', path, content);
   const message = wasm.UTF8ToString(callWasm(wasm, 'reader_to_plain', name));
   if (message) throw new LucentError('scene', message);
   const start = callWasm(wasm, 'reader_bytes');
   return wasm.HEAPU8.slice(start, start + callWasm(wasm, 'reader_size'));
 }
+
+/** Parts of a file that was fetched lie beside it. */
+const beside = (url) => (name) => fetchBytes(new URL(name, url), name);
+
+/** Parts of a file that a person opened are among those opened with it. */
+const among = (files) => async (name) => {
+  const file = files.find((one) => one.name === name.split('/').pop());
+  return file && new Uint8Array(await file.arrayBuffer());
+};
 
 const fileName = (url) => decodeURIComponent(url.pathname.split('/').pop());
 
@@ -70,7 +81,7 @@ export async function fetchScene(starting, url) {
   const files = new Map([[path, scene]]);
   const fetchOne = async (name) => {
     const address = new URL(name, url);
-    return [name, await toPlain(name, await fetchBytes(address, name), address)];
+    return [name, await toPlain(name, await fetchBytes(address, name), beside(address))];
   };
   for (const [name, bytes] of await Promise.all(names.map(fetchOne))) files.set(name, bytes);
   return { path, files };
@@ -90,23 +101,33 @@ export function loadFiles(runtime, handle, { path, files }) {
 /** The name and the bytes of one picture, in a form that the module reads. */
 export async function fetchPicture(url) {
   const name = fileName(url);
-  return { name, bytes: await toPlain(name, await fetchBytes(url, name), url) };
+  return { name, bytes: await toPlain(name, await fetchBytes(url, name), beside(url)) };
 }
 
-/** What a dropped file is for. @param environmentWanted  the person pointed at that half, or held Alt */
+/** Of files dropped together the one that is opened: a mesh before its parts. */
+export const mainFile = (files) => files.find(({ name }) => kMesh.test(name)) ?? files[0];
+
+/** What a dropped picture is for. @param environmentWanted  the person pointed at that half, or held Alt */
 export function kindOfDrop(name, environmentWanted) {
   return environmentWanted || /\.(hdr|exr)$/i.test(name) ? 'environment' : 'height';
 }
 
-/** Shows a picture that a person opened. @param kind 'height' or 'environment'. Throws a LucentError. */
-export async function openPicture(runtime, handle, file, kind) {
+/**
+ * Shows a picture or a mesh that a person opened. Throws a LucentError.
+ * @param files  one, or a mesh with its parts
+ * @param kind   of a picture: 'height' or 'environment'
+ */
+export async function openOwn(runtime, handle, files, kind) {
+  const file = mainFile(files);
   const { name } = file;
   if (/\.json$/i.test(name))
     throw new LucentError(
       'file',
       `${name}: a scene names further files, which a page cannot read from disk; put it on a server and name it in src`,
     );
-  const bytes = await toPlain(name, new Uint8Array(await file.arrayBuffer()));
-  const message = runtime.text('viewer_open_image', handle, name, bytes, kind === 'environment' ? 1 : 0);
+  const bytes = await toPlain(name, new Uint8Array(await file.arrayBuffer()), among(files));
+  const message = kMesh.test(name)
+    ? runtime.text('viewer_open_mesh', handle, name, bytes)
+    : runtime.text('viewer_open_image', handle, name, bytes, kind === 'environment' ? 1 : 0);
   if (message) throw new LucentError('file', message);
 }

@@ -4,11 +4,14 @@
  * Shows a scene that a person can light. Besides the attributes above every parameter of the scene is an attribute
  * and, in camel case, a property: light-intensity="2" is viewer.lightIntensity = 2.
  *
+ * In a scene in which something moves, time runs from play() to pause(), or from the start with `autoplay`, unless the
+ * person prefers reduced motion.
+ *
  * compare="truth" or "error" shows the picture beside its exact truth: that of the file which `truth` names (with its
  * own error in `truth-noise`), which belongs to the scene as src has it, or one that is computed when a person asks.
  */
 import { Controls } from './controls.js';
-import { fetchScene, kindOfDrop, loadFiles, openPicture } from './files.js';
+import { fetchScene, kindOfDrop, loadFiles, mainFile, openOwn } from './files.js';
 import { Gestures } from './gestures.js';
 import { LucentError, Runtime } from './runtime.js';
 import { TruthBar } from './truth.js';
@@ -20,20 +23,24 @@ const kNear = '300px'; // around the window: within it viewers load and draw
 const kReleaseAfter = 4000; // ms off screen until the GPU memory goes back
 const kHintTime = 1600; // ms
 const kKeys =
-  'Arrow keys move the light or turn the environment, page up and page down lift the light or zoom, shift with ' +
-  'arrow keys orbits the camera, 0 goes back, question mark lists all keys, Escape leaves.';
+  'Arrow keys on a relief move the light or turn the environment, page up and page down lift the light or zoom, ' +
+  'shift with arrow keys orbits the camera. Arrow keys in other scenes orbit the camera, page up and page down zoom, ' +
+  'shift with arrow keys turns the environment or moves the light. Space plays what moves, 0 goes back, question mark ' +
+  'lists all keys, Escape leaves.';
 
 const kStyle = new CSSStyleSheet();
 kStyle.replaceSync(css);
 const kDark = matchMedia('(prefers-color-scheme: dark)');
+const kCalm = matchMedia('(prefers-reduced-motion: reduce)');
 
 const kMarkup = `
 <div class="stage" part="stage">
   <canvas tabindex="0" role="img" aria-describedby="keys"></canvas>
   <img class="poster" part="poster" alt="">
-  <div class="zones"><div>Height map</div><div>Environment</div></div>
+  <div class="zones"><div>Height map or model</div><div>Environment</div></div>
   <input class="unseen" id="divider" type="range" min="0" max="1" step="0.01" hidden
     aria-label="Divider: share of the picture left of it">
+  <button class="play" type="button" hidden></button>
   <div class="hint"></div>
   <div class="status"></div>
 </div>
@@ -59,7 +66,9 @@ export class LucentViewer extends HTMLElement {
   #handle = 0; // the module's viewer, 0: none yet
   #task = 0; // number of the newest load: older ones give up
   #src = null; // what is loaded or on its way
-  #near = false;
+  #near = false; // the element or its surroundings are on the screen
+  #seen = false; // the element itself is
+  #play; // the button
   #size = { width: 0, height: 0, scale: 1 };
   #controls = []; // descriptors with values
   #revision = -1;
@@ -70,6 +79,7 @@ export class LucentViewer extends HTMLElement {
   #timers = {};
   #observers = [];
   #themeChanged = () => this.#apply('viewer_dark', kDark.matches ? 1 : 0);
+  #calmChanged = () => kCalm.matches && this.pause();
 
   constructor() {
     super();
@@ -82,6 +92,8 @@ export class LucentViewer extends HTMLElement {
     this.#status = find('.status');
     this.#hint = find('.hint');
     this.#voice = find('[role=status]');
+    this.#play = find('.play');
+    this.#play.addEventListener('click', () => (this.paused ? this.play() : this.pause()));
     find('#keys').textContent = kKeys;
     this.#twin = new Controls({
       set: (path, text) => this.#set(path, text),
@@ -123,8 +135,11 @@ export class LucentViewer extends HTMLElement {
     }
     const place = new IntersectionObserver(([entry]) => this.#moved(entry.isIntersecting), { rootMargin: kNear });
     place.observe(this);
-    this.#observers = [attributes, size, place];
+    const sight = new IntersectionObserver(([entry]) => this.#sighted(entry.isIntersecting));
+    sight.observe(this);
+    this.#observers = [attributes, size, place, sight];
     kDark.addEventListener('change', this.#themeChanged);
+    kCalm.addEventListener('change', this.#calmChanged);
     if (this.loading === 'lazy') return;
     Runtime.shared().catch(() => {}); // starts before there is a src; whoever loads hears of errors
     this.#loadSource();
@@ -134,7 +149,8 @@ export class LucentViewer extends HTMLElement {
   disconnectedCallback() {
     this.#observers.forEach((observer) => observer.disconnect());
     kDark.removeEventListener('change', this.#themeChanged);
-    this.#near = false;
+    kCalm.removeEventListener('change', this.#calmChanged);
+    this.#near = this.#seen = false;
     queueMicrotask(() => this.isConnected || this.#destroy());
   }
 
@@ -199,6 +215,14 @@ export class LucentViewer extends HTMLElement {
     this.setAttribute('alt', value);
   }
 
+  /** Scenes in which something moves play at once, unless the person prefers reduced motion. */
+  get autoplay() {
+    return this.hasAttribute('autoplay');
+  }
+  set autoplay(value) {
+    this.toggleAttribute('autoplay', Boolean(value));
+  }
+
   /** True once a scene is there: only then have parameters values. */
   get loaded() {
     return this.#controls.length > 0;
@@ -240,6 +264,21 @@ export class LucentViewer extends HTMLElement {
     return this.#step('viewer_redo');
   }
 
+  /** True where something in the scene moves: there is something to play. */
+  get moves() {
+    return this.#controls.some(({ path, group }) => path === 'playing' && group);
+  }
+  get paused() {
+    return this.#ask('viewer_get', 'playing') !== 'true';
+  }
+  /** Lets time run while the element is on the screen. False where nothing moves. */
+  play() {
+    return this.moves && this.#set('playing', 'true');
+  }
+  pause() {
+    if (!this.paused) this.#set('playing', 'false');
+  }
+
   /** Milliseconds, passes, draws, lights, bytes, complete, frames, and where the panel's controls lie. */
   stats() {
     return JSON.parse(this.#ask('viewer_stats') || '{}');
@@ -270,6 +309,8 @@ export class LucentViewer extends HTMLElement {
   async toBlob(type = 'image/png', quality) {
     if (!this.loaded || !this.#size.width)
       throw new LucentError('scene', 'toBlob(): no scene is shown; one must be loaded and have a size on the page');
+    const playing = !this.paused;
+    this.pause();
     this.#capturing = true;
     this.#apply('viewer_panel', 0);
     this.#apply('viewer_message', '');
@@ -281,20 +322,22 @@ export class LucentViewer extends HTMLElement {
     this.#capturing = false;
     this.#layout();
     if (!this.#near) this.#moved(false);
+    if (playing) this.play();
     return new Promise((resolve) => copy.toBlob(resolve, type, quality));
   }
 
   /**
-   * Shows a picture that a person chose.
-   * @param file  File, or Blob with a name
-   * @param kind  'height' or 'environment'
+   * Shows a picture or a model that a person chose.
+   * @param file  File, or Blob with a name; or several: a model with the files that it has its parts in
+   * @param kind  of a picture: 'height' or 'environment'
    */
   async openFile(file, kind = 'height') {
+    const files = file instanceof Blob ? [file] : [...file];
     const task = ++this.#task;
     try {
       await this.#start();
-      await openPicture(this.#runtime, this.#handle, file, kind);
-      if (task === this.#task) this.#takeScene(file.name);
+      await openOwn(this.#runtime, this.#handle, files, kind);
+      if (task === this.#task) this.#takeScene(mainFile(files).name);
     } catch (error) {
       if (task === this.#task) this.#fail(error);
     }
@@ -310,7 +353,7 @@ export class LucentViewer extends HTMLElement {
     const { more, drawn } = this.#runtime.draw(this.#handle, width, height, seconds);
     this.#sync();
     this.#takePicture(drawn);
-    return more;
+    return more && (this.#seen || !this.#complete); // nothing plays where nobody sees it
   }
   contextLost() {
     this.#poster.hidden = false;
@@ -363,6 +406,8 @@ export class LucentViewer extends HTMLElement {
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#revision = this.#runtime.call('viewer_revision', this.#handle);
     this.#twin.build(this.#controls);
+    this.#showPlay();
+    if (this.autoplay && !kCalm.matches) this.play();
     this.#layout();
     this.#request();
     this.#truth.cancel();
@@ -455,8 +500,16 @@ export class LucentViewer extends HTMLElement {
     this.#twin.update(this.#controls);
     const changed = this.#controls.filter((control) => control.value !== before.get(control.path));
     this.#compareChanged();
+    this.#showPlay();
     for (const control of changed) this.#emit('change', { path: control.path, value: valueOf(control, control.value) });
     if (changed.length && this.#root.activeElement === this.#canvas) this.#sayLater(changed[0]);
+  }
+
+  #showPlay() {
+    const label = this.paused ? 'Play' : 'Pause';
+    this.#play.hidden = !this.moves;
+    if (this.#play.ariaLabel !== label) Object.assign(this.#play, { ariaLabel: label, title: label });
+    this.#play.classList.toggle('playing', !this.paused);
   }
 
   // ---- the truth ----
@@ -568,6 +621,11 @@ export class LucentViewer extends HTMLElement {
     }
   }
 
+  #sighted(seen) {
+    this.#seen = seen;
+    if (seen) this.#request();
+  }
+
   // ---- talking to the person ----
 
   #showHint(touch) {
@@ -606,10 +664,10 @@ export class LucentViewer extends HTMLElement {
     );
     this.addEventListener('drop', (event) => {
       zones.classList.remove('shown');
-      const [file] = event.dataTransfer.files;
-      if (!file) return;
+      const files = [...event.dataTransfer.files];
+      if (!files.length) return;
       event.preventDefault();
-      this.openFile(file, kindOfDrop(file.name, aims(event)));
+      this.openFile(files, kindOfDrop(mainFile(files).name, aims(event)));
     });
   }
 

@@ -108,7 +108,7 @@ function showCost() {
 function openWith(button, input, kind) {
   find(button).addEventListener('click', () => find(input).click());
   find(input).addEventListener('change', ({ target }) => {
-    if (target.files[0]) viewer.openFile(target.files[0], kind);
+    if (target.files.length) viewer.openFile(target.files, kind);
     target.value = '';
   });
 }
@@ -139,6 +139,7 @@ find('time').addEventListener('change', showCost);
 find('check').addEventListener('click', async () => (await import('./selfcheck.js')).openSelfCheck(viewer));
 openWith('open-height', 'height-file', 'height');
 openWith('open-environment', 'environment-file', 'environment');
+openWith('open-mesh', 'mesh-file');
 
 async function start() {
   const response = await fetch('gallery/index.json');

@@ -14,6 +14,9 @@ THUMBNAIL = 256  # pixels, the longer side
 TRUTH_UNDER_LAMPS = 192, 1
 TRUTH_UNDER_SKY = 128, 256
 
+# Of truths with bent and mirrored light: pixels of the longer side, light rays, points of each lamp that has a size.
+TRUTH_WITH_LIGHT_RAYS = 128, 4_000_000, 16
+
 
 def files_of(scene: Path) -> list[Path]:
     """Files that a scene names: every text in it that is the name of a file beside it."""
@@ -28,6 +31,10 @@ def files_of(scene: Path) -> list[Path]:
     return [beside[text] for text in texts(json.loads(scene.read_text())) if text in beside]
 
 
+def is_relief(content: dict) -> bool:
+    return all(thing["shape"]["type"] == "heightfield" for thing in content["objects"])
+
+
 def save_small(picture: Image.Image, side: int, out: Path) -> None:
     small = picture.copy()
     small.thumbnail((side, side), Image.LANCZOS)
@@ -35,11 +42,11 @@ def save_small(picture: Image.Image, side: int, out: Path) -> None:
 
 
 def pictures_of(program: Path, scene: Path, poster: Path, thumbnail: Path) -> None:
-    """Renders a scene; transparent parts become light grey. Under lamps at twice the poster's size, which smooths its
-    edges; light from all around has few sharp ones and costs hundreds of lamps."""
+    """Renders a scene; transparent parts become light grey. At twice the poster's size, which smooths its edges; reliefs
+    under light from all around have few sharp ones and cost hundreds of lamps."""
     content = json.loads(scene.read_text())
     width, height = content["size"]
-    scale = POSTER * (1 if "environment" in content else 2) / max(width, height)
+    scale = POSTER * (1 if "environment" in content and is_relief(content) else 2) / max(width, height)
     size = f"{round(width * scale)}x{round(height * scale)}"
     with tempfile.NamedTemporaryFile(suffix=".png") as file:
         subprocess.run([program, "render", scene, "-o", file.name, "--size", size], check=True)
@@ -57,9 +64,14 @@ def truth_name(scene: Path) -> str:
 def truth_of(program: Path, scene: Path, truth: Path, _facts: Path) -> None:
     """The exact picture of a scene, linear. The program writes beside it what it is and how far it may be off."""
     content = json.loads(scene.read_text())
-    side, directions = TRUTH_UNDER_SKY if "environment" in content else TRUTH_UNDER_LAMPS
+    if is_relief(content):
+        side, directions = TRUTH_UNDER_SKY if "environment" in content else TRUTH_UNDER_LAMPS
+        options = ["--directions", directions]
+    else:
+        side, rays, points = TRUTH_WITH_LIGHT_RAYS
+        options = ["--estimator", "light", "--photons", rays, "--samples", points]
     width, height = (round(length * side / max(content["size"])) for length in content["size"])
-    subprocess.run([program, "truth", scene, "-o", truth, "--size", f"{width}x{height}", "--directions", str(directions)],
+    subprocess.run([program, "truth", scene, "-o", truth, "--size", f"{width}x{height}", *map(str, options)],
                    check=True, stdout=subprocess.DEVNULL)
 
 

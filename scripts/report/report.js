@@ -23,6 +23,7 @@ const kErrors = {
   p99: { label: '99th percentile', of: (e) => e.p99 },
   max: { label: 'largest difference', of: (e) => e.max },
   flip: { label: 'FLIP', of: (e) => e.flip },
+  degrees: { label: 'median angle in degrees', of: (e) => e.degrees?.all.median },
   wrongShare: { label: 'share of wrong texels', of: (e) => e.wrongShare },
   ssim: { label: '1 - SSIM', of: (e) => (e.ssim == null ? null : 1 - e.ssim) },
 };
@@ -145,6 +146,10 @@ function front(points) {
   return points.filter((one) => !points.some((other) => beats(other.value, one.value))).sort((a, b) => a.value[0] - b.value[0]);
 }
 
+function angles(where, { median, p95, p99, lost }) {
+  return `${where}: half within ${number(median)}°, 95 % within ${number(p95)}°, 99 % within ${number(p99)}°, ${number(100 * lost)} % lost`;
+}
+
 function hover(m) {
   const lines = [
     `<b>${escaped(labelOf(m))}</b> ${escaped(knobsOf(m))}`,
@@ -152,7 +157,8 @@ function hover(m) {
     m.bakeMs == null ? null : `prepared in ${number(m.bakeMs)} ms`,
   ];
   if (m.error?.wrongShare != null) lines.push(`${number(100 * m.error.wrongShare)} % of the texels wrong`);
-  if (m.error?.rmse != null) lines.push(`RMSE ${number(m.error.rmse)}, ${number(m.error.relRmse)} of the mean`, `99 % within ${number(m.error.p99)}, all within ${number(m.error.max)}`);
+  if (m.error?.degrees) lines.push(angles('everywhere', m.error.degrees.all), angles('away from silhouettes', m.error.degrees.inside));
+  else if (m.error?.rmse != null) lines.push(`RMSE ${number(m.error.rmse)}, ${number(m.error.relRmse)} of the mean`, `99 % within ${number(m.error.p99)}, all within ${number(m.error.max)}`);
   if (m.error?.flip != null) lines.push(`FLIP ${number(m.error.flip)}, SSIM ${number(m.error.ssim)}`);
   if (m.modelError?.rmse != null) lines.push(`model error ${number(m.modelError.rmse)}`);
   lines.push(m.passes == null ? null : `${m.passes} passes, ${m.draws} draws, ${number(m.bytes / 1e6)} MB`, escaped(m.report));
@@ -236,6 +242,16 @@ function promises() {
   return [...heading('What was promised'), element('div', { class: 'card' }, table('Figures with their targets', columns, rows))];
 }
 
+const kAngleColumns = [
+  ['all', ''],
+  ['inside', ', inside'],
+].flatMap(([part, where]) => [
+  { title: `degrees${where}`, number: true, cell: (m) => number(m.error?.degrees?.[part].median) },
+  { title: `95 %${where}`, number: true, cell: (m) => number(m.error?.degrees?.[part].p95) },
+  { title: `99 %${where}`, number: true, cell: (m) => number(m.error?.degrees?.[part].p99) },
+  { title: `lost %${where}`, number: true, cell: (m) => number(m.error?.degrees && 100 * m.error.degrees[part].lost) },
+]);
+
 function measurementTable(title, measurements) {
   const error = (key) => (m) => number(m.error?.[key]);
   const noisy = (m) => m.error && m.truthNoise > 0 && m.error.rmse < 3 * m.truthNoise;
@@ -252,6 +268,7 @@ function measurementTable(title, measurements) {
       { title: 'over mean', number: true, cell: error('relRmse') },
       { title: '99 %', number: true, cell: error('p99') },
       { title: 'max', number: true, cell: error('max') },
+      ...(measurements.some((m) => m.error?.degrees) ? kAngleColumns : []),
       ...(measurements.some((m) => m.error?.wrongShare != null) ? [{ title: 'wrong texels', number: true, cell: error('wrongShare') }] : []),
       { title: 'FLIP', number: true, cell: error('flip') },
       { title: 'SSIM', number: true, cell: (m) => m.error?.ssim?.toFixed(5) ?? '–' },
@@ -285,7 +302,7 @@ function cases(metric) {
     return element('section', { class: 'card' }, element('h3', {}, title), element('div', { class: 'pair' }, figures), fold('Table', measurementTable(`Measurements: ${title}`, list)));
   });
   return [
-    ...heading('Time against error', 'Both axes are logarithmic; lower and farther left is better. Times are those of the picture less the same picture without light. Hover a point for its knobs and figures; click a name in the legend to hide a method. ≈ in a table: the error is within three times the exact solution’s own.'),
+    ...heading('Time against error', 'Both axes are logarithmic; lower and farther left is better. Times are those of the picture less the same picture without light, or, of refraction, without the glass; its errors away from silhouettes are those inside. Hover a point for its knobs and figures; click a name in the legend to hide a method. ≈ in a table: the error is within three times the exact solution’s own.'),
     element('div', { class: 'bar' }, element('label', { for: 'metric' }, 'Error shown'), choice),
     ...cards,
   ];

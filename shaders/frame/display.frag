@@ -1,8 +1,10 @@
 // frame/display.frag: from summed light to what is shown, or to the linear values of an output file.
 //
-// in    uSum     see relief/light.frag, views/geometry.frag
+// in    uSum     see relief/light.frag, views/geometry.frag; COMPOSED: refract/refract.frag, whose a is the coverage
 // out   oColor   LINEAR: values | coverage; else exposure, clamp and sRGB curve, premultiplied by the coverage
+#ifndef COMPOSED
 #include "views/surface_pixel.glsl"
+#endif
 #include "lib/shading.glsl"
 layout(std140) uniform DisplayBlock {
     vec4 scale;  // the value is scale * sum + shift, before the exposure
@@ -14,11 +16,15 @@ uniform sampler2D uSum;
 layout(location = 0) out vec4 oColor;
 
 void main() {
-    SurfacePixel pixel = readSurface();
     vec4 sum = texelFetch(uSum, ivec2(gl_FragCoord.xy), 0);
     vec3 value = display.isScalar != 0 ? vec3(sum.a) : sum.rgb;
     value = value * display.scale.rgb + display.shift.rgb;
+#ifdef COMPOSED
+    float coverage = sum.a;
+#else
+    SurfacePixel pixel = readSurface();
     float coverage = pixel.object < 0 ? 0.0 : pixel.coverage;
+#endif
 #ifdef LINEAR
     oColor = coverage > 0.0 ? vec4(value, coverage) : vec4(0.0);
 #else

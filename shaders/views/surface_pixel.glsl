@@ -1,8 +1,12 @@
 // views/surface_pixel.glsl: what views/surface.frag leaves in a pixel of the surface image, and its reading.
 //
-// xy: g of field.glsl; z: object-space height in metres; w: object * 8 + face + coverage / 2. 0: nothing there.
-// Faces: 1 the field itself; 2..5 the walls towards -x, +x, -y, +y of object space.
+// w: object * 8 + face + coverage / 2. 0: nothing there.
+// Height fields: xy: g of field.glsl; z: object-space height in metres. Faces: 1 the field itself; 2..5 the walls
+// towards -x, +x, -y, +y of object space.
+// Other shapes: face 6; xy: octahedral normal, world; z: depth along the view in metres.
 uniform sampler2D uSurface;
+
+const int kMeshFace = 6;
 
 struct SurfacePixel {
     vec2 g;

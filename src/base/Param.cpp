@@ -47,6 +47,7 @@ std::string kindInWords(const Param& param) {
     case Kind::Vector:
         return "3 numbers";
     case Kind::Range:
+    case Kind::Pair:
         return "2 numbers";
     }
     return {};
@@ -116,8 +117,9 @@ std::vector<double> parse(const Param& param, std::string_view text) {
 } // namespace
 
 std::string_view name(Group group) {
-    constexpr std::string_view names[] = {
-        "", "Light", "Material", "Falloff", "Environment", "Height field", "View"};
+    constexpr std::string_view names[] = {"",           "Light",       "Material",     "Falloff",
+                                          "Refraction", "Environment", "Height field", "Shape",
+                                          "Waves",      "View"};
     return names[int(group)];
 }
 
@@ -127,7 +129,7 @@ Settings::Settings(const ParamTable& table) : table_(&table), bytes_(table.size)
 
 int componentCount(Kind kind) {
     if (kind == Kind::Color || kind == Kind::Vector) return 3;
-    return kind == Kind::Range ? 2 : 1;
+    return kind == Kind::Range || kind == Kind::Pair ? 2 : 1;
 }
 
 std::string getText(const Param& param, const void* data) {

@@ -26,10 +26,11 @@ enum class Kind {
     Color,   ///< vec3, linear Rec. 709
     Vector,  ///< vec3
     Range,   ///< vec2, low and high end
+    Pair,    ///< vec2, along x and z
 };
 
 /// Where a parameter stands in a panel. The order is the order of the panel.
-enum class Group { None, Light, Material, Falloff, Environment, HeightField, View };
+enum class Group { None, Light, Material, Falloff, Refraction, Environment, HeightField, Shape, Waves, View };
 std::string_view name(Group group);
 
 /// One declared parameter. `kLimitless` as min or max means no bound on that side.
@@ -65,6 +66,7 @@ struct ParamText {
     std::span<const std::string_view> choices = {};
     std::string_view attribute = "";
     bool color = false; ///< a vec3 is a colour, not a vector
+    bool pair = false;  ///< a vec2 is a vector, not a range
 };
 
 /// Declares the parameter that lives in `member`; its kind follows from the member's type.
@@ -81,7 +83,7 @@ Param declare(Member Struct::*member, const ParamText& text) {
     else if constexpr (std::is_same_v<Member, vec3>)
         kind = text.color ? Kind::Color : Kind::Vector;
     else if constexpr (std::is_same_v<Member, vec2>)
-        kind = Kind::Range;
+        kind = text.pair ? Kind::Pair : Kind::Range;
     else
         static_assert(std::is_same_v<Member, float>, "a parameter is a float, int, bool, enum, vec2 or vec3");
     const auto offset =
@@ -132,9 +134,13 @@ struct BoundParam {
     const Param* param;
     void* data;           ///< the value
     const void* defaults; ///< the value to which reset goes back
+    bool shown = true;    ///< false: reachable by its path, but in no panel
+
+    /// Where it stands in the panel now.
+    Group group() const { return shown ? param->group : Group::None; }
 };
 
-/// Number of float components of a kind: 3 for colours and vectors, 2 for ranges, else 1.
+/// Number of float components of a kind: 3 for colours and vectors, 2 for ranges and pairs, else 1.
 int componentCount(Kind kind);
 
 /// Value as text: "0.3", "0.1 0.2 0.3", "true", "hierarchy". Shortest form that reads back to the same value.

@@ -10,6 +10,7 @@
 #include "frame/Renderer.h"
 #include "gl/Context.h"
 #include "measure/BudgetProof.h"
+#include "measure/RefractPlan.h"
 #include "measure/ReliefPlan.h"
 #include "scene/Load.h"
 #include "scene/readers/Readers.h"
@@ -34,11 +35,18 @@ struct BenchOptions {
     bool quick = false;
     std::string output;
     std::string gallery = "assets/generated/gallery";
+    std::string meshes = "assets/generated/meshes";
     std::string truths;
     std::string commit = LUCENT_COMMIT;
 };
 
-constexpr std::string_view kParts[] = {"relief", "environment", "scaling", "hard", "all", "budget"};
+constexpr std::string_view kParts[] = {"relief", "environment", "scaling", "hard",
+                                       "all",    "refraction",  "budget"};
+
+struct Parts {
+    measure::ReliefParts relief;
+    bool refraction = false;
+};
 
 // --- the machine
 
@@ -73,9 +81,9 @@ std::string today() {
 
 // --- what is measured
 
-Result<measure::ReliefParts> parseParts(const std::vector<std::string>& names) {
-    if (names.empty()) return measure::ReliefParts{};
-    measure::ReliefParts parts{false, false, false, false};
+Result<Parts> parseParts(const std::vector<std::string>& names) {
+    if (names.empty()) return Parts{};
+    Parts parts{{false, false, false, false}};
     for (const std::string& name : names) {
         if (std::find(std::begin(kParts), std::end(kParts), name) == std::end(kParts)) {
             std::string known;
@@ -84,11 +92,12 @@ Result<measure::ReliefParts> parseParts(const std::vector<std::string>& names) {
             return Error{"NAMES: is " + inQuotes(name) + "; must be one of " + known};
         }
         const bool all = name == "all";
-        parts.relief |= all || name == "relief";
-        parts.environment |= all || name == "environment";
-        parts.scaling |= all || name == "scaling";
-        parts.hard |= all || name == "hard";
-        parts.budget |= name == "budget";
+        parts.relief.relief |= all || name == "relief";
+        parts.relief.environment |= all || name == "environment";
+        parts.relief.scaling |= all || name == "scaling";
+        parts.relief.hard |= all || name == "hard";
+        parts.relief.budget |= name == "budget";
+        parts.refraction |= name == "refraction";
     }
     return parts;
 }
@@ -105,13 +114,16 @@ std::shared_ptr<const Image> thinned(std::shared_ptr<const Image> heights, int s
     return heights;
 }
 
-// The heights of a gallery scene's first object, for a field 1 m wide with at most `side` texels a side.
+// The heights of a gallery scene's first height field, for a field 1 m wide with at most `side` texels a
+// side.
 Result<measure::BenchField> fieldOf(const std::string& path, int side) {
     const Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), frame::techniques());
     if (!scene) return scene.error();
-    const scene::HeightField& shape = scene->objects.front().field();
-    return measure::BenchField{fs::path(path).stem().string(), thinned(shape.heights, side),
-                               shape.heightScale / shape.width};
+    for (const scene::Object& object : scene->objects)
+        if (const auto* field = std::get_if<scene::HeightField>(&object.shape))
+            return measure::BenchField{fs::path(path).stem().string(), thinned(field->heights, side),
+                                       field->heightScale / field->width};
+    return Error{path + ": has no height field; must have one to measure relief on"};
 }
 
 Result<measure::BenchEnvironment> environmentOf(const std::string& path) {
@@ -122,9 +134,11 @@ Result<measure::BenchEnvironment> environmentOf(const std::string& path) {
     return measure::BenchEnvironment{fs::path(path).filename().string(), *map};
 }
 
-Result<measure::Plan> makePlan(const BenchOptions& options, const measure::ReliefParts& parts) {
+Result<measure::Plan> makeReliefPlan(const BenchOptions& options, const measure::ReliefParts& parts) {
     std::vector<measure::BenchField> fields;
     std::vector<measure::BenchEnvironment> environments;
+    if (!parts.relief && !parts.environment && !parts.scaling && !parts.hard)
+        return measure::reliefPlan(parts, fields, environments, options.quick);
     if (!fs::is_directory(options.gallery)) {
         std::fprintf(stderr, "bench: %s: is no folder; elevation, dragon and sunset are left out\n",
                      options.gallery.c_str());
@@ -141,6 +155,52 @@ Result<measure::Plan> makePlan(const BenchOptions& options, const measure::Relie
     return measure::reliefPlan(parts, fields, environments, options.quick);
 }
 
+// The first mesh of a file that make_assets left; nothing when it is not there.
+Result<std::optional<measure::BenchMesh>> meshOf(const std::string& path) {
+    const std::string name = fs::path(path).stem().string();
+    if (!fs::exists(path)) {
+        std::fprintf(stderr, "bench: %s: is not there; %s is left out\n", path.c_str(), name.c_str());
+        return std::optional<measure::BenchMesh>();
+    }
+    const Result<Bytes> bytes = scene::plainFiles()(path);
+    if (!bytes) return bytes.error();
+    const Result<scene::Scene> scene = scene::sceneFromMesh(path, *bytes, frame::techniques());
+    if (!scene) return scene.error();
+    return std::optional(
+        measure::BenchMesh{name, std::get<scene::MeshShape>(scene->objects.front().shape).mesh});
+}
+
+Status addMesh(const std::string& path, std::vector<measure::BenchMesh>& meshes) {
+    const auto mesh = meshOf(path);
+    if (!mesh) return mesh.error();
+    if (*mesh) meshes.push_back(**mesh);
+    return Done{};
+}
+
+Result<measure::Plan> makeRefractPlan(const BenchOptions& options) {
+    std::vector<measure::BenchMesh> meshes, simpler;
+    if (Status added = addMesh(options.gallery + "/bunny.glb", meshes); !added) return added.error();
+    for (const std::string& path : {options.meshes + "/dragon-4k.glb", options.gallery + "/dragon-40k.glb",
+                                    options.meshes + "/dragon.glb"})
+        if (Status added = addMesh(path, simpler); !added) return added.error();
+    if (simpler.size() < 3) simpler.clear();
+    return measure::refractPlan(meshes, simpler, options.quick);
+}
+
+Result<measure::Plan> makePlan(const BenchOptions& options, const Parts& parts) {
+    Result<measure::Plan> plan = makeReliefPlan(options, parts.relief);
+    if (!plan || !parts.refraction) return plan;
+    Result<measure::Plan> more = makeRefractPlan(options);
+    if (!more) return more;
+    const auto append = [](auto& list, const auto& others) {
+        list.insert(list.end(), others.begin(), others.end());
+    };
+    append(plan->cases, more->cases);
+    append(plan->series, more->series);
+    append(plan->ratios, more->ratios);
+    return plan;
+}
+
 // --- the run
 
 /// Memory that one picture of a relief of 512 x 512 texels takes: before anything larger touches any.
@@ -153,11 +213,17 @@ Status drawOnce(gl::Context& context) {
     return Done{};
 }
 
+bool isRefraction(const scene::Scene& scene) {
+    return scene.view.show == scene::Aov::Direction || scene.view.show == scene::Aov::Layers;
+}
+
 measure::BenchReport runPlan(gl::Context& context, measure::Plan plan, const std::string& truths) {
     plan.truthParts = 1;
     const auto solve = [&](const scene::Scene& scene, int directions, const truth::Tile& rows) {
-        return cachedTruth(truthPath(truths, scene, directions),
-                           [&] { return measure::solveRelief(scene, directions, rows, 0); });
+        return cachedTruth(truthPath(truths, scene, directions), [&] {
+            return isRefraction(scene) ? measure::solveRefraction(scene, rows, 0)
+                                       : measure::solveRelief(scene, directions, rows, 0);
+        });
     };
     const auto start = std::chrono::steady_clock::now();
     std::unique_ptr<measure::Sweep> sweep;
@@ -196,7 +262,7 @@ Status proveBudget(gl::Context& context, const BenchOptions& options, measure::B
 }
 
 Status bench(const BenchOptions& options) {
-    const Result<measure::ReliefParts> parts = parseParts(options.parts);
+    const Result<Parts> parts = parseParts(options.parts);
     if (!parts) return parts.error();
     Result<measure::Plan> plan = makePlan(options, *parts);
     if (!plan) return plan.error();
@@ -205,7 +271,9 @@ Status bench(const BenchOptions& options) {
     for (const fs::path& needed : {folder, fs::path(truths)}) {
         std::error_code failed;
         fs::create_directories(needed, failed);
-        if (failed) return Error{needed.string() + ": cannot be made (" + failed.message() + ")"};
+        if (failed)
+            return Error{needed.string() + ": cannot be made (" + failed.message() +
+                         "); must be a folder, or a place where one can be made"};
     }
 
     const Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
@@ -220,7 +288,7 @@ Status bench(const BenchOptions& options) {
     report.commit = options.commit;
     report.contextMB = contextMB;
     report.peakMB = peakMB;
-    if (parts->budget)
+    if (parts->relief.budget)
         if (Status proved = proveBudget(**context, options, report); !proved) return proved;
     report.ratios.push_back({"MB resident with a relief of 512^2 texels", peakMB, 256, false});
     std::fputs(report.text().c_str(), stdout);
@@ -238,12 +306,15 @@ Command addBench(CLI::App& program) {
         program.add_subcommand("bench", "Measures speed against error, all methods in one run");
     const auto options = std::make_shared<BenchOptions>();
     parser->add_option("NAMES", options->parts,
-                       "Parts: relief, environment, scaling, hard, all of them without; budget");
+                       "Parts: relief, environment, scaling, hard, all of them without; refraction; budget");
     parser->add_flag("--quick", options->quick, "Smaller scenes, fewer repeats: two minutes without a GPU");
     parser->add_option("-o,--output", options->output, "Folder for bench.json and report.html")
         ->required()
         ->type_name("DIR");
-    parser->add_option("--gallery", options->gallery, "Folder with elevation, dragon and sunset")
+    parser->add_option("--gallery", options->gallery, "Folder with elevation, dragon, sunset and bunny")
+        ->capture_default_str()
+        ->type_name("DIR");
+    parser->add_option("--meshes", options->meshes, "Folder with the dragon in several numbers of triangles")
         ->capture_default_str()
         ->type_name("DIR");
     parser
@@ -255,6 +326,7 @@ Command addBench(CLI::App& program) {
     parser->footer("Examples:\n"
                    "  lucent bench --quick -o build/bench\n"
                    "  lucent bench relief environment -o build/bench\n"
+                   "  lucent bench refraction --quick -o build/bench-refraction\n"
                    "  lucent bench budget -o build/budget   # proves quality.maxError: half an hour");
     return {parser, [options] { return bench(*options); }};
 }

@@ -1,14 +1,15 @@
-// lucent convert: a mesh, a normal map or any image becomes a map of heights.
+// lucent convert: a mesh, a normal map or any image becomes a map of heights; a mesh another kind of mesh
+// file.
 #include "cli/Command.h"
 #include "cli/Files.h"
 
 #include "base/ImageSize.h"
 #include "scene/HeightSource.h"
+#include "scene/Mesh.h"
+#include "scene/readers/Obj.h"
 #include "scene/readers/Readers.h"
 
-#include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -25,26 +26,10 @@ struct ConvertOptions {
     bool forMesh() const { return !(size.empty() && rotate.empty() && margin.empty() && floorGap.empty()); }
 };
 
-/// Readers turn every mesh into the plain form, which starts with these letters (scene/Mesh.h).
-bool isMesh(std::span<const std::byte> bytes) {
-    constexpr std::string_view kMagic = "LUCENTM1";
-    return bytes.size() >= kMagic.size() && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
-}
-
-/// Reads an option by the declaration of the scene file's parameter of the same meaning.
-template <class Value>
-Status readParam(const std::string& option, const std::string& text, std::string_view id, Value& value) {
-    if (text.empty()) return Done{};
-    const auto params = scene::heightSourceParams().params;
-    const auto param = std::find_if(params.begin(), params.end(), [&](const Param& p) { return p.id == id; });
-    const Status set = setText(*param, &value, text);
-    return set ? set : Status(Error{option + ": " + set.error().message});
-}
-
 Result<HeightSource> sourceOf(const ConvertOptions& options, std::span<const std::byte> bytes) {
     HeightSource source;
     if (options.normals) source.kind = HeightSource::Kind::NormalMap;
-    if (isMesh(bytes)) source.kind = HeightSource::Kind::Mesh;
+    if (scene::isMesh(bytes)) source.kind = HeightSource::Kind::Mesh;
     if (source.kind == HeightSource::Kind::Mesh && options.normals)
         return Error{options.input + ": is a mesh; --normals takes an image"};
     if (source.kind != HeightSource::Kind::Mesh && options.forMesh())
@@ -55,20 +40,53 @@ Result<HeightSource> sourceOf(const ConvertOptions& options, std::span<const std
         if (!size) return size.error();
         source.resolution = *size;
     }
-    if (Status read = readParam("--rotate", options.rotate, "meshRotate", source.meshRotate); !read)
+    const ParamTable& table = scene::heightSourceParams();
+    if (Status read = readParam("--rotate", options.rotate, table, "meshRotate", &source.meshRotate); !read)
         return read.error();
-    if (Status read = readParam("--margin", options.margin, "margin", source.margin); !read)
+    if (Status read = readParam("--margin", options.margin, table, "margin", &source.margin); !read)
         return read.error();
-    if (Status read = readParam("--floor-gap", options.floorGap, "floorGap", source.floorGap); !read)
+    if (Status read = readParam("--floor-gap", options.floorGap, table, "floorGap", &source.floorGap); !read)
         return read.error();
     return source;
 }
 
+std::string endingOf(const std::string& path) { return std::filesystem::path(path).extension().string(); }
+
+// What a person wants to know of a mesh before light goes through it.
+void describe(const std::string& path, const scene::Mesh& mesh, std::size_t open) {
+    std::printf("%s: %zu vertices, %zu triangles, %s\n", path.c_str(), mesh.positions.size(),
+                mesh.indices.size() / 3,
+                open == 0 ? "closed" : (std::to_string(open) + " open edges").c_str());
+    for (const scene::Mesh::Part& part : mesh.parts)
+        std::printf("part \"%s\": %u triangles\n", part.material.c_str(), part.indexCount / 3);
+    if (mesh.moves()) std::printf("moves for %g s\n", double(mesh.rig.duration));
+}
+
+Status convertMesh(const ConvertOptions& options) {
+    if (options.normals || options.forMesh())
+        return Error{options.output +
+                     ": is a mesh; --normals, --size, --rotate, --margin and --floor-gap make heights"};
+    if (Status possible = checkFolder(options.output); !possible) return possible;
+    if (Status apart = checkNotRead(options.output, {options.input}); !apart) return apart;
+    const Result<Bytes> bytes = scene::plainFiles()(options.input);
+    if (!bytes) return bytes.error();
+    const Result<scene::Mesh> mesh = scene::decodeMesh(*bytes, options.input);
+    if (!mesh) return mesh.error();
+    const scene::Mesh still = scene::posed(*mesh, scene::poseAt(mesh->rig, 0)); // OBJ knows no motion
+    Bytes encoded = endingOf(options.output) == ".obj" ? scene::encodeObj(still) : *bytes;
+    if (Status written = writeAll({{options.output, std::move(encoded)}}); !written) return written;
+    describe(options.output, *mesh, scene::openEdges(still));
+    return Done{};
+}
+
 Status convert(const ConvertOptions& options) {
+    const std::string ending = endingOf(options.output);
+    if (ending == ".mesh" || ending == ".obj") return convertMesh(options);
     if (Status possible = checkImageOutput(options.output); !possible) return possible;
-    if (std::filesystem::path(options.output).extension() == ".png")
+    if (ending == ".png")
         return Error{options.output +
                      ": 8-bit PNG would make terraces of the heights; must be .pfm, .exr or .hdr"};
+    if (Status apart = checkNotRead(options.output, {options.input}); !apart) return apart;
     const Result<Bytes> bytes = scene::plainFiles()(options.input);
     if (!bytes) return bytes.error();
     const Result<HeightSource> source = sourceOf(options, *bytes);
@@ -89,12 +107,15 @@ Status convert(const ConvertOptions& options) {
 } // namespace
 
 Command addConvert(CLI::App& program) {
-    CLI::App* parser =
-        program.add_subcommand("convert", "Makes a height map from a mesh, a normal map or an image");
+    CLI::App* parser = program.add_subcommand(
+        "convert", "Makes a height map from a mesh, a normal map or an image, or another mesh file");
     const auto options = std::make_shared<ConvertOptions>();
-    parser->add_option("INPUT", options->input, "Mesh (.gltf, .glb) or image (.png, .jpg, .hdr, .exr, .pfm)")
+    parser
+        ->add_option("INPUT", options->input,
+                     "Mesh (.gltf, .glb, .obj, .mesh) or image (.png, .jpg, .hdr, .exr, .pfm)")
         ->required();
-    addOutput(*parser, options->output, "Heights: .pfm, .exr or .hdr");
+    addOutput(*parser, options->output,
+              "Heights: .pfm, .exr or .hdr; a mesh: .mesh (all of it, read fastest) or .obj (its rest)");
     parser->add_flag("--normals", options->normals,
                      "The image is a normal map: integrates it by least squares");
     parser->add_option("--size", options->size, "Mesh: texels of the height map [512x512]")->type_name("WxH");
@@ -108,7 +129,8 @@ Command addConvert(CLI::App& program) {
         ->type_name("G");
     parser->footer("Examples:\n"
                    "  lucent convert dragon.glb -o dragon.pfm --size 1024x768 --rotate 0,-20,0\n"
-                   "  lucent convert bricks-normal.png -o bricks.exr --normals");
+                   "  lucent convert bricks-normal.png -o bricks.exr --normals\n"
+                   "  lucent convert fish.glb -o fish.mesh");
     return {parser, [options] { return convert(*options); }};
 }
 

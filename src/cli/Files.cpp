@@ -7,6 +7,7 @@
 #include "scene/readers/Readers.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 
@@ -66,6 +67,35 @@ Result<scene::Scene> SceneOptions::load() const {
     return scene;
 }
 
+Result<std::vector<std::string>> SceneOptions::files() const {
+    const Result<Bytes> bytes = readFile(path);
+    if (!bytes) return bytes.error();
+    Result<std::vector<std::string>> files = scene::dependencies(path, *bytes);
+    if (files) files->push_back(path);
+    return files;
+}
+
+Status readParam(const std::string& option, const std::string& text, const ParamTable& table,
+                 std::string_view id, void* value) {
+    if (text.empty()) return Done{};
+    const auto param = std::find_if(table.params.begin(), table.params.end(),
+                                    [&](const Param& one) { return one.id == id; });
+    const Status set = setText(*param, value, text);
+    return set ? set : Status(Error{option + ": " + set.error().message});
+}
+
+CLI::Validator integerIn(std::int64_t low, std::int64_t high) {
+    const auto check = [low, high](const std::string& text) {
+        char* end = nullptr;
+        errno = 0;
+        const std::int64_t value = std::strtoll(text.c_str(), &end, 10);
+        if (!text.empty() && *end == 0 && errno == 0 && low <= value && value <= high) return std::string();
+        return "is " + inQuotes(text) + "; must be an integer in [" + std::to_string(low) + ", " +
+               std::to_string(high) + "]";
+    };
+    return CLI::Validator(check, "in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
+}
+
 Result<ivec2> parseSize(const std::string& option, const std::string& text, int largest) {
     char* end = nullptr;
     const long width = std::strtol(text.c_str(), &end, 10);
@@ -93,6 +123,14 @@ Status checkImageOutput(const std::string& path) {
     if (ending != ".png" && ending != ".hdr" && ending != ".exr" && ending != ".pfm")
         return Error{path + ": ends in no known image type; must be .png, .hdr, .exr or .pfm"};
     return checkFolder(path);
+}
+
+Status checkNotRead(const std::string& output, const std::vector<std::string>& inputs) {
+    std::error_code ignored; // where either is missing they are not the same
+    for (const std::string& input : inputs)
+        if (fs::equivalent(output, input, ignored))
+            return Error{output + ": is read as well; must be another file than " + input};
+    return Done{};
 }
 
 Result<Bytes> encode(const Image& image, const std::string& path) {

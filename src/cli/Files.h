@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +26,17 @@ struct SceneOptions {
     void addAovTo(CLI::App& parser, const std::string& help);
     /// Loads the scene and applies the options to it.
     Result<scene::Scene> load() const;
+    /// The scene's file and all that it names, for checkNotRead(). Error when it cannot be read.
+    Result<std::vector<std::string>> files() const;
 };
+
+/// Reads an option by the declaration of the parameter that it sets; "" leaves the value alone. Error
+/// "OPTION: is TEXT; must be ..."
+Status readParam(const std::string& option, const std::string& text, const ParamTable& table,
+                 std::string_view id, void* value);
+
+/// For integer options: "is TEXT; must be an integer in [LOW, HIGH]", to which CLI11 adds the option's name.
+CLI::Validator integerIn(std::int64_t low, std::int64_t high);
 
 /// "512x256" as pixels. Error "OPTION: is TEXT; must be ..."
 Result<ivec2> parseSize(const std::string& option, const std::string& text, int largest);
@@ -38,6 +49,9 @@ Status checkFolder(const std::string& path);
 
 /// The same for an image, whose ending must be known as well.
 Status checkImageOutput(const std::string& path);
+
+/// Refuses an output that is one of the files a command reads.
+Status checkNotRead(const std::string& output, const std::vector<std::string>& inputs);
 
 /// Encodes by the ending of `path`: .exr as well as what encodeImage() knows.
 Result<Bytes> encode(const Image& image, const std::string& path);

@@ -5,6 +5,7 @@
 #include "base/Param.h"
 #include "base/Text.h"
 #include "frame/Renderer.h"
+#include "scene/Keys.h"
 #include "scene/Scene.h"
 
 #include <cstddef>
@@ -28,11 +29,17 @@ std::vector<Section> sections() {
     for (const ParamTable* table : frame::techniques())
         all.push_back(
             {"technique " + std::string(table->name), "technique." + std::string(table->name), table});
-    all.push_back({"height field", "objects.NAME.shape", &scene::heightFieldParams()});
-    all.push_back({"material", "objects.NAME.material", &scene::materialParams()});
+    for (const scene::TypeKeys& shape : scene::shapeTypes())
+        all.push_back({"shape " + std::string(shape.type), "objects.NAME.shape", shape.keys.tables[0]});
+    const std::string material = "objects.NAME.material";
+    all.push_back({"material of height fields and opaque surfaces", material, &scene::colorParams()});
+    all.push_back({"material of height fields", material, &scene::reliefParams()});
+    all.push_back({"material of every other shape", material, &scene::opticsParams()});
+    all.push_back({"material where light is transmitted", material, &scene::refractionParams()});
     all.push_back({"transform", "objects.NAME.transform", &scene::transformParams()});
-    all.push_back({"point light", "lights.N", &scene::pointLightParams()});
-    all.push_back({"distant light", "lights.N", &scene::distantLightParams()});
+    all.push_back({"wave, not of height fields and water", "objects.NAME.wave", &scene::waveParams()});
+    for (const scene::TypeKeys& light : scene::lightTypes())
+        all.push_back({std::string(light.type) + " light", "lights.N", light.keys.tables[0]});
     all.push_back({"environment", "environment", &scene::environmentParams()});
     all.push_back({"camera", "camera", &scene::cameraParams()});
     all.push_back({"view", "view", &scene::viewParams()});
@@ -60,6 +67,8 @@ std::string_view kindName(Kind kind) {
         return "vector";
     case Kind::Range:
         return "range";
+    case Kind::Pair:
+        return "pair";
     }
     return "";
 }
@@ -88,7 +97,7 @@ void printText() {
             if (const std::string legal = legalValues(param); !legal.empty()) facts += " " + legal;
             if (!param.unit.empty()) facts += " " + std::string(param.unit);
             facts += ", default " + getText(param, defaultOf(*section.table, param));
-            std::printf("  %-18s %s\n  %-18s %s\n", std::string(param.id).c_str(), facts.c_str(), "",
+            std::printf("  %-20s %s\n  %-20s %s\n", std::string(param.id).c_str(), facts.c_str(), "",
                         std::string(param.doc).c_str());
         }
         std::printf("\n");

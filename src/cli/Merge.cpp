@@ -18,6 +18,7 @@ struct MergeOptions {
 
 Status merge(const MergeOptions& options) {
     if (Status possible = options.output.check(); !possible) return possible;
+    if (Status kept = options.output.checkNotAmong(options.parts); !kept) return kept;
     std::vector<truth::Part> parts;
     for (const std::string& path : options.parts) {
         const Result<Bytes> bytes = readFile(path);
@@ -38,8 +39,9 @@ Command addMerge(CLI::App& program) {
     parser->add_option("PARTS", options->parts, "Files of lucent truth --tile, in any order")->required();
     options->output.addTo(*parser);
     parser->footer(
-        "The picture is, bit by bit, the one that lucent truth makes in one piece. Parts of other\n"
-        "pictures, parts given twice and missing parts are refused.\n\n"
+        "The picture is, bit by bit, the one that lucent truth makes in one piece; one by light rays is\n"
+        "the mean of its parts, weighted by their numbers of rays. Parts of other pictures, parts given\n"
+        "twice and missing parts are refused.\n\n"
         "Example:\n"
         "  lucent merge coin-*.tile -o truth.pfm");
     return {parser, [options] { return merge(*options); }};

@@ -15,6 +15,7 @@ struct ReportOptions {
 
 Status report(const ReportOptions& options) {
     if (Status possible = checkFolder(options.output); !possible) return possible;
+    if (Status apart = checkNotRead(options.output, options.reports); !apart) return apart;
     std::vector<std::string> reports;
     for (const std::string& path : options.reports) {
         const Result<Bytes> bytes = readFile(path);
@@ -34,7 +35,7 @@ Command addReport(CLI::App& program) {
     parser->add_option("JSON", options->reports, "What lucent bench, the page or a peer's script wrote")
         ->required();
     addOutput(*parser, options->output, "The page: one HTML file that needs no other");
-    parser->footer("Examples:\n"
+    parser->footer("Example:\n"
                    "  lucent report native/bench.json browser.json peers.json -o report.html");
     return {parser, [options] { return report(*options); }};
 }

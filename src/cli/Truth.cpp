@@ -1,17 +1,22 @@
-// lucent truth: the exact model, or the physics that it stands for, on the CPU.
+// lucent truth: the exact models, or the physics that they stand for, on the CPU.
 #include "cli/Command.h"
 #include "cli/Files.h"
 #include "cli/ProgressBar.h"
 #include "cli/TruthOutput.h"
 
 #include "base/Text.h"
+#include "frame/Renderer.h"
 #include "relief/Relief.h"
+#include "truth/Glass.h"
 #include "truth/Lambert.h"
+#include "truth/LightTracer.h"
 #include "truth/RenderRelief.h"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 
 namespace lucent::cli {
@@ -20,8 +25,11 @@ namespace {
 struct TruthOptions {
     SceneOptions scene;
     TruthOutput output;
-    std::string estimator = "relief";
-    std::string tile; ///< "I/N"; empty: the whole picture
+    std::string estimator; ///< empty: by the scene; see chosenEstimator()
+    std::string tile;      ///< "I/N"; empty: the whole picture
+    std::int64_t photons = truth::LightOptions{}.photons;
+    const CLI::Option* photonsGiven = nullptr;
+    bool antialias = false;
     int samples = truth::ReliefOptions{}.discSamples;
     int directions = truth::ReliefOptions{}.environmentLights;
     const CLI::Option* directionsGiven = nullptr;
@@ -32,8 +40,56 @@ struct TruthOptions {
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free); // or a signal handler must not touch it
 
+bool isLight(const TruthOptions& options) {
+    return options.estimator == "light" || options.estimator == "light-tree";
+}
+bool isGlass(const TruthOptions& options) {
+    return options.estimator == "glass" || options.estimator == "glass-tree";
+}
+truth::Branching branchingOf(const TruthOptions& options) {
+    const bool tree = options.estimator == "glass-tree" || options.estimator == "light-tree";
+    return tree ? truth::Branching::Tree : truth::Branching::Chain;
+}
+
+/// What a scene is solved by unless it is said: irradiance, and colours where caustics belong to what is
+/// drawn, by light; height fields alone by the relief model; all else by what is seen through glass.
+std::string chosenEstimator(const scene::Scene& scene) {
+    if (scene.view.show == scene::Aov::Irradiance) return "light";
+    if (scene.view.show == scene::Aov::Color && frame::need(scene, "caustics")) return "light";
+    const bool fields = std::all_of(scene.objects.begin(), scene.objects.end(),
+                                    [](const scene::Object& object) { return object.isField(); });
+    return fields ? "relief" : "glass";
+}
+
+/// Irradiance is of light alone; the estimators of height fields leave out everything else.
+Status checkEstimator(const scene::Scene& scene, const TruthOptions& options) {
+    const scene::Aov aov = scene.view.show;
+    const std::string name(scene::aovNames()[std::size_t(aov)]);
+    if (aov == scene::Aov::Irradiance && !isLight(options))
+        return Error{"--estimator: " + options.estimator +
+                     " does not solve the AOV irradiance; must be light or light-tree"};
+    if (isLight(options) && aov != scene::Aov::Irradiance && aov != scene::Aov::Color)
+        return Error{"--estimator: " + options.estimator + " does not solve the AOV " + name +
+                     "; must be glass, or --aov irradiance or color"};
+    if (isLight(options) || isGlass(options)) return Done{};
+    for (const scene::Object& object : scene.objects)
+        if (!object.isField())
+            return Error{"--estimator: " + options.estimator + " knows height fields only, and object " +
+                         inQuotes(object.name) + " is none; must be glass, glass-tree, light or light-tree"};
+    return Done{};
+}
+
 Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scene,
                                                         const TruthOptions& options) {
+    if (isGlass(options)) {
+        auto glass = truth::GlassEstimator::create(scene, scene.size, scene.view.show,
+                                                   {.branching = branchingOf(options),
+                                                    .samples = options.samples,
+                                                    .antialias = options.antialias,
+                                                    .seed = options.seed});
+        if (!glass) return glass.error();
+        return std::unique_ptr<truth::Estimator>(new truth::GlassEstimator(std::move(*glass)));
+    }
     const auto& settings = scene.technique.at("relief").as<relief::Settings>();
     if (options.estimator == "lambert") {
         auto lambert = truth::LambertEstimator::create(
@@ -54,6 +110,21 @@ Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scen
         new truth::ReliefEstimator(scene, scene.size, scene.view.show, model));
 }
 
+Result<truth::Picture> solve(const scene::Scene& scene, const TruthOptions& options, const truth::Tile& tile,
+                             const truth::Work& work) {
+    if (isLight(options))
+        return truth::traceLight(scene, scene.size,
+                                 {.aov = scene.view.show,
+                                  .branching = branchingOf(options),
+                                  .photons = options.photons,
+                                  .samples = options.samples,
+                                  .seed = options.seed},
+                                 tile, work, interrupted);
+    const auto estimator = makeEstimator(scene, options);
+    if (!estimator) return estimator.error();
+    return truth::render(**estimator, scene.size, tile, work, interrupted);
+}
+
 truth::Facts factsOf(const scene::Scene& scene, const TruthOptions& options) {
     return {.scene = options.scene.path,
             .fingerprint = truth::fingerprint(scene),
@@ -63,45 +134,66 @@ truth::Facts factsOf(const scene::Scene& scene, const TruthOptions& options) {
             .seed = options.seed,
             .samples = options.samples,
             .directions = options.estimator == "relief" ? options.directions : 0,
+            .photons = isLight(options) ? options.photons : 0,
+            .antialias = options.antialias,
             .exposure = scene.view.exposure};
 }
 
 /// "3/8": the third of eight parts.
-Result<truth::Tile> parseTile(const std::string& text, int rows) {
+///
+/// @param most  parts that there can be, and what they are made of
+Result<truth::Tile> parseTile(const std::string& text, std::int64_t most, const std::string& unit) {
     char* end = nullptr;
     const long index = std::strtol(text.c_str(), &end, 10);
     const long count = *end == '/' ? std::strtol(end + 1, &end, 10) : 0;
-    if (*end != 0 || index < 1 || count < index || count > rows)
+    if (*end != 0 || index < 1 || count < index || count > most)
         return Error{"--tile: is " + inQuotes(text) +
-                     "; must be I/N with I from 1 to N, and N at most the picture's " + std::to_string(rows) +
-                     " rows"};
+                     "; must be I/N with I from 1 to N, and N at most the picture's " + std::to_string(most) +
+                     " " + unit};
     return truth::Tile{int(index) - 1, int(count)};
 }
 
+Result<truth::Tile> tileOf(const scene::Scene& scene, const TruthOptions& options) {
+    constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+    if (options.tile.empty()) return truth::Tile{};
+    if (isLight(options)) return parseTile(options.tile, std::min(options.photons, kMost), "light rays");
+    return parseTile(options.tile, scene.size.y, "rows");
+}
+
 Status checkOptions(const TruthOptions& options) {
-    if (options.estimator == "lambert" && options.directionsGiven->count() > 0)
-        return Error{"--directions: is of the relief estimator; must be --samples for lambert"};
+    if (options.estimator != "relief" && options.directionsGiven->count() > 0)
+        return Error{"--directions: is of the relief estimator; must be --samples for " + options.estimator};
+    if (!isLight(options) && options.photonsGiven->count() > 0)
+        return Error{"--photons: is of the light estimators; must be --samples for " + options.estimator};
+    if (!isGlass(options) && options.antialias)
+        return Error{"--antialias: is of the glass estimators; must be left out for " + options.estimator};
+    return Done{};
+}
+
+Status checkOutput(const TruthOptions& options) {
     if (options.tile.empty()) return options.output.check();
     if (!options.output.errors.empty())
         return Error{"--errors: is of the whole picture; must be given to lucent merge"};
     return checkFolder(options.output.picture);
 }
 
-Status makeTruth(const TruthOptions& options) {
-    if (Status possible = checkOptions(options); !possible) return possible;
+Status makeTruth(TruthOptions options) {
+    if (Status possible = checkOutput(options); !possible) return possible;
+    const Result<std::vector<std::string>> read = options.scene.files();
+    if (!read) return read.error();
+    if (Status kept = options.output.checkNotAmong(*read); !kept) return kept;
     const Result<scene::Scene> scene = options.scene.load();
     if (!scene) return scene.error();
-    const Result<truth::Tile> tile =
-        options.tile.empty() ? truth::Tile{} : parseTile(options.tile, scene->size.y);
+    if (options.estimator.empty()) options.estimator = chosenEstimator(*scene);
+    if (Status possible = checkOptions(options); !possible) return possible;
+    if (Status possible = checkEstimator(*scene, options); !possible) return possible;
+    const Result<truth::Tile> tile = tileOf(*scene, options);
     if (!tile) return tile.error();
-    const auto estimator = makeEstimator(*scene, options);
-    if (!estimator) return estimator.error();
 
     std::signal(SIGINT, [](int) { interrupted = true; });
     Result<truth::Picture> picture = [&] {
         ProgressBar bar;
-        return truth::render(**estimator, scene->size, *tile,
-                             {options.threads, [&](double share) { bar.show(share); }}, interrupted);
+        return solve(*scene, options, *tile, {options.threads, [&](double share) { bar.show(share); }});
     }();
     if (!picture) return picture.error();
     const truth::Facts facts = factsOf(*scene, options);
@@ -114,19 +206,38 @@ Command addTruth(CLI::App& program) {
     CLI::App* parser = program.add_subcommand("truth", "Solves a scene's model exactly, on the CPU");
     const auto options = std::make_shared<TruthOptions>();
     options->scene.addTo(*parser);
-    options->scene.addAovTo(*parser, "Quantity to solve: color or d (illumination)");
+    options->scene.addAovTo(
+        *parser,
+        "Quantity to solve: of height fields color or d (illumination); of other scenes color, irradiance, "
+        "direction, layers, normal, depth or position");
     options->output.addTo(*parser);
     parser
         ->add_option(
             "--estimator", options->estimator,
-            "relief: the model; lambert: ray-traced direct light on a matt surface, which it stands for")
-        ->check(CLI::IsMember({"relief", "lambert"}))
-        ->capture_default_str();
+            "Of height fields relief: the model; lambert: ray-traced direct light on a matt surface, which "
+            "it "
+            "stands for. Of what is seen through glass, without caustics, glass: the model; glass-tree: "
+            "every "
+            "reflection, which it leaves out. Of irradiance, and of colours with caustics, light: the model; "
+            "light-tree: with every reflection. Unless given: irradiance, and colours of scenes whose "
+            "picture is "
+            "drawn with caustics (lucent explain names them), by light; height fields alone by relief; all "
+            "else by "
+            "glass")
+        ->check(CLI::IsMember({"relief", "lambert", "glass", "glass-tree", "light", "light-tree"}));
     parser
-        ->add_option("--samples", options->samples,
-                     "Points on the disc of each soft light; with lambert also directions of the environment")
+        ->add_option(
+            "--samples", options->samples,
+            "Points of each light that has a size, and of the environment on matt surfaces; with glass-tree "
+            "paths")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
+    options->photonsGiven =
+        parser->add_option("--photons", options->photons, "Light rays of light and light-tree")
+            ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 40))
+            ->capture_default_str();
+    parser->add_flag("--antialias", options->antialias,
+                     "With glass and glass-tree: samples all over each pixel, not in its middle");
     options->directionsGiven = parser
                                    ->add_option("--directions", options->directions,
                                                 "Directions that stand for the environment in relief")
@@ -138,7 +249,7 @@ Command addTruth(CLI::App& program) {
         ->capture_default_str();
     parser
         ->add_option("--tile", options->tile,
-                     "Solves part I of N (every N-th row) for lucent merge; -o takes any name")
+                     "Solves part I of N (every N-th row or light ray) for lucent merge; -o takes any name")
         ->type_name("I/N");
     parser->add_option("--threads", options->threads, "0: as many as the machine has")
         ->check(CLI::Range(0, 1024))
@@ -149,7 +260,9 @@ Command addTruth(CLI::App& program) {
         "  lucent truth coin.json -o truth.pfm\n"
         "  lucent truth coin.json -o d.exr --aov d --size 256x256\n"
         "  lucent truth coin.json -o physics.pfm --estimator lambert --samples 1024\n"
-        "  lucent truth coin.json -o coin-3.tile --tile 3/8");
+        "  lucent truth coin.json -o coin-3.tile --tile 3/8\n"
+        "  lucent truth ball.json -o direction.exr --aov direction\n"
+        "  lucent truth ball.json -o floor.exr --aov irradiance --photons 100000000");
     return {parser, [options] { return makeTruth(*options); }};
 }
 

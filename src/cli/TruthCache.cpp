@@ -4,6 +4,7 @@
 #include "base/File.h"
 #include "base/Pfm.h"
 #include "scene/Load.h"
+#include "scene/Mesh.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -75,9 +76,13 @@ std::string truthPath(const std::string& folder, const scene::Scene& scene, int 
     hash.add(std::as_bytes(std::span(view)));
     if (scene.environment) hash.add(scene.environment->map.get());
     for (const scene::Object& object : scene.objects) {
+        if (const auto* field = std::get_if<scene::HeightField>(&object.shape))
+            for (const auto& map : {field->heights, field->alpha})
+                hash.add(map.get());
+        if (const auto* shape = std::get_if<scene::MeshShape>(&object.shape))
+            hash.add(encodeMesh(*shape->mesh));
         const scene::Material& material = object.material;
-        for (const auto& map : {object.field().heights, object.field().alpha, material.baseMap,
-                                material.diffuseMap, material.specularMap})
+        for (const auto& map : {material.baseMap, material.diffuseMap, material.specularMap})
             hash.add(map.get());
     }
     return (std::filesystem::path(folder) / (hash.text() + ".pfm")).string();

@@ -36,12 +36,18 @@ Status TruthOutput::check() const {
     return checkImageOutput(errors);
 }
 
-Status TruthOutput::write(const truth::Facts& facts, const truth::Picture& solved) const {
+Status TruthOutput::checkNotAmong(const std::vector<std::string>& inputs) const {
+    for (const std::string& output : {picture, facts(), errors})
+        if (Status kept = checkNotRead(output, inputs); !kept) return kept;
+    return Done{};
+}
+
+Status TruthOutput::write(const truth::Facts& what, const truth::Picture& solved) const {
     const bool displayed = std::filesystem::path(picture).extension() == ".png";
-    Result<Bytes> encoded = encode(displayed ? toDisplay(solved.values, facts) : solved.values, picture);
+    Result<Bytes> encoded = encode(displayed ? toDisplay(solved.values, what) : solved.values, picture);
     if (!encoded) return encoded.error();
     std::vector<Output> outputs{{picture, std::move(*encoded)},
-                                {picture + ".json", toBytes(truth::sidecar(facts, solved))}};
+                                {facts(), toBytes(truth::sidecar(what, solved))}};
     if (!errors.empty()) {
         Result<Bytes> more = encode(solved.errors, errors);
         if (!more) return more.error();

@@ -36,7 +36,8 @@ bool hasEnvironment(const scene::Scene& scene) { return scene.environment && sce
 
 bool hasSize(const scene::Light& light) {
     const auto* point = std::get_if<scene::PointLight>(&light);
-    return point ? point->radius > 0 : std::get<scene::DistantLight>(light).angle > 0;
+    const auto* distant = std::get_if<scene::DistantLight>(&light);
+    return (point && point->radius > 0) || (distant && distant->angle > 0);
 }
 
 bool hasLargeLamp(const scene::Scene& scene) {
@@ -74,7 +75,9 @@ std::string Budget::Choice::text() const {
     return kept ? text : text + ": nothing keeps the wanted error";
 }
 
-bool Budget::matters(const scene::Scene& scene) { return hasEnvironment(scene) || hasLargeLamp(scene); }
+bool Budget::matters(const scene::Scene& scene) {
+    return relief::Relief::need(scene) && (hasEnvironment(scene) || hasLargeLamp(scene));
+}
 
 void Budget::start(const scene::Scene& scene, ivec2 size) {
     wanted_ = scene.quality.maxError / kSafety;
@@ -120,7 +123,8 @@ Status Budget::drawSurface(const scene::Scene& scene) {
     const graph::TextureId target = graph.import(surface_.handle(), desc, surface_.label());
     graph.keep(target);
     const views::Eye eye = views::makeEye(scene, float(size_.x) / float(size_.y));
-    if (Status s = views::recordSurface(graph, context_, eye, *objects, target, sampleSize_); !s) return s;
+    if (Status s = views::recordSurface(graph, context_, eye, *objects, {}, target, sampleSize_); !s)
+        return s;
     if (Status s = graph.compile(); !s) return s;
     graph.execute(pool_);
     if (std::string error = context_.takeError(); !error.empty()) return Error{error, Fault::Machine};
@@ -382,7 +386,8 @@ Status Budget::refine(const scene::Scene& scene, Part part, int& count, int cand
 double Budget::transferRays(const scene::Scene& scene) const {
     double rays = 0;
     for (const scene::Object& object : scene.objects)
-        if (object.visible) rays += relief::transferRays(object.field().texels(), relief::kMostTerms);
+        if (object.visible && object.isField())
+            rays += relief::transferRays(object.field().texels(), relief::kMostTerms);
     return rays;
 }
 

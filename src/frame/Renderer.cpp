@@ -1,6 +1,7 @@
 #include "frame/Renderer.h"
 
 #include "frame/Budget.h"
+#include "frame/Compose.h"
 #include "graph/FrameGraph.h"
 #include "relief/Relief.h"
 #include "relief/Transfers.h"
@@ -74,7 +75,7 @@ bool seesWalls(const scene::Scene& scene) {
     const vec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
     return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
         const vec3 down = rotationFromDegrees(object.transform.rotate) * vec3(0, 0, -1);
-        return object.visible && glm::length(forward - down) > 1e-6f;
+        return object.visible && object.isField() && glm::length(forward - down) > 1e-6f;
     });
 }
 
@@ -99,7 +100,6 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
         block.scale = vec4(1.0f / 128);
         break;
     case Aov::Layers: // white at 16 interfaces
-        block.isScalar = 1;
         block.scale = vec4(1.0f / 16);
         break;
     case Aov::Normal:
@@ -130,11 +130,11 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
     return block;
 }
 
-// What the surface image depends on.
+// What the images of a view depend on.
 struct SurfaceKey {
     struct Object {
-        std::shared_ptr<const Image> heights, alpha;
-        float width, heightScale;
+        std::shared_ptr<const void> shape, mask;
+        std::vector<float> numbers;
         mat4 worldFromObject;
         bool visible;
         bool operator==(const Object&) const = default;
@@ -142,15 +142,40 @@ struct SurfaceKey {
     std::vector<Object> objects;
     mat4 clipFromWorld;
     ivec2 size;
+    bool showsGlass;      // its surface, not what is behind
+    std::uint64_t waters; // Waters::changes()
     bool operator==(const SurfaceKey&) const = default;
 };
 
-SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size) {
-    SurfaceKey key{{}, views::makeEye(scene, float(size.x) / float(size.y)).clipFromWorld, size};
+SurfaceKey::Object keyOf(const scene::Object& object, float time) {
+    SurfaceKey::Object key{nullptr, nullptr, {}, object.transform.worldFromObject(), object.visible};
+    if (object.isField()) {
+        const scene::HeightField& field = object.field();
+        key.shape = field.heights;
+        key.mask = field.alpha;
+        key.numbers = {field.width, field.heightScale};
+        return key;
+    }
+    const std::shared_ptr<const scene::Mesh> mesh = views::meshOf(object);
+    const scene::Wave& wave = object.wave;
+    const bool waved = wave.amplitude != vec3(0);
+    key.shape = mesh;
+    key.numbers = {float(object.material.isRefractive()), waved || mesh->moves() ? time : 0};
+    if (waved)
+        for (float value : {wave.amplitude.x, wave.amplitude.y, wave.amplitude.z, wave.direction.x,
+                            wave.direction.y, wave.direction.z, wave.wavelength, wave.period})
+            key.numbers.push_back(value);
+    return key;
+}
+
+SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t waters) {
+    SurfaceKey key{{},
+                   views::makeEye(scene, float(size.x) / float(size.y)).clipFromWorld,
+                   size,
+                   isGeometric(scene.view.show),
+                   waters};
     for (const scene::Object& object : scene.objects)
-        key.objects.push_back({object.field().heights, object.field().alpha, object.field().width,
-                               object.field().heightScale, object.transform.worldFromObject(),
-                               object.visible});
+        key.objects.push_back(keyOf(object, scene.view.time));
     return key;
 }
 
@@ -162,8 +187,17 @@ double now() {
 } // namespace
 
 std::span<const ParamTable* const> techniques() {
-    static const ParamTable* const list[] = {&relief::Relief::params()};
+    static const ParamTable* const list[] = {&relief::Relief::params(), &brdf::Brdf::params(),
+                                             &caustics::Caustics::params()};
     return list;
+}
+
+std::optional<std::string> need(const scene::Scene& scene, std::string_view technique) {
+    if (technique == "relief") return relief::Relief::need(scene);
+    if (technique == "brdf") return brdf::Brdf::need(scene);
+    if (technique == "caustics") return caustics::Caustics::need(scene);
+    if (technique == "refract") return refract::Refract::need(scene);
+    return std::nullopt;
 }
 
 // A picture is made in stages: first with few directions of the environment, then with more. A stage is
@@ -181,13 +215,14 @@ struct Renderer::State {
     enum class Effort { Coarse, Progressive, Final }; // one first look; looks, then all; all at once
 
     explicit State(gl::Context& gl)
-        : context(gl), pool(gl.device()), images(gl), relief(gl), transfers(gl),
+        : context(gl), pool(gl.device()), images(gl), relief(gl), compose(gl, pool, images), transfers(gl),
           budget(gl, pool, images, relief) {}
 
     gl::Context& context;
     graph::TexturePool pool;
     views::ImageCache images;
     relief::Relief relief;
+    Compose compose;
     graph::Texture surface, shownSurface, shown, sum, scratch, lightTable;
     relief::Transfers transfers;
     Budget budget;
@@ -202,6 +237,7 @@ struct Renderer::State {
     bool dragged = false;
     bool planning = false;                           // the settings are still to be chosen
     relief::Settings settings;                       // that this picture is made with
+    bool composed = false;                           // the picture stands in compose.through()
     bool surfaceDrawn = false, surfaceShown = false; // of this picture
     std::optional<SurfaceKey> shownKey;              // what shownSurface was drawn for
     std::vector<Stage> stages;
@@ -227,8 +263,16 @@ struct Renderer::State {
     Result<bool> prepareTransfers(const scene::Scene& scene, const std::vector<views::DrawnObject>& objects);
     Status slice(const scene::Scene& scene);
     Status recordSlice(graph::FrameGraph& graph, const scene::Scene& scene, const views::Eye& eye,
-                       const std::vector<views::DrawnObject>& objects, int end);
-    std::string leftOut(const scene::Scene& scene, const std::vector<views::DrawnObject>& objects) const;
+                       const Drawn& drawn, int end);
+    Status recordRelief(graph::FrameGraph& graph, const scene::Scene& scene, const views::Eye& eye,
+                        const Drawn& drawn, graph::TextureId surfaceId, graph::TextureId targetId, int end);
+    Status addOthers(const scene::Scene& scene, const Drawn& drawn);
+    Compose::Inputs composeInputs(const scene::Scene& scene, const views::Eye& eye,
+                                  const Drawn& drawn) const {
+        return {scene, eye, drawn, shownSurface, shown, coarse || dragged};
+    }
+    const graph::Texture& picture() const { return composed ? compose.through() : shown; }
+    std::string leftOut(const scene::Scene& scene, const Drawn& drawn) const;
     Status runGraph(const std::function<Status(graph::FrameGraph&)>& record);
     Result<Image> display(const scene::Scene& scene, bool linear);
     Status recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target,
@@ -248,7 +292,8 @@ void Renderer::State::start(const scene::Scene& scene, std::uint64_t newRevision
     revision = newRevision;
     size = newSize;
     makeTargets();
-    surfaceDrawn = surfaceShown = shownKey == surfaceKey(scene, newSize); // light alone may have changed
+    surfaceDrawn = surfaceShown =
+        shownKey == surfaceKey(scene, newSize, compose.waters().changes()); // light alone may have changed
     stage = 0;
     workMs = planMs = 0;
     drawsBefore = context.device().drawCount();
@@ -288,7 +333,8 @@ void Renderer::State::chooseSettings(const scene::Scene& scene, Effort effort) {
 }
 
 void Renderer::State::addStages(const scene::Scene& scene, Effort effort) {
-    const bool manyLights = hasEnvironment(scene) && !isGeometric(scene.view.show);
+    const bool manyLights =
+        relief::Relief::need(scene) && hasEnvironment(scene) && !isGeometric(scene.view.show);
     const int wanted = settings.environmentLights;
     const bool transfer = manyLights && settings.method == relief::Method::Transfer && showsLight(scene);
     const bool atOnce = effort == Effort::Final || (transfer && transfers.ready(scene, settings));
@@ -298,7 +344,7 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort) {
     if (transfer)
         stages.push_back({seesWalls(scene) ? wanted : 0, true});
     else
-        stages.push_back({wanted, false});
+        stages.push_back({manyLights ? wanted : 0, false});
     coarse = effort == Effort::Coarse && (stages.size() > 1 || limited(scene));
     if (coarse) stages.resize(1);
 }
@@ -416,21 +462,44 @@ Status Renderer::State::runGraph(const std::function<Status(graph::FrameGraph&)>
 }
 
 Status Renderer::State::recordSlice(graph::FrameGraph& graph, const scene::Scene& scene,
-                                    const views::Eye& eye, const std::vector<views::DrawnObject>& objects,
-                                    int end) {
+                                    const views::Eye& eye, const Drawn& drawn, int end) {
     const auto import = [&](const graph::Texture& texture) {
         return graph.import(texture.handle(), texture.desc(), texture.label());
     };
     const graph::TextureId surfaceId = import(surfaceShown ? shownSurface : surface);
     const graph::TextureId targetId = import(next > 0 ? scratch : sum);
     graph.keep(targetId);
-    if (!surfaceDrawn)
-        if (Status s = views::recordSurface(graph, context, eye, objects, surfaceId, size); !s) return s;
+    std::vector<views::DrawnMesh> meshes = drawn.meshes.solid;
     if (isGeometric(scene.view.show))
-        return views::recordGeometry(graph, context, eye, objects, surfaceId, targetId, scene.view.show);
+        meshes.insert(meshes.end(), drawn.meshes.glass.begin(), drawn.meshes.glass.end());
+    Result<std::vector<views::PosedMesh>> solids = views::recordPose(graph, context, meshes, scene.view.time);
+    if (!solids) return solids.error();
+    if (!surfaceDrawn && !solids->empty()) graph.keep(surfaceId); // read after this graph
+    if (!surfaceDrawn)
+        if (Status s = views::recordSurface(graph, context, eye, drawn.fields, *solids, surfaceId, size); !s)
+            return s;
+    if (isGeometric(scene.view.show))
+        return views::recordGeometry(graph, context, eye, drawn.fields, *solids, surfaceId, targetId,
+                                     scene.view.show, size);
+    if (!drawn.fields.empty()) return recordRelief(graph, scene, eye, drawn, surfaceId, targetId, end);
+    graph.addPass("frame.clear", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("no height field draws there");
+        pass.write(targetId);
+        pass.clear(targetId, vec4(0));
+        return [](const graph::Resources&, graph::Commands&) {};
+    });
+    return Done{};
+}
+
+Status Renderer::State::recordRelief(graph::FrameGraph& graph, const scene::Scene& scene,
+                                     const views::Eye& eye, const Drawn& drawn, graph::TextureId surfaceId,
+                                     graph::TextureId targetId, int end) {
+    const auto import = [&](const graph::Texture& texture) {
+        return graph.import(texture.handle(), texture.desc(), texture.label());
+    };
     std::vector<relief::Transferred> transferred;
     if (stages[stage].transfer) {
-        transferred.resize(objects.size()); // slices after the first add light to walls only
+        transferred.resize(drawn.fields.size()); // slices after the first add light to walls only
         if (next == 0) {
             auto recorded = transfers.record(graph);
             if (!recorded) return recorded.error();
@@ -438,7 +507,7 @@ Status Renderer::State::recordSlice(graph::FrameGraph& graph, const scene::Scene
         }
     }
     const relief::Inputs in{.eye = eye,
-                            .objects = objects,
+                            .objects = drawn.fields,
                             .lights = lights,
                             .surface = surfaceId,
                             .sum = next > 0 ? import(sum) : graph::TextureId{},
@@ -452,13 +521,34 @@ Status Renderer::State::recordSlice(graph::FrameGraph& graph, const scene::Scene
     return relief.record(graph, in, settings);
 }
 
+// All that is no height field, over the finished light on the fields.
+Status Renderer::State::addOthers(const scene::Scene& scene, const Drawn& drawn) {
+    composed = Compose::replaces(scene, drawn) && !isGeometric(scene.view.show);
+    if (drawn.count() == drawn.fields.size() || isGeometric(scene.view.show)) return Done{};
+    const double before = now();
+    const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
+    const Compose::Inputs in = composeInputs(scene, eye, drawn);
+    if (Status prepared = compose.prepare(in); !prepared) return prepared;
+    const Status added = runGraph([&](graph::FrameGraph& graph) { return compose.record(graph, in); });
+    context.device().wait(picture().handle());
+    workMs += now() - before;
+    return added;
+}
+
 Status Renderer::State::slice(const scene::Scene& scene) {
-    Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, images);
-    if (!objects) return objects.error();
+    const double beforeWater = now();
+    const Result<bool> still = compose.waters().advance(scene);
+    workMs += now() - beforeWater;
+    if (!still) return still.error();
+    if (!*still) return Done{};
+    if (surfaceShown && shownKey != surfaceKey(scene, size, compose.waters().changes()))
+        surfaceShown = surfaceDrawn = false; // water has moved
+    Result<Drawn> drawn = drawnOf(scene, images, compose.waters());
+    if (!drawn) return drawn.error();
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
     const bool geometric = isGeometric(scene.view.show);
     if (stages[stage].transfer && next == 0) {
-        const Result<bool> ready = prepareTransfers(scene, *objects);
+        const Result<bool> ready = prepareTransfers(scene, drawn->fields);
         if (!ready) return ready.error();
         if (!*ready) return Done{};
     }
@@ -469,7 +559,7 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     const double before = now();
 
     const Status status =
-        runGraph([&](graph::FrameGraph& graph) { return recordSlice(graph, scene, eye, *objects, end); });
+        runGraph([&](graph::FrameGraph& graph) { return recordSlice(graph, scene, eye, *drawn, end); });
     if (!status) return status;
     surfaceDrawn = true;
     if (next > 0) std::swap(sum, scratch);
@@ -482,9 +572,11 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     std::swap(sum, shown);
     if (!surfaceShown) {
         std::swap(surface, shownSurface);
-        shownKey = surfaceKey(scene, size);
+        shownKey = surfaceKey(scene, size, compose.waters().changes());
+        compose.forget();
     }
     surfaceShown = true;
+    if (Status added = addOthers(scene, *drawn); !added) return added;
     stats.lights = int(lights.size());
     ++stage;
     startStage(scene);
@@ -503,8 +595,10 @@ Status Renderer::State::slice(const scene::Scene& scene) {
 
 Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene,
                                       graph::TextureId target, bool linear) {
-    Result<const gl::Program*> program = context.program(
-        "frame/display", linear ? std::vector<std::string>{"LINEAR"} : std::vector<std::string>{});
+    std::vector<std::string> defines;
+    if (linear) defines.push_back("LINEAR");
+    if (composed) defines.push_back("COMPOSED");
+    Result<const gl::Program*> program = context.program("frame/display", defines);
     if (!program) return program.error();
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
     DisplayBlock block = displayOf(scene, eye);
@@ -514,7 +608,7 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
     }
     const graph::TextureId surfaceId =
         graph.import(shownSurface.handle(), shownSurface.desc(), shownSurface.label());
-    const graph::TextureId shownId = graph.import(shown.handle(), shown.desc(), shown.label());
+    const graph::TextureId shownId = graph.import(picture().handle(), picture().desc(), picture().label());
     graph.addPass("frame.display", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(linear ? "linear values for a file" : "exposure, clamp and sRGB curve for the display");
         pass.sample(surfaceId);
@@ -652,7 +746,7 @@ Status Renderer::present(const scene::Scene& scene, const Beside& beside) {
     return s.runGraph([&](graph::FrameGraph& graph) { return s.recordBeside(graph, scene, beside, linear); });
 }
 
-void Renderer::wait() { state_->context.device().wait(state_->shown.handle()); }
+void Renderer::wait() { state_->context.device().wait(state_->picture().handle()); }
 
 Result<Image> Renderer::read(const scene::Scene& scene, Aov aov) {
     State& s = *state_;
@@ -678,7 +772,7 @@ Result<Image> Renderer::readDisplay(const scene::Scene& scene) {
 
 Stats Renderer::stats() const {
     Stats stats = state_->stats;
-    stats.bytes = state_->context.device().textureBytes();
+    stats.bytes = state_->context.device().textureBytes() + state_->context.device().indexBytes();
     if (state_->choice) {
         stats.settings = state_->choice->text();
         stats.predicted = state_->choice->predicted;
@@ -686,15 +780,19 @@ Stats Renderer::stats() const {
     return stats;
 }
 
-std::string Renderer::State::leftOut(const scene::Scene& scene,
-                                     const std::vector<views::DrawnObject>& objects) const {
+std::string Renderer::State::leftOut(const scene::Scene& scene, const Drawn& drawn) const {
+    const std::vector<views::DrawnObject>& objects = drawn.fields;
     std::string text;
     const auto line = [&](const std::string& what) { text += "  " + what + "\n"; };
-    if (objects.size() < 2) line("views.depth: one visible object cannot hide another");
-    if (objects.size() < scene.objects.size())
-        line(std::to_string(scene.objects.size() - objects.size()) +
-             " object(s): not visible, and relief casts no "
-             "light on other objects");
+    if (drawn.count() < 2) line("views.depth: one visible object cannot hide another");
+    const auto hidden = std::count_if(scene.objects.begin(), scene.objects.end(),
+                                      [](const scene::Object& object) { return !object.visible; });
+    if (hidden > 0) line(std::to_string(hidden) + " object(s): hidden from the camera");
+    for (std::size_t i = 0; i < scene.lights.size() && !objects.empty(); ++i)
+        if (!std::holds_alternative<scene::PointLight>(scene.lights[i]) &&
+            !std::holds_alternative<scene::DistantLight>(scene.lights[i]))
+            line("light " + std::to_string(i) + ": relief knows point and distant lights only");
+    if (drawn.meshes.glass.empty()) line("refract: no object that is seen lets light through");
     if (std::none_of(objects.begin(), objects.end(),
                      [](const auto& o) { return o.alpha != graph::TextureHandle::None; }))
         line("alpha: no object has an alpha image");
@@ -714,19 +812,30 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     s.start(scene, s.revision + 1, size, State::Effort::Final);
     while (s.planning)
         if (Status planned = s.plan(scene); !planned) return planned.error();
-    Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, s.images);
-    if (!objects) return objects.error();
+    for (bool still = false; !still;) {
+        const Result<bool> advanced = s.compose.waters().advance(scene);
+        if (!advanced) return advanced.error();
+        still = *advanced;
+    }
+    Result<Drawn> drawn = drawnOf(scene, s.images, s.compose.waters());
+    if (!drawn) return drawn.error();
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
     while (s.stages.back().transfer) { // how many coefficients are used shows once they are there
-        const Result<bool> ready = s.makeTransfers(*objects);
+        const Result<bool> ready = s.makeTransfers(drawn->fields);
         if (!ready) return ready.error();
         if (!*ready) continue;
-        s.lightTransfers(scene, *objects);
+        s.lightTransfers(scene, drawn->fields);
         break;
     }
     graph::FrameGraph graph;
     const TextureDesc screen{.size = size, .format = Format::RGBA8};
-    if (Status r = s.recordSlice(graph, scene, eye, *objects, int(s.lights.size())); !r) return r.error();
+    if (Status r = s.recordSlice(graph, scene, eye, *drawn, int(s.lights.size())); !r) return r.error();
+    s.composed = Compose::replaces(scene, *drawn) && !isGeometric(scene.view.show);
+    if (!isGeometric(scene.view.show)) {
+        const Compose::Inputs in = s.composeInputs(scene, eye, *drawn);
+        if (Status r = s.compose.prepare(in); !r) return r.error();
+        if (Status r = s.compose.record(graph, in); !r) return r.error();
+    }
     if (Status r = s.recordDisplay(graph, scene, graph.import(graph::TextureHandle::Screen, screen, "screen"),
                                    false);
         !r)
@@ -736,7 +845,9 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
 
     std::string text = s.choice ? "quality.maxError chose\n  " + s.choice->text() + "\n" : "";
     text += "techniques\n";
-    if (const auto reason = relief::Relief::need(scene)) text += "  relief: " + *reason + "\n";
+    for (const char* technique : {"relief", "caustics", "brdf", "refract"})
+        if (const auto reason = need(scene, technique))
+            text += std::string("  ") + technique + ": " + *reason + "\n";
     text += "passes, in the order they run\n" + graph.dump();
     text += "textures that stay\n";
     const auto line = [&](const std::string& label, std::size_t bytes) {
@@ -746,10 +857,10 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
         line(texture->label() + " " + std::to_string(texture->desc().size.x) + "x" +
                  std::to_string(texture->desc().size.y) + " " + graph::name(texture->desc().format),
              texture->desc().bytes());
-    line("heights, pyramids and maps of the objects", s.images.bytes());
+    line("heights, pyramids, meshes and maps of the objects", s.images.bytes());
     if (s.transfers.bytes() > 0)
         line("relief.coefficients, the transfers of all objects", s.transfers.bytes());
-    const std::string left = s.leftOut(scene, *objects);
+    const std::string left = s.leftOut(scene, *drawn);
     return text + "left out\n" + (left.empty() ? "  nothing\n" : left);
 }
 
@@ -759,6 +870,7 @@ void Renderer::release() {
          {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable, &s.truth})
         *texture = graph::Texture();
     s.shownKey.reset();
+    s.compose.clear();
     s.transfers.clear();
     s.images.clear();
     s.pool.trim();

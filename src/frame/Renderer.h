@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -17,6 +18,8 @@ namespace lucent::frame {
 
 /// Parameter tables of all techniques, for the loader, `lucent list` and the documentation.
 std::span<const ParamTable* const> techniques();
+/// Why a scene needs a technique, by its table's name; nothing when it does not.
+std::optional<std::string> need(const scene::Scene& scene, std::string_view technique);
 
 /// How far the picture is: many lights are summed over several slices of work.
 struct Progress {

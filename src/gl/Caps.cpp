@@ -42,6 +42,23 @@ bool enable(const char* extension) {
 #endif
 }
 
+// Whether a texture of this format can be drawn into. The extensions' names promise it for all 16-bit
+// formats; drivers are asked all the same.
+bool completes(GLenum internalFormat) {
+    GLuint texture = 0, framebuffer = 0;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexStorage2D(GL_TEXTURE_2D, 1, internalFormat, 1, 1);
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &texture);
+    return complete;
+}
+
 } // namespace
 
 Caps Caps::probe(std::span<const std::string_view> without) {
@@ -60,11 +77,17 @@ Caps Caps::probe(std::span<const std::string_view> without) {
     }
 #endif
     caps.maxTextureSize = getInteger(GL_MAX_TEXTURE_SIZE);
+    caps.maxArrayLayers = getInteger(GL_MAX_ARRAY_TEXTURE_LAYERS);
     caps.maxDrawBuffers = getInteger(GL_MAX_DRAW_BUFFERS);
+    caps.maxVertexTextureUnits = getInteger(GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS);
+    GLfloat points[2] = {1, 1};
+    glGetFloatv(GL_ALIASED_POINT_SIZE_RANGE, points);
+    caps.maxPointSize = points[1];
     GLint range[2] = {}, bits = 0;
     glGetShaderPrecisionFormat(GL_FRAGMENT_SHADER, GL_HIGH_FLOAT, range, &bits);
     caps.fragmentBits = bits;
     caps.colorBufferFloat = has("GL_EXT_color_buffer_float");
+    caps.halfBlend = completes(GL_R16F) && completes(GL_RGBA16F);
     caps.floatBlend = has("GL_EXT_float_blend");
     caps.floatLinear = has("GL_OES_texture_float_linear");
 #ifdef __EMSCRIPTEN__
@@ -101,10 +124,13 @@ std::string Caps::json() const {
     };
     return "{" + text("vendor", vendor) + text("renderer", renderer) + text("version", version) +
            flag("colorBufferFloat", colorBufferFloat) + flag("floatBlend", floatBlend) +
-           flag("floatLinear", floatLinear) + flag("timerQuery", timerQuery) + flag("software", software) +
-           "\"fragmentBits\": " + std::to_string(fragmentBits) +
+           flag("halfBlend", halfBlend) + flag("floatLinear", floatLinear) + flag("timerQuery", timerQuery) +
+           flag("software", software) + "\"fragmentBits\": " + std::to_string(fragmentBits) +
            ", \"maxTextureSize\": " + std::to_string(maxTextureSize) +
-           ", \"maxDrawBuffers\": " + std::to_string(maxDrawBuffers) + "}";
+           ", \"maxArrayLayers\": " + std::to_string(maxArrayLayers) +
+           ", \"maxDrawBuffers\": " + std::to_string(maxDrawBuffers) +
+           ", \"maxVertexTextureUnits\": " + std::to_string(maxVertexTextureUnits) +
+           ", \"maxPointSize\": " + std::to_string(int(maxPointSize)) + "}";
 }
 
 } // namespace lucent::gl

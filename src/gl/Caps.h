@@ -12,9 +12,13 @@ namespace lucent::gl {
 struct Caps {
     std::string vendor, renderer, version;
     int maxTextureSize = 0;
+    int maxArrayLayers = 0;
     int maxDrawBuffers = 0;
+    int maxVertexTextureUnits = 0;
+    float maxPointSize = 1;        ///< in pixels
     int fragmentBits = 0;          ///< of the mantissa of highp floats in fragment shaders; 23: 32-bit floats
     bool colorBufferFloat = false; ///< EXT_color_buffer_float: draw into 16- and 32-bit floats
+    bool halfBlend = false;        ///< R16F and RGBA16F make complete targets; such targets also blend
     bool floatBlend = false;       ///< EXT_float_blend: blend into 32-bit floats
     bool floatLinear = false;      ///< OES_texture_float_linear: filter 32-bit floats
     bool timerQuery = false;       ///< EXT_disjoint_timer_query

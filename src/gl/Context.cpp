@@ -135,7 +135,7 @@ Result<std::unique_ptr<Context>> Context::create(std::span<const std::string_vie
         return Error{"caps: cannot draw into floating-point textures (EXT_color_buffer_float missing) on " +
                          context->caps_.renderer + "; light is summed in them",
                      Fault::Machine};
-    context->device_ = std::make_unique<Device>();
+    context->device_ = std::make_unique<Device>(context->caps_);
     return context;
 }
 

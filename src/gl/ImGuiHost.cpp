@@ -74,7 +74,7 @@ void ImGuiHost::create(ImFontAtlas& atlas) {
 void ImGuiHost::clear(int width, int height) {
     context_.device().setScreenSize({width, height});
     context_.device().runPass(
-        {"viewer.clear", {graph::TextureHandle::Screen}, graph::TextureHandle::None, vec4(0)},
+        {.label = "viewer.clear", .colors = {{.texture = graph::TextureHandle::Screen, .clear = vec4(0)}}},
         [](graph::Commands&) {});
 }
 
@@ -90,6 +90,7 @@ Status ImGuiHost::draw(const ImDrawData& data, ImFontAtlas& atlas, int width, in
     glDisable(GL_CULL_FACE);
     glEnable(GL_SCISSOR_TEST);
     glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     const GLuint id = (*program)->id();
     glUseProgram(id);

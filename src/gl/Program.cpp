@@ -16,7 +16,9 @@ std::string preamble(const std::vector<std::string>& defines) {
                        "precision highp float;\n"
                        "precision highp int;\n"
                        "precision highp sampler2D;\n"
-                       "precision highp usampler2D;\n";
+                       "precision highp usampler2D;\n"
+                       "precision highp sampler2DArray;\n"
+                       "precision highp usampler2DArray;\n";
     for (const std::string& define : defines)
         text += "#define " + define + "\n";
     return text;
@@ -38,7 +40,9 @@ std::string infoLog(GLuint object, bool isShader) {
 
 Result<GLuint> compile(GLenum type, const shaders::Stage& stage, const std::vector<std::string>& defines) {
     const std::string head = preamble(defines);
-    const std::string source = head + stage.source;
+    std::string source = head;
+    for (int i = 0; i < stage.pieceCount; ++i)
+        source += stage.pieces[i]->source;
     const char* text = source.c_str();
     const GLuint shader = glCreateShader(type);
     glShaderSource(shader, 1, &text, nullptr);
@@ -54,6 +58,35 @@ Result<GLuint> compile(GLenum type, const shaders::Stage& stage, const std::vect
 
 const shaders::Stage* findStage(const std::string& stem, const char* ending) {
     return shaders::find(stem + ending);
+}
+
+// What a sampler of this type reads; 0: no sampler that we know.
+GLenum textureTarget(GLenum type) {
+    switch (type) {
+    case GL_SAMPLER_2D:
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+        return GL_TEXTURE_2D;
+    case GL_SAMPLER_2D_ARRAY:
+    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY:
+        return GL_TEXTURE_2D_ARRAY;
+    default:
+        return 0;
+    }
+}
+
+} // namespace
+
+namespace {
+
+// "relief/light.frag:12" for a line of a stage's source, counted from 0; "" behind its end.
+std::string placeOf(const shaders::Stage& stage, int line) {
+    for (int i = 0; i < stage.pieceCount; ++i) {
+        const shaders::Piece& piece = *stage.pieces[i];
+        const int lines = lineCount(piece.source);
+        if (line < lines) return std::string(piece.file) + ":" + std::to_string(piece.line + line);
+        line -= lines;
+    }
+    return "";
 }
 
 } // namespace
@@ -72,10 +105,10 @@ std::string translateLog(const std::string& log, const std::string& stagePath, i
         while (mark != std::string::npos && end < line.size() && std::isdigit((unsigned char)line[end]))
             number = number * 10 + (line[end++] - '0');
         const int index = number - firstSourceLine;
-        if (stage && mark != std::string::npos && index >= 0 && index < stage->lineCount) {
+        const bool known = stage && mark != std::string::npos && index >= 0;
+        if (const std::string place = known ? placeOf(*stage, index) : ""; !place.empty()) {
             if (end < line.size() && line[end] == '(') end = line.find(')', end) + 1;
-            const shaders::Line& place = stage->lines[index];
-            line = std::string(place.file) + ":" + std::to_string(place.line) + line.substr(end);
+            line = place + line.substr(end);
         }
         out += (out.empty() ? "" : "\n") + line;
     }
@@ -87,15 +120,20 @@ Result<Program> Program::build(const std::string& stem, const std::vector<std::s
     if (!vertexStage) vertexStage = findStage("lib/screen", ".vert");
     const shaders::Stage* fragmentStage = findStage(stem, ".frag");
     assert(vertexStage && fragmentStage && "no such shader in shaders/");
-    Result<GLuint> vertex = compile(GL_VERTEX_SHADER, *vertexStage, defines);
+    return link(stem, *vertexStage, *fragmentStage, defines);
+}
+
+Result<Program> Program::link(const std::string& name, const shaders::Stage& vertexStage,
+                              const shaders::Stage& fragmentStage, const std::vector<std::string>& defines) {
+    Result<GLuint> vertex = compile(GL_VERTEX_SHADER, vertexStage, defines);
     if (!vertex) return vertex.error();
-    Result<GLuint> fragment = compile(GL_FRAGMENT_SHADER, *fragmentStage, defines);
+    Result<GLuint> fragment = compile(GL_FRAGMENT_SHADER, fragmentStage, defines);
     if (!fragment) {
         glDeleteShader(*vertex);
         return fragment.error();
     }
     Program program;
-    program.stem_ = stem;
+    program.stem_ = name;
     program.id_ = glCreateProgram();
     glAttachShader(program.id_, *vertex);
     glAttachShader(program.id_, *fragment);
@@ -104,7 +142,7 @@ Result<Program> Program::build(const std::string& stem, const std::vector<std::s
     glDeleteShader(*fragment);
     GLint linked = 0;
     glGetProgramiv(program.id_, GL_LINK_STATUS, &linked);
-    if (!linked) return Error{stem + ": does not link: " + infoLog(program.id_, false), Fault::Machine};
+    if (!linked) return Error{name + ": does not link: " + infoLog(program.id_, false), Fault::Machine};
     program.bindSamplers();
     return program;
 }
@@ -126,9 +164,10 @@ void Program::bindSamplers() {
         GLint size = 0;
         GLenum type = 0;
         glGetActiveUniform(id_, GLuint(i), sizeof uniform, nullptr, &size, &type, uniform);
-        if (type != GL_SAMPLER_2D && type != GL_UNSIGNED_INT_SAMPLER_2D) continue;
+        const GLenum target = textureTarget(type);
+        if (!target) continue;
         glUniform1i(glGetUniformLocation(id_, uniform), int(samplers_.size()));
-        samplers_.push_back(uniform);
+        samplers_.push_back({uniform, target});
     }
     glUseProgram(0);
 }

@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+namespace lucent::shaders {
+struct Stage;
+}
+
 namespace lucent::gl {
 
 class Program : public graph::Program {
@@ -17,13 +21,21 @@ public:
     /// @return Error (Fault::Machine): every line of the log as "relief/light.frag:12: message"
     static Result<Program> build(const std::string& stem, const std::vector<std::string>& defines);
 
+    /// The same from two stages; `name` stands before messages about both.
+    static Result<Program> link(const std::string& name, const shaders::Stage& vertex,
+                                const shaders::Stage& fragment, const std::vector<std::string>& defines);
+
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
     ~Program() override;
 
     unsigned id() const { return id_; }
+    struct Sampler {
+        std::string name;
+        unsigned target; ///< GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY
+    };
     /// The samplers that the program uses; the index is the texture unit.
-    const std::vector<std::string>& samplers() const { return samplers_; }
+    const std::vector<Sampler>& samplers() const { return samplers_; }
 
     /// Compares a block of C++ with what GL made of it, once.
     ///
@@ -35,7 +47,7 @@ private:
     void bindSamplers();
     unsigned id_ = 0;
     std::string stem_;
-    std::vector<std::string> samplers_;
+    std::vector<Sampler> samplers_;
     mutable const graph::BlockLayout* checked_ = nullptr;
 };
 

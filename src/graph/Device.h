@@ -1,5 +1,5 @@
 #pragma once
-/// What a frame graph needs of the machine below: textures, and passes that draw into them.
+/// What a frame graph needs of the machine below: textures, index buffers, and passes that draw into them.
 
 #include "graph/Texture.h"
 
@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace lucent::graph {
@@ -44,16 +45,29 @@ struct Binding {
     TextureHandle texture;
 };
 
-/// One draw call. Vertices come from gl_VertexID: there are no vertex buffers yet.
+enum class Topology : std::uint8_t { Triangles, Lines, Points }; ///< points: the shader sets gl_PointSize
+enum class Cull : std::uint8_t { None, Front, Back };            ///< front faces run counterclockwise
+enum class DepthTest : std::uint8_t { None, Less, LessEqual, Equal };
+
+/// How what is drawn meets what the target holds, in all colour targets alike. Integer targets are
+/// overwritten. 16-bit floats blend wherever they can be drawn into; 32-bit floats need Caps::floatBlend, and
+/// the device refuses the draw without it.
+enum class Blend : std::uint8_t { None, Add, Max, Min };
+
+/// One draw call. There are no vertex buffers: shaders fetch what belongs to gl_VertexID from textures.
 struct Draw {
     const Program* program = nullptr;
-    int vertices = 3; ///< 3: one triangle over the whole target
-    ivec4 region{0};  ///< x, y, width, height in pixels that are drawn; 0 wide: the whole target
-    bool cullFront = false;
-    bool depthTest = false;
-    bool add = false; ///< adds to what the target holds; 32-bit floats only after asking Caps
-    Block block;
-    std::vector<Binding> textures;
+    IndicesHandle indices = IndicesHandle::None; ///< gl_VertexID runs over these; none: over 0, 1, 2 ...
+    int vertices = 3; ///< how many, or how many indices; 3: one triangle over the whole target
+    int instances = 1;
+    Topology topology = Topology::Triangles;
+    ivec4 region{0}; ///< x, y, width, height in pixels that are drawn; 0 wide: the whole target
+    Cull cull = Cull::None;
+    DepthTest depthTest = DepthTest::None; ///< with None the depth target keeps what it holds
+    bool depthWrite = true;
+    Blend blend = Blend::None;
+    Block block{};
+    std::vector<Binding> textures{};
 };
 
 class Commands {
@@ -62,12 +76,30 @@ public:
     virtual void draw(const Draw& draw) = 0;
 };
 
-/// Where a pass draws. All attachments have the same size.
+/// Whether any sample of a pass was drawn. The answer comes after the frame, in a browser never within it.
+class Query {
+public:
+    virtual ~Query() = default;
+    /// Nothing while the last pass with this query has no answer yet, or when there was no such pass.
+    virtual std::optional<bool> poll() = 0;
+};
+
+/// What a target is filled with: one float for depths, a uvec4 for integers, a vec4 for every other colour.
+using Clear = std::variant<vec4, uvec4, float>;
+
+/// One layer and mip level of a texture that a pass draws into.
+struct Attachment {
+    TextureHandle texture = TextureHandle::None;
+    int layer = 0, level = 0;
+    std::optional<Clear> clear{}; ///< nothing: old content may be undefined and every pixel is drawn
+};
+
+/// Where a pass draws. All attachments have the same size; at least one is there.
 struct PassTarget {
     std::string_view label;
-    std::vector<TextureHandle> colors;
-    TextureHandle depth = TextureHandle::None;
-    std::optional<vec4> clear; ///< nothing: old content may be undefined and every pixel is drawn
+    std::vector<Attachment> colors{};
+    Attachment depth{};
+    Query* query = nullptr; ///< asked about this pass
 };
 
 class Device {
@@ -75,6 +107,8 @@ public:
     virtual ~Device() = default;
     virtual TextureHandle createTexture(const TextureDesc& desc, std::string_view label) = 0;
     virtual void destroyTexture(TextureHandle texture) = 0;
+    virtual IndicesHandle createIndices(std::span<const std::uint32_t> indices, std::string_view label) = 0;
+    virtual void destroyIndices(IndicesHandle indices) = 0;
     virtual void runPass(const PassTarget& target, const std::function<void(Commands&)>& body) = 0;
 };
 

@@ -1,7 +1,6 @@
 #include "graph/FrameGraph.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace lucent::graph {
 
@@ -36,28 +35,32 @@ std::size_t TexturePool::bytes() const {
 
 void PassBuilder::reason(std::string text) { graph_.passes_[pass_].reason = std::move(text); }
 void PassBuilder::sample(TextureId id) { graph_.passes_[pass_].reads.push_back(id.index); }
-void PassBuilder::clear(vec4 value) { graph_.passes_[pass_].clear = value; }
+void PassBuilder::query(Query& query) { graph_.passes_[pass_].query = &query; }
 
 TextureId PassBuilder::createColor(std::string label, const TextureDesc& desc) {
-    const TextureId id = graph_.import(TextureHandle::None, desc, std::move(label));
+    const TextureId id = graph_.create(std::move(label), desc);
     write(id);
     return id;
 }
 
-TextureId PassBuilder::createDepth(std::string label, ivec2 size) {
-    const TextureId id =
-        graph_.import(TextureHandle::None, {.size = size, .format = Format::Depth24}, std::move(label));
-    write(id);
-    return id;
+TextureId PassBuilder::createDepth(std::string label, ivec2 size, Format format) {
+    return createColor(std::move(label), {.size = size, .format = format});
 }
 
-void PassBuilder::write(TextureId id) {
-    FrameGraph::Resource& resource = graph_.resources_[id.index];
-    if (resource.desc.format == Format::Depth24)
-        graph_.passes_[pass_].depth = id.index;
-    else
-        graph_.passes_[pass_].colors.push_back(id.index);
-    resource.writer = pass_;
+void PassBuilder::write(TextureId id, int layer, int level) {
+    graph_.passes_[pass_].targets.push_back({id.index, layer, level, std::nullopt});
+    int& writer = graph_.resources_[id.index].writer;
+    if (writer < 0) writer = pass_;
+}
+
+void PassBuilder::clear(TextureId id, const Clear& value) {
+    [[maybe_unused]] bool found = false;
+    for (FrameGraph::Target& target : graph_.passes_[pass_].targets) {
+        if (target.texture != id.index) continue;
+        target.clear = value;
+        found = true;
+    }
+    assert(found && "declare the target before its clear value");
 }
 
 TextureId FrameGraph::import(TextureHandle handle, const TextureDesc& desc, std::string label) {
@@ -67,6 +70,10 @@ TextureId FrameGraph::import(TextureHandle handle, const TextureDesc& desc, std:
     resource.imported = handle;
     resources_.push_back(std::move(resource));
     return {int(resources_.size()) - 1};
+}
+
+TextureId FrameGraph::create(std::string label, const TextureDesc& desc) {
+    return import(TextureHandle::None, desc, std::move(label));
 }
 
 void FrameGraph::addPass(std::string name, const std::function<Execute(PassBuilder&)>& setup) {
@@ -85,57 +92,115 @@ void FrameGraph::keep(TextureId id) {
 
 // --- compiling
 
-Status FrameGraph::check(const Pass& pass) const {
+namespace {
+const char* clearName(const Clear& value) {
+    constexpr const char* kNames[] = {"a vec4", "a uvec4", "a float"};
+    return kNames[value.index()];
+}
+
+// Of the alternatives of Clear, the one that fills a format.
+Clear neededClear(Format format) {
+    if (kindOf(format) == Kind::Depth) return 0.0f;
+    if (kindOf(format) == Kind::Integer) return uvec4(0);
+    return vec4(0);
+}
+
+std::string quoted(const std::string& label) { return "\"" + label + "\""; }
+} // namespace
+
+bool FrameGraph::isDepth(const Target& target) const {
+    return kindOf(resources_[target.texture].desc.format) == Kind::Depth;
+}
+
+Status FrameGraph::checkReads(int index) const {
+    const Pass& pass = passes_[index];
+    const std::string samples = "graph: pass " + quoted(pass.name) + " samples ";
     for (int read : pass.reads) {
         const Resource& resource = resources_[read];
-        if (std::count(pass.colors.begin(), pass.colors.end(), read) || read == pass.depth)
-            return Error{"graph: pass \"" + pass.name + "\" samples \"" + resource.label +
-                             "\", which it also writes; must be another texture",
+        if (std::any_of(pass.targets.begin(), pass.targets.end(),
+                        [read](const Target& target) { return target.texture == read; }))
+            return Error{samples + quoted(resource.label) + ", which it also writes; must be another texture",
                          Fault::Machine};
-        if (resource.writer < 0 && resource.imported == TextureHandle::None)
-            return Error{"graph: pass \"" + pass.name + "\" samples \"" + resource.label +
-                             "\", which no pass writes",
+        if (resource.imported != TextureHandle::None) continue;
+        if (resource.writer < 0)
+            return Error{samples + quoted(resource.label) + ", which no pass writes", Fault::Machine};
+        if (resource.writer > index)
+            return Error{samples + quoted(resource.label) + ", which no pass writes before it",
                          Fault::Machine};
-    }
-    for (int color : pass.colors) {
-        if (resources_[color].desc.size == resources_[pass.colors.front()].desc.size) continue;
-        return Error{"graph: pass \"" + pass.name + "\" writes \"" + resources_[color].label +
-                         "\" beside a target of another size; all must have one size",
-                     Fault::Machine};
     }
     return Done{};
 }
 
-std::vector<int> FrameGraph::targetsOf(const Pass& pass) {
-    std::vector<int> targets = pass.colors;
-    if (pass.depth >= 0) targets.push_back(pass.depth);
-    return targets;
+Status FrameGraph::checkTarget(const Pass& pass, std::size_t index) const {
+    const Target& target = pass.targets[index];
+    const Resource& resource = resources_[target.texture];
+    const TextureDesc& desc = resource.desc;
+    const auto error = [&](const std::string& what) {
+        return Error{"graph: pass " + quoted(pass.name) + " " + what, Fault::Machine};
+    };
+    if (target.layer < 0 || target.layer >= desc.layers)
+        return error("writes layer " + std::to_string(target.layer) + " of " + quoted(resource.label) +
+                     "; must be 0 to " + std::to_string(desc.layers - 1));
+    if (target.level < 0 || target.level >= desc.levels)
+        return error("writes level " + std::to_string(target.level) + " of " + quoted(resource.label) +
+                     "; must be 0 to " + std::to_string(desc.levels - 1));
+    if (target.clear && target.clear->index() != neededClear(desc.format).index())
+        return error("clears " + quoted(resource.label) + " (" + graph::name(desc.format) + ") with " +
+                     clearName(*target.clear) + "; must be " + clearName(neededClear(desc.format)));
+    for (std::size_t i = 0; i < index; ++i) {
+        const Target& other = pass.targets[i];
+        if (other.texture == target.texture && other.layer == target.layer && other.level == target.level)
+            return error("writes " + quoted(resource.label) + " twice; must be once");
+        if (isDepth(other) && isDepth(target))
+            return error("writes " + quoted(resource.label) + " beside another depth; must be one");
+        if (resources_[other.texture].desc.sizeOf(other.level) != desc.sizeOf(target.level))
+            return error("writes " + quoted(resource.label) +
+                         " beside a target of another size; all must have one size");
+    }
+    return Done{};
+}
+
+Status FrameGraph::check(int index) const {
+    const Pass& pass = passes_[index];
+    if (Status status = checkReads(index); !status) return status;
+    if (pass.targets.empty())
+        return Error{"graph: pass " + quoted(pass.name) + " writes nothing; must have a target",
+                     Fault::Machine};
+    for (std::size_t target = 0; target < pass.targets.size(); ++target)
+        if (Status status = checkTarget(pass, target); !status) return status;
+    return Done{};
 }
 
 std::vector<int> FrameGraph::usesOf(const Pass& pass) {
-    std::vector<int> uses = targetsOf(pass);
-    uses.insert(uses.end(), pass.reads.begin(), pass.reads.end());
+    std::vector<int> uses = pass.reads;
+    for (const Target& target : pass.targets)
+        uses.push_back(target.texture);
     return uses;
 }
 
+// A texture that is read keeps every pass before that draws into it: they may have drawn other layers, or
+// only a part.
 void FrameGraph::cull() {
     std::vector<bool> wanted(resources_.size());
     for (std::size_t i = 0; i < resources_.size(); ++i)
         wanted[i] = resources_[i].kept;
     for (int i = int(passes_.size()) - 1; i >= 0; --i) {
         Pass& pass = passes_[i];
-        pass.live = std::any_of(pass.colors.begin(), pass.colors.end(), [&](int c) { return wanted[c]; });
+        pass.live = pass.query || std::any_of(pass.targets.begin(), pass.targets.end(),
+                                              [&](const Target& t) { return wanted[t.texture]; });
         if (!pass.live) continue;
         for (int read : pass.reads)
             wanted[read] = true;
+        for (const Target& target : pass.targets) // a depth that stays is tested against
+            if (isDepth(target) && !target.clear) wanted[target.texture] = true;
         for (int used : usesOf(pass))
             resources_[used].lastUse = std::max(resources_[used].lastUse, i);
     }
 }
 
 Status FrameGraph::compile() {
-    for (const Pass& pass : passes_)
-        if (Status status = check(pass); !status) return status;
+    for (int i = 0; i < int(passes_.size()); ++i)
+        if (Status status = check(i); !status) return status;
     cull();
     return Done{};
 }
@@ -162,22 +227,32 @@ TextureHandle FrameGraph::handleOf(const Resource& resource, const TexturePool& 
     return resource.imported != TextureHandle::None ? resource.imported : pool.handle(resource.slot);
 }
 
+PassTarget FrameGraph::targetOf(const Pass& pass, const TexturePool& pool) const {
+    PassTarget target;
+    target.label = pass.name;
+    target.query = pass.query;
+    for (const Target& one : pass.targets) {
+        const Attachment attachment{handleOf(resources_[one.texture], pool), one.layer, one.level, one.clear};
+        if (isDepth(one))
+            target.depth = attachment;
+        else
+            target.colors.push_back(attachment);
+    }
+    return target;
+}
+
 void FrameGraph::execute(TexturePool& pool) {
     for (int i = 0; i < int(passes_.size()); ++i) {
         const Pass& pass = passes_[i];
         if (!pass.live) continue;
-        for (int target : targetsOf(pass)) {
-            Resource& resource = resources_[target];
+        for (const Target& target : pass.targets) {
+            Resource& resource = resources_[target.texture];
             if (resource.imported == TextureHandle::None && resource.slot < 0)
                 resource.slot = int(pool.acquire(resource.desc, resource.label));
         }
-        PassTarget target{
-            .label = pass.name, .colors = {}, .depth = TextureHandle::None, .clear = pass.clear};
-        for (int color : pass.colors)
-            target.colors.push_back(handleOf(resources_[color], pool));
-        if (pass.depth >= 0) target.depth = handleOf(resources_[pass.depth], pool);
-        pool.device().runPass(
-            target, [&](Commands& commands) { pass.execute(PassResources(*this, pass, pool), commands); });
+        pool.device().runPass(targetOf(pass, pool), [&](Commands& commands) {
+            pass.execute(PassResources(*this, pass, pool), commands);
+        });
         for (int used : usesOf(pass)) {
             Resource& resource = resources_[used];
             if (resource.slot < 0 || resource.lastUse > i) continue;
@@ -196,8 +271,7 @@ int FrameGraph::livePasses() const {
 std::size_t FrameGraph::transientBytes() const {
     std::size_t sum = 0;
     for (const Resource& resource : resources_)
-        if (resource.imported == TextureHandle::None && resource.writer >= 0 && passes_[resource.writer].live)
-            sum += resource.desc.bytes();
+        if (resource.imported == TextureHandle::None && resource.lastUse >= 0) sum += resource.desc.bytes();
     return sum;
 }
 
@@ -206,12 +280,12 @@ std::string FrameGraph::dump() const {
     const auto line = [&](const Pass& pass) {
         text += (pass.live ? "  " : "  culled: ") + pass.name + ": " + pass.reason + "\n";
         if (!pass.live) return;
-        for (int target : targetsOf(pass)) {
-            const Resource& resource = resources_[target];
-            char size[96];
-            std::snprintf(size, sizeof size, " %dx%d %s, %zu bytes", resource.desc.size.x,
-                          resource.desc.size.y, graph::name(resource.desc.format), resource.desc.bytes());
-            text += "      -> " + resource.label + size + "\n";
+        for (const Target& target : pass.targets) {
+            const TextureDesc& desc = resources_[target.texture].desc;
+            text += "      -> " + resources_[target.texture].label + " " + desc.text() + ", ";
+            if (desc.layers > 1) text += "layer " + std::to_string(target.layer) + ", ";
+            if (desc.levels > 1) text += "level " + std::to_string(target.level) + ", ";
+            text += std::to_string(desc.bytes()) + " bytes\n";
         }
     };
     for (const Pass& pass : passes_)

@@ -62,11 +62,16 @@ public:
     void sample(TextureId id);
     /// The pass draws into a new texture of this frame.
     TextureId createColor(std::string label, const TextureDesc& desc);
-    TextureId createDepth(std::string label, ivec2 size);
-    /// The pass draws into a texture that outlives the frame, or into the screen.
-    void write(TextureId id);
-    /// All targets are cleared to this value first.
-    void clear(vec4 value);
+    TextureId createDepth(std::string label, ivec2 size, Format format = Format::Depth24);
+    /// The pass draws into one layer and mip level of a texture: one that outlives the frame, the screen, or
+    /// one that FrameGraph::create() or an earlier pass made. Colours are the shader's outputs in this order.
+    void write(TextureId id, int layer = 0, int level = 0);
+    /// What the pass draws into of this texture is filled first: depths with a float, integers with a uvec4,
+    /// other colours with a vec4.
+    void clear(TextureId id, const Clear& value);
+    /// Asks whether the pass draws anything. Somebody outside waits for the answer: the pass runs even when
+    /// nobody reads what it writes. The query outlives the graph.
+    void query(Query& query);
 
 private:
     friend class FrameGraph;
@@ -79,6 +84,8 @@ class FrameGraph {
 public:
     /// A texture that lives outside the graph.
     TextureId import(TextureHandle handle, const TextureDesc& desc, std::string label);
+    /// A new texture of this frame, whose layers and levels several passes write().
+    TextureId create(std::string label, const TextureDesc& desc);
     /// Adds a pass; `setup` declares and returns what draws. The lambda it returns captures by value.
     void addPass(std::string name, const std::function<Execute(PassBuilder&)>& setup);
     /// Somebody outside reads this imported texture after the frame.
@@ -86,8 +93,9 @@ public:
 
     /// Checks the declarations and culls what nobody reads.
     ///
-    /// @return Error naming pass and texture: a texture that is sampled but never written, or sampled by the
-    ///         pass that writes it, or targets of different size
+    /// @return Error naming pass and texture: a texture that is sampled but not written before, or sampled by
+    ///         the pass that writes it (another layer or level too: WebGL2 forbids it); targets that do not
+    ///         exist, stand twice or differ in size; a clear value of another kind than its target
     Status compile();
     /// Runs the passes that are left, in the order they were added. After compile().
     void execute(TexturePool& pool);
@@ -105,23 +113,30 @@ private:
         TextureDesc desc;
         TextureHandle imported = TextureHandle::None;
         bool kept = false;
-        int writer = -1;  ///< last pass that draws into it
+        int writer = -1;  ///< first pass that draws into it
         int lastUse = -1; ///< last live pass that reads or writes it
         int slot = -1;    ///< in the pool, while a pass uses it
     };
+    struct Target {
+        int texture, layer, level;
+        std::optional<Clear> clear;
+    };
     struct Pass {
         std::string name, reason;
-        std::vector<int> reads, colors;
-        int depth = -1;
-        std::optional<vec4> clear;
+        std::vector<int> reads;
+        std::vector<Target> targets; ///< colours in the order of the shader's outputs; depth among them
+        Query* query = nullptr;
         Execute execute;
         bool live = false;
     };
     class PassResources;
-    static std::vector<int> targetsOf(const Pass& pass);
+    bool isDepth(const Target& target) const;
     static std::vector<int> usesOf(const Pass& pass);
-    Status check(const Pass& pass) const;
+    Status check(int index) const;
+    Status checkReads(int index) const;
+    Status checkTarget(const Pass& pass, std::size_t index) const;
     void cull();
+    PassTarget targetOf(const Pass& pass, const TexturePool& pool) const;
     TextureHandle handleOf(const Resource& resource, const TexturePool& pool) const;
 
     std::vector<Resource> resources_;

@@ -108,6 +108,18 @@ void write(JsonWriter& json, const Ratio& ratio) {
     json.end();
 }
 
+// What settings are weighed by.
+double decisive(const Metrics& error) { return error.angles ? error.angles->all.median : error.rmse; }
+
+std::string errorText(const Metrics& error) {
+    if (!error.angles) return formatted("  RMSE %.2e, %.2e of the mean", error.rmse, error.relRmse);
+    const auto part = [](const char* where, const Angles& angles) {
+        return formatted("  %s: %.3g degrees, 95 %% %.3g, 99 %% %.3g, lost %.2g %%", where, angles.median,
+                         angles.p95, angles.p99, 100 * angles.lost);
+    };
+    return part("all", error.angles->all) + part("inside", error.angles->inside);
+}
+
 template <class Item>
 void writeList(JsonWriter& json, std::string_view name, const std::vector<Item>& items) {
     json.key(name).beginArray();
@@ -128,7 +140,7 @@ void BenchReport::markParetoFronts() {
     for (const auto& [key, group] : groups) {
         std::vector<dvec2> points;
         for (const Measurement* m : group)
-            points.push_back({m->ms->median, m->error->rmse});
+            points.push_back({m->ms->median, decisive(*m->error)});
         const std::vector<bool> front = paretoFront(points);
         for (std::size_t i = 0; i < group.size(); ++i)
             group[i]->pareto = front[i];
@@ -164,7 +176,7 @@ std::string BenchReport::text() const {
             continue;
         }
         out += formatted("%10.3f ms (%.3f to %.3f)", m.ms->median, m.ms->low, m.ms->high);
-        if (m.error) out += formatted("  RMSE %.2e, %.2e of the mean", m.error->rmse, m.error->relRmse);
+        if (m.error) out += errorText(*m.error);
         if (m.modelError) out += formatted("  model error %.2e", m.modelError->rmse);
         out += m.pareto ? "  *\n" : "\n";
     }

@@ -28,7 +28,7 @@ struct Measurement {
     ivec2 size{0};                                          ///< of the picture, in pixels
     int lights = 0; ///< that shine, an environment's directions included
 
-    std::optional<Spread> ms;     ///< of the picture, less the picture without light
+    std::optional<Spread> ms;     ///< of the picture, less the picture without light (Timed)
     std::optional<double> bakeMs; ///< what is done once for a field, before the first picture
     int passes = 0, draws = 0;
     std::size_t bytes = 0; ///< GPU memory of textures
@@ -75,7 +75,8 @@ struct BenchReport {
     std::vector<HardResult> hardCases;
     std::vector<Ratio> ratios;
 
-    /// Sets Measurement::pareto: time against RMSE among the measurements of one scene, size and technique.
+    /// Sets Measurement::pareto: time against RMSE (of directions the median angle) among the measurements of
+    /// one scene, size and technique.
     void markParetoFronts();
 
     /// "lucent-bench-1".

@@ -45,6 +45,49 @@ double shareOf(double part, double whole) {
     return whole == 0 ? std::numeric_limits<double>::quiet_NaN() : part / whole;
 }
 
+/// Degrees between two directions, exact for small angles too.
+double degreesBetween(const float* a, const float* b) {
+    const dvec3 u(a[0], a[1], a[2]), v(b[0], b[1], b[2]);
+    return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)) * 180 / std::numbers::pi;
+}
+
+/// Gathers the pixels of some Angles.
+class AngleSum {
+public:
+    void add(const float* direction, const float* exact) {
+        ++pixels_;
+        if (direction[3] > 0) degrees_.push_back(degreesBetween(direction, exact));
+    }
+    Angles angles() {
+        Angles angles;
+        angles.pixels = pixels_;
+        if (pixels_ > 0) angles.lost = 1 - double(degrees_.size()) / pixels_;
+        if (degrees_.empty()) return angles;
+        angles.median = percentile(degrees_, 0.5);
+        angles.p95 = percentile(degrees_, 0.95);
+        angles.p99 = percentile(degrees_, 0.99);
+        return angles;
+    }
+
+private:
+    std::vector<double> degrees_;
+    int pixels_ = 0;
+};
+
+/// Whether all pixels around one, none of them beside the picture, see as many layers.
+bool isInside(const Image& layers, ivec2 at) {
+    if (at.x < 1 || at.y < 1 || at.x + 1 >= layers.width || at.y + 1 >= layers.height) return false;
+    for (int i = 0; i < 9; ++i)
+        if (*layers.at(at.x + i % 3 - 1, at.y + i / 3 - 1) != *layers.at(at.x, at.y)) return false;
+    return true;
+}
+
+void write(JsonWriter& json, std::string_view name, const Angles& angles) {
+    json.key(name).beginObject();
+    json.key("median").value(angles.median).key("p95").value(angles.p95).key("p99").value(angles.p99);
+    json.key("lost").value(angles.lost).key("pixels").value(angles.pixels).end();
+}
+
 bool exceedsOne(const Image& image) {
     bool found = false;
     forEachValue(image, image, nullptr, [&](int, int, double value, double) { found = found || value > 1; });
@@ -98,6 +141,27 @@ double percentile(std::vector<double>& values, double share) {
     return *place;
 }
 
+Result<Metrics> compareDirections(const Image& image, const std::string& imageName, const Image& exact,
+                                  const Image& layers) {
+    Image seen(exact.width, exact.height, 1);
+    for (int y = 0; y < exact.height; ++y)
+        for (int x = 0; x < exact.width; ++x)
+            *seen.at(x, y) = *layers.at(x, y) > 0 && exact.at(x, y)[3] > 0 ? 1 : 0;
+    Result<Metrics> metrics = compare(image, imageName, exact, "exact directions", &seen);
+    if (!metrics) return metrics;
+    metrics->relRmse = metrics->fluxRatio =
+        std::numeric_limits<double>::quiet_NaN(); // directions have no sum
+    AngleSum all, inside;
+    for (int y = 0; y < exact.height; ++y)
+        for (int x = 0; x < exact.width; ++x) {
+            if (*seen.at(x, y) == 0) continue;
+            all.add(image.at(x, y), exact.at(x, y));
+            if (isInside(layers, {x, y})) inside.add(image.at(x, y), exact.at(x, y));
+        }
+    metrics->angles = {all.angles(), inside.angles()};
+    return metrics;
+}
+
 void addPerceptual(Metrics& metrics, const Image& image, const Image& reference) {
     const bool unclamped = exceedsOne(image) || exceedsOne(reference);
     metrics.ssim = ssim(image, reference);
@@ -119,6 +183,11 @@ void writeMembers(JsonWriter& json, const Metrics& metrics) {
     if (metrics.ssim) member("ssim", *metrics.ssim);
     if (metrics.flip) member("flip", *metrics.flip);
     member("fluxRatio", metrics.fluxRatio);
+    if (!metrics.angles) return;
+    json.key("degrees").beginObject();
+    write(json, "all", metrics.angles->all);
+    write(json, "inside", metrics.angles->inside);
+    json.end();
 }
 
 dvec3 heatColor(double share) {

@@ -15,6 +15,17 @@ namespace lucent::measure {
 /// Added to the squared reference in relMSE, so that black pixels do not decide it alone.
 inline constexpr double kRelMseEpsilon = 0.01;
 
+/// How far directions are from exact ones, over some pixels.
+struct Angles {
+    double median = 0, p95 = 0, p99 = 0; ///< degrees, of the pixels that have a direction
+    double lost = 0;                     ///< share of the pixels that have none
+    int pixels = 0;
+};
+struct AngleErrors {
+    Angles all;    ///< wherever the eye sees glass and there is an exact direction
+    Angles inside; ///< of these, where all eight neighbours see as many layers: away from silhouettes
+};
+
 /// Differences picture minus reference over every pixel and colour channel; alpha is not looked at.
 struct Metrics {
     double rmse = 0;
@@ -33,6 +44,8 @@ struct Metrics {
     // These two cost more than all others together and are there when they were asked for.
     std::optional<double> ssim; ///< ssim() of Ssim.h; NaN for pictures too small for it
     std::optional<double> flip; ///< mean of flip() of Flip.h, hdrFlip() when a value is above 1
+
+    std::optional<AngleErrors> angles; ///< of pictures of directions; see compareDirections()
 };
 
 /// @param imageName, referenceName  used in messages only
@@ -42,6 +55,16 @@ struct Metrics {
 ///         (how many there are and where the first one is), and for a coverage without any pixel
 Result<Metrics> compare(const Image& image, const std::string& imageName, const Image& reference,
                         const std::string& referenceName, const Image* coverage = nullptr);
+
+/// Compares directions where the eye sees glass: compare() with angles, without what relates to the sum of
+/// the reference.
+///
+/// @param image   directions of any length, 4 channels; none where the fourth is 0
+/// @param exact   of the same kind
+/// @param layers  of the same size: how many surfaces of glass lie behind each pixel, exactly
+/// @return        Error as compare() has it, or when no pixel sees glass
+Result<Metrics> compareDirections(const Image& image, const std::string& imageName, const Image& exact,
+                                  const Image& layers);
 
 /// Adds SSIM and FLIP, over all pixels, to what compare() found of the same two pictures.
 void addPerceptual(Metrics& metrics, const Image& image, const Image& reference);

@@ -33,6 +33,13 @@ struct MakeScene {
     Result<scene::Scene> operator()() const { return make(); }
 };
 
+/// What a time is of: a picture less another one of the same scene.
+struct Timed {
+    std::function<void(scene::Scene&)> with, without;
+};
+/// What the scene shows, less the same without light.
+Timed timedLight();
+
 /// One scene on which every setting is measured against the exact solution.
 struct Case {
     std::string technique, name;
@@ -40,6 +47,10 @@ struct Case {
     std::vector<Setting> settings;
     /// Makes the scene whose exact solution is the physics behind the model; empty: none is known.
     std::function<void(scene::Scene&)> toPhysics;
+    /// Of scenes that show directions, instead: makes the one whose exact solution counts the layers of
+    /// glass.
+    std::function<void(scene::Scene&)> toLayers{};
+    Timed timed = timedLight();
 };
 
 /// One setting on scenes of growing size.
@@ -51,6 +62,7 @@ struct Series {
         MakeScene scene;
     };
     std::vector<Point> points;
+    Timed timed = timedLight();
 };
 
 /// A scene on which methods tend to break.

@@ -13,11 +13,29 @@ std::string Setting::name() const {
     return text;
 }
 
+Timed timedLight() {
+    return {[](scene::Scene&) {},
+            [](scene::Scene& scene) {
+                scene.lights.clear();
+                scene.environment.reset();
+            }};
+}
+
 namespace {
+
+// Not every technique has several methods to choose from.
+bool hasMethods(const std::string& technique) {
+    for (const ParamTable* table : frame::techniques())
+        if (table->name == technique)
+            return std::any_of(table->params.begin(), table->params.end(),
+                               [](const Param& param) { return param.id == "method"; });
+    return false;
+}
 
 Status apply(scene::Scene& scene, const std::string& technique, const Setting& setting) {
     const std::string place = "technique." + technique + ".";
-    if (Status set = setParam(scene, place + "method", setting.method); !set) return set;
+    if (hasMethods(technique))
+        if (Status set = setParam(scene, place + "method", setting.method); !set) return set;
     for (const auto& [knob, value] : setting.knobs)
         if (Status set = setParam(scene, place + knob, value); !set) return set;
     return Done{};
@@ -32,21 +50,21 @@ double pictureCost(const Setting& setting, double rays) {
     return rays * kPictureRay;
 }
 
-// A renderer with what it draws: pictures of one scene with light and without.
+// A renderer with what it draws: what one scene shows, and the two pictures whose difference is timed.
 class Drawing {
 public:
-    Drawing(gl::Context& context, scene::Scene scene)
-        : renderer_(context), scene_(std::move(scene)), dark_(scene_) {
-        dark_.lights.clear();
-        dark_.environment.reset();
+    Drawing(gl::Context& context, scene::Scene scene, const Timed& timed)
+        : renderer_(context), scene_(std::move(scene)), with_(scene_), without_(scene_) {
+        timed.with(with_);
+        timed.without(without_);
     }
 
     // Work that an earlier, coarser look at the same picture took does not count.
-    Status lit(Stopwatch* stopwatch) {
+    Status with(Stopwatch* stopwatch) {
         const std::uint64_t revision = ++revision_;
         int lights = renderer_.stats().lights;
         for (;;) {
-            const Result<frame::Progress> progress = renderer_.advance(scene_, revision, scene_.size);
+            const Result<frame::Progress> progress = renderer_.advance(with_, revision, with_.size);
             if (!progress) return progress.error();
             if (progress->complete) break;
             if (stopwatch && renderer_.stats().lights != lights) stopwatch->restart();
@@ -55,25 +73,31 @@ public:
         renderer_.wait();
         return Done{};
     }
-    Status dark() {
-        if (Status done = renderer_.finish(dark_, ++revision_, dark_.size); !done) return done;
+    Status without() {
+        if (Status done = renderer_.finish(without_, ++revision_, without_.size); !done) return done;
         renderer_.wait();
         return Done{};
     }
     // An eighth of a turn: nothing that was made for one position of the map may be used for the next.
     void turnEnvironment() {
-        if (scene_.environment) scene_.environment->rotation.y += 45;
+        if (with_.environment) with_.environment->rotation.y += 45;
     }
+    // What the scene shows; stats() is then what the timed picture cost.
     Result<Image> picture() {
-        if (Status done = lit(nullptr); !done) return done.error();
+        if (Status done = with(nullptr); !done) return done.error();
+        stats_ = renderer_.stats();
+        if (with_.view.show != scene_.view.show)
+            if (Status done = renderer_.finish(scene_, ++revision_, scene_.size); !done) return done.error();
         return renderer_.read(scene_, scene_.view.show);
     }
+    const frame::Stats& stats() const { return stats_; }
     frame::Renderer& renderer() { return renderer_; }
     const scene::Scene& scene() const { return scene_; }
 
 private:
     frame::Renderer renderer_;
-    scene::Scene scene_, dark_;
+    scene::Scene scene_, with_, without_;
+    frame::Stats stats_;
     std::uint64_t revision_ = 0;
 };
 
@@ -83,9 +107,9 @@ std::unique_ptr<Stopwatch> stopwatchFor(gl::Context& context, Drawing& drawing, 
         context,
         [&drawing, &self] {
             drawing.turnEnvironment();
-            return drawing.lit(self.get());
+            return drawing.with(self.get());
         },
-        [&drawing] { return drawing.dark(); }, repeats);
+        [&drawing] { return drawing.without(); }, repeats);
 }
 
 double milliseconds(const std::function<Status()>& work, Status& status) {
@@ -111,7 +135,7 @@ struct Sweep::CaseState {
     const Case& plan;
     scene::Scene scene;
     truth::Picture truth;
-    std::optional<Image> physics;
+    std::optional<Image> physics, layers;
     std::string refused; // the scene itself
 };
 
@@ -167,22 +191,23 @@ private:
         }
         const Result<bool> done = solving_->step();
         if (!done || !*done) return done;
-        if (isPhysics_) {
-            state.physics = solving_->picture().values;
+        if (isSecond_) {
+            (state.plan.toLayers ? state.layers : state.physics) = solving_->picture().values;
             return true;
         }
         state.truth = solving_->picture();
-        if (!state.plan.toPhysics) return true;
-        scene::Scene physical = state.scene;
-        state.plan.toPhysics(physical);
-        solving_ = std::make_unique<Solving>(sweep, physical);
-        isPhysics_ = true;
+        const auto& toSecond = state.plan.toLayers ? state.plan.toLayers : state.plan.toPhysics;
+        if (!toSecond) return true;
+        scene::Scene second = state.scene;
+        toSecond(second);
+        solving_ = std::make_unique<Solving>(sweep, second);
+        isSecond_ = true;
         return false;
     }
 
     std::shared_ptr<CaseState> state_;
     std::unique_ptr<Solving> solving_;
-    bool isPhysics_ = false; // that is what is being solved
+    bool isSecond_ = false; // physics or layers are being solved
 };
 
 class Sweep::Timing : public Task {
@@ -212,11 +237,11 @@ private:
         if (!state_->refused.empty()) return Error{state_->refused};
         scene::Scene scene = state_->scene;
         if (Status set = apply(scene, result_.technique, setting_); !set) return set;
-        drawing_ = std::make_unique<Drawing>(sweep.context_, std::move(scene));
+        drawing_ = std::make_unique<Drawing>(sweep.context_, std::move(scene), state_->plan.timed);
         const Result<Image> image = drawing_->picture();
         if (!image) return image.error();
         if (Status judged = judge(*image); !judged) return judged;
-        const frame::Stats stats = drawing_->renderer().stats();
+        const frame::Stats& stats = drawing_->stats();
         result_.passes = stats.passes;
         result_.draws = stats.draws;
         result_.bytes = stats.bytes;
@@ -229,6 +254,12 @@ private:
     Status judge(const Image& image) {
         const CaseState& state = *state_;
         const Image& truth = state.truth.values;
+        if (state.layers) {
+            const Result<Metrics> angles = compareDirections(image, label, truth, *state.layers);
+            if (!angles) return angles.error();
+            result_.error = *angles;
+            return Done{};
+        }
         Result<Metrics> metrics = compare(image, label, truth, "exact solution", &truth);
         if (!metrics) return metrics.error();
         if (!setting_.ownModel) addPerceptual(*metrics, image, truth);
@@ -245,10 +276,10 @@ private:
     Status timeBake() {
         Status done = Done{};
         drawing_->renderer().release();
-        const double first = milliseconds([&] { return drawing_->lit(nullptr); }, done);
+        const double first = milliseconds([&] { return drawing_->with(nullptr); }, done);
         if (!done) return done;
         drawing_->turnEnvironment();
-        result_.bakeMs = first - milliseconds([&] { return drawing_->lit(nullptr); }, done);
+        result_.bakeMs = first - milliseconds([&] { return drawing_->with(nullptr); }, done);
         return done;
     }
     void finish(Sweep& sweep) {
@@ -281,7 +312,7 @@ public:
             if (!scene) return leaveOut(sweep, scene.error());
             if (Status set = apply(*scene, series_.technique, series_.setting); !set)
                 return leaveOut(sweep, set.error());
-            drawing_ = std::make_unique<Drawing>(sweep.context_, std::move(*scene));
+            drawing_ = std::make_unique<Drawing>(sweep.context_, std::move(*scene), series_.timed);
             stopwatch_ = stopwatchFor(sweep.context_, *drawing_, sweep.plan_.repeats, stopwatch_);
             return false;
         }
@@ -338,7 +369,7 @@ private:
         }
         exact = solving.picture().values;
         if (Status set = apply(*scene, sweep.plan_.hardTechnique, setting_); !set) return set.error();
-        return Drawing(sweep.context_, std::move(*scene)).picture();
+        return Drawing(sweep.context_, std::move(*scene), timedLight()).picture();
     }
     // A picture with values that are not finite is no refusal: it is an error without a figure.
     void judge(const Image& image, const Image& exact, HardResult& result) const {

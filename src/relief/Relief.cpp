@@ -33,24 +33,26 @@ std::vector<std::string> defines(const views::DrawnObject& drawn, const Settings
 
 bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
 
+// A light that relief knows, and its size.
 struct Lamp {
     LightSource source;
     float extent; ///< of its disc: m, or tangent of the angle; 0: none
 };
 
-Lamp lampOf(const scene::Light& light) {
+std::optional<Lamp> lampOf(const scene::Light& light) {
     if (const auto* point = std::get_if<scene::PointLight>(&light)) {
         const bool fades = point->falloff == scene::LightFalloff::InverseSquare;
-        return {{vec4(point->position, fades ? 2 : 1), point->intensity * point->color, 1}, point->radius};
+        return Lamp{{vec4(point->position, fades ? 2 : 1), point->intensity * point->color, 1},
+                    point->radius};
     }
-    const auto& distant = std::get<scene::DistantLight>(light);
-    return {{vec4(-glm::normalize(distant.direction), 0), distant.irradiance * distant.color, 1},
-            std::tan(glm::radians(distant.angle / 2))};
+    if (const auto* distant = std::get_if<scene::DistantLight>(&light))
+        return Lamp{{vec4(-glm::normalize(distant->direction), 0), distant->irradiance * distant->color, 1},
+                    std::tan(glm::radians(distant->angle / 2))};
+    return std::nullopt;
 }
 
 // Points spread evenly over the lamp's disc on a spiral (Vogel 1979), each with its part of the light.
-void addLamp(std::vector<LightSource>& sources, const scene::Light& light, int samples) {
-    const Lamp lamp = lampOf(light);
+void addLamp(std::vector<LightSource>& sources, const Lamp& lamp, int samples) {
     const int count = lamp.extent > 0 ? samples : 1;
     const float golden = kPi * (3 - std::sqrt(5.0f));
     for (int i = 0; i < count; ++i) {
@@ -172,15 +174,17 @@ const ParamTable& Relief::params() {
 }
 
 std::optional<std::string> Relief::need(const scene::Scene& scene) {
-    if (scene.objects.empty()) return std::nullopt;
-    return "object \"" + scene.objects.front().name + "\" is a height field";
+    const auto field = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                    [](const scene::Object& object) { return object.isField(); });
+    if (field == scene.objects.end()) return std::nullopt;
+    return "object \"" + field->name + "\" is a height field";
 }
 
 std::vector<LightSource> Relief::lights(const scene::Scene& scene, const Settings& settings,
                                         int environmentLights) {
     std::vector<LightSource> sources;
     for (const scene::Light& light : scene.lights)
-        addLamp(sources, light, settings.lightSamples);
+        if (const std::optional<Lamp> lamp = lampOf(light)) addLamp(sources, *lamp, settings.lightSamples);
     if (hasEnvironment(scene) && environmentLights > 0) {
         const auto list = settings.environmentSampling == EnvironmentSampling::Importance
                               ? views::importanceLights(*scene.environment, environmentLights)

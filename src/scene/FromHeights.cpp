@@ -1,6 +1,8 @@
 // Scenes made from a picture that a person hands over.
+#include "base/Text.h"
 #include "scene/HeightSource.h"
 #include "scene/ImageUse.h"
+#include "scene/Keys.h"
 #include "scene/Load.h"
 
 #include <algorithm>
@@ -18,6 +20,9 @@ std::string stemOf(const std::string& path) {
 } // namespace
 
 Status replaceHeights(Object& object, const std::string& name, std::span<const std::byte> bytes) {
+    if (!object.isField())
+        return Error{name + ": would replace " + inQuotes(object.name) + ", a " +
+                     inQuotes(typeOf(object.shape).type) + "; must replace a height field"};
     Result<std::shared_ptr<const Image>> heights = decodeHeights(bytes, name);
     if (!heights) return heights.error();
     object.field().heights = *heights;

@@ -1,7 +1,5 @@
 #include "scene/Keys.h"
 
-#include "scene/Scene.h"
-
 namespace lucent::scene {
 namespace {
 
@@ -25,14 +23,18 @@ constexpr Key kEnvironment[] = {
 constexpr Key kPoint[] = {{"type", KeyType::Constant, "A lamp at one place.", R"("point")"}};
 constexpr Key kDistant[] = {
     {"type", KeyType::Constant, "Light that travels in one direction.", R"("distant")"}};
+constexpr Key kSpot[] = {{"type", KeyType::Constant, "A lamp that shines into a cone.", R"("spot")"}};
+constexpr Key kArea[] = {
+    {"type", KeyType::Constant, "A parallelogram that shines from one side.", R"("area")"}};
 constexpr Key kObject[] = {
     {"name", KeyType::Name, "Unique name without dots; its number when left out."},
     {"shape", KeyType::Content, "Its surface."},
     {"material", KeyType::Content, "What the surface does with light."},
     {"transform", KeyType::Content, "Where the object stands: scaled, turned, then moved."},
+    {"wave", KeyType::Content, "A wave that runs through it; not through height fields and water."},
     {"visible", KeyType::Toggle, "False hides it from the camera only."},
 };
-constexpr Key kShape[] = {
+constexpr Key kHeightField[] = {
     {"type", KeyType::Constant, "A field of heights over a rectangle, facing +z.", R"("heightfield")"},
     {"heights", KeyType::File,
      "Picture of heights: the first channel of one or two, else the mean of red, green, blue."},
@@ -45,7 +47,27 @@ constexpr Key kShape[] = {
     {"alphaIsSolid", KeyType::Toggle,
      "False makes a hole where alpha is below 0.5, as deep as the field is wide."},
 };
+constexpr Key kMesh[] = {
+    {"type", KeyType::Constant, "Triangles of a file.", R"("mesh")"},
+    {"source", KeyType::File,
+     "glTF, GLB or OBJ file. Without a material of its own the object becomes one object for each material "
+     "of "
+     "the file, called NAME/MATERIAL, with - for the dots of that name."},
+    {"part", KeyType::Text, "Only the triangles of this material of the file."},
+};
+constexpr Key kPlane[] = {
+    {"type", KeyType::Constant, "A rectangle in the xz plane, centred, facing +y.", R"("plane")"}};
+constexpr Key kBox[] = {{"type", KeyType::Constant, "A block, centred.", R"("box")"}};
+constexpr Key kSphere[] = {{"type", KeyType::Constant, "A sphere, centred.", R"("sphere")"}};
+constexpr Key kTorus[] = {{"type", KeyType::Constant, "A tube around the y axis.", R"("torus")"}};
+constexpr Key kCylinder[] = {
+    {"type", KeyType::Constant, "A cylinder around the y axis, centred.", R"("cylinder")"}};
+constexpr Key kWater[] = {{"type", KeyType::Constant,
+                           "Water that obeys the wave equation, in the xz plane, centred, facing +y.",
+                           R"("water")"}};
 constexpr Key kMaterial[] = {
+    {"absorption", KeyType::Coefficient,
+     "Instead of attenuationColor and attenuationDistance: light falls by e^(-absorption * metres) [1/m]."},
     {"baseMap", KeyType::File, "Picture that multiplies the base colour."},
     {"diffuseMap", KeyType::File, "Picture that multiplies the diffuse colour."},
     {"specularMap", KeyType::File, "Picture that multiplies the specular colour."},
@@ -83,28 +105,48 @@ const KeySet& environmentKeys() {
     return keys;
 }
 
-const KeySet& pointLightKeys() {
-    static const KeySet keys{{&pointLightParams()}, kPoint};
-    return keys;
+std::span<const TypeKeys> lightTypes() {
+    static const TypeKeys types[] = {
+        {"point", {{&pointLightParams()}, kPoint}},
+        {"distant", {{&distantLightParams()}, kDistant}},
+        {"spot", {{&spotLightParams()}, kSpot}},
+        {"area", {{&areaLightParams()}, kArea}},
+    };
+    static_assert(std::size(types) == std::variant_size_v<Light>);
+    return types;
 }
 
-const KeySet& distantLightKeys() {
-    static const KeySet keys{{&distantLightParams()}, kDistant};
-    return keys;
+std::span<const TypeKeys> shapeTypes() {
+    static const TypeKeys types[] = {
+        {"heightfield", {{&heightFieldParams(), &heightSourceParams()}, kHeightField}},
+        {"mesh", {{&meshParams()}, kMesh}},
+        {"plane", {{&planeParams()}, kPlane}},
+        {"box", {{&boxParams()}, kBox}},
+        {"sphere", {{&sphereParams()}, kSphere}},
+        {"torus", {{&torusParams()}, kTorus}},
+        {"cylinder", {{&cylinderParams()}, kCylinder}},
+        {"water", {{&waterParams()}, kWater}},
+    };
+    static_assert(std::size(types) == std::variant_size_v<Shape>);
+    return types;
 }
+
+const TypeKeys& typeOf(const Shape& shape) { return shapeTypes()[shape.index()]; }
+const TypeKeys& typeOf(const Light& light) { return lightTypes()[light.index()]; }
 
 const KeySet& objectKeys() {
     static const KeySet keys{{}, kObject};
     return keys;
 }
 
-const KeySet& shapeKeys() {
-    static const KeySet keys{{&heightFieldParams(), &heightSourceParams()}, kShape};
+const KeySet& materialKeys() {
+    static const KeySet keys{{&colorParams(), &reliefParams(), &opticsParams(), &refractionParams()},
+                             kMaterial};
     return keys;
 }
 
-const KeySet& materialKeys() {
-    static const KeySet keys{{&materialParams()}, kMaterial};
+const KeySet& waveKeys() {
+    static const KeySet keys{{&waveParams()}, {}};
     return keys;
 }
 

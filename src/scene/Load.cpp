@@ -6,6 +6,7 @@
 #include "scene/ImageUse.h"
 #include "scene/Json.h"
 #include "scene/Keys.h"
+#include "scene/Mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,35 @@ namespace {
 bool isProcedural(std::string_view source) {
     const auto names = proceduralEnvironments();
     return std::find(names.begin(), names.end(), source) != names.end();
+}
+
+// "point, distant, spot or area"
+std::string listOf(std::span<const TypeKeys> types) {
+    std::string list;
+    for (const TypeKeys& one : types)
+        (list += list.empty() ? "" : &one == &types.back() ? " or " : ", ") += one.type;
+    return list;
+}
+
+// A default-constructed struct of the variant's list.
+template <class Variant, std::size_t first = 0>
+Variant alternative(std::size_t index) {
+    if constexpr (first + 1 < std::variant_size_v<Variant>)
+        if (index != first) return alternative<Variant, first + 1>(index);
+    return Variant(std::in_place_index<first>);
+}
+
+// Absorption coefficients as a file may give them.
+struct Coefficients {
+    float one = 0;
+    vec3 three{0};
+};
+
+Result<std::shared_ptr<const Mesh>> decodeShape(std::span<const std::byte> bytes, const std::string& name) {
+    Result<Mesh> mesh = decodeMesh(bytes, name);
+    if (!mesh) return mesh.error();
+    if (mesh->normals.empty()) mesh->normals = areaWeightedNormals(mesh->positions, mesh->indices);
+    return std::shared_ptr<const Mesh>(std::make_shared<Mesh>(std::move(*mesh)));
 }
 
 // A value in the file and its path for messages: "objects.coin.material".
@@ -238,15 +268,21 @@ private:
         return true;
     }
     bool readLight(const Place& place, Light& light) {
+        std::size_t index = 0;
+        if (!readType(place, lightTypes(), index)) return false;
+        light = alternative<Light>(index);
+        return readKeys(place, typeOf(light).keys, {dataOf(light)}) && keepStatus(place, check(light));
+    }
+    // Which of the types the object under `place` is of.
+    bool readType(const Place& place, std::span<const TypeKeys> types, std::size_t& index) {
         if (!expect(place, Json::Type::Object, "an object")) return false;
         const Json* type = place.json.find("type");
-        if (!type) return missing(place, "type", "point or distant");
-        const bool point = type->string == "point";
-        if (!point && type->string != "distant")
-            return wrongType(place.at(*type, "type"), "point or distant");
-        const bool read = point ? readKeys(place, pointLightKeys(), {&light.emplace<PointLight>()})
-                                : readKeys(place, distantLightKeys(), {&light.emplace<DistantLight>()});
-        return read && keepStatus(place, check(light));
+        if (!type) return missing(place, "type", listOf(types));
+        const auto found = std::find_if(types.begin(), types.end(),
+                                        [&](const TypeKeys& one) { return one.type == type->string; });
+        if (found == types.end()) return wrongType(place.at(*type, "type"), listOf(types));
+        index = std::size_t(found - types.begin());
+        return true;
     }
 
     bool readEnvironment(const Place& place, std::optional<Environment>& slot) {
@@ -265,17 +301,23 @@ private:
         if (!expect(place, Json::Type::Array, "a list of at least one object")) return false;
         if (place.json.items.empty()) return fail(place, " is empty; must hold at least one object");
         for (std::size_t i = 0; i < place.json.items.size(); ++i) {
-            Object object;
-            if (!readObject(place, place.json.items[i], std::to_string(i), object)) return false;
-            const auto same = [&](const Object& other) { return other.name == object.name; };
-            if (std::any_of(objects.begin(), objects.end(), same))
-                return fail(place.at(place.json.items[i], std::to_string(i)),
-                            ".name is " + inQuotes(object.name) + ", as another object's; must be unique");
-            objects.push_back(std::move(object));
+            std::vector<Object> read(1);
+            if (!readObject(place, place.json.items[i], std::to_string(i), read)) return false;
+            for (Object& object : read) {
+                const auto same = [&](const Object& other) { return other.name == object.name; };
+                if (std::any_of(objects.begin(), objects.end(), same))
+                    return fail(place.at(place.json.items[i], std::to_string(i)),
+                                ".name is " + inQuotes(object.name) +
+                                    ", as another object's; must be unique");
+                objects.push_back(std::move(object));
+            }
         }
         return true;
     }
-    bool readObject(const Place& objects, const Json& json, const std::string& number, Object& object) {
+    // Reads into the first of `read`; a mesh that brings its materials becomes several.
+    bool readObject(const Place& objects, const Json& json, const std::string& number,
+                    std::vector<Object>& read) {
+        Object& object = read.front();
         const Place unnamed = objects.at(json, number);
         object.name = number;
         if (!expect(unnamed, Json::Type::Object, "an object")) return false;
@@ -290,25 +332,153 @@ private:
         if (!json.find("shape")) return missing(place, "shape", "an object");
         return optional(place, "visible", &Loader::readBool, object.visible) &&
                optional(place, "transform", &Loader::readTransform, object.transform) &&
-               optional(place, "material", &Loader::readMaterial, object.material) &&
-               optional(place, "shape", &Loader::readShape, object.field());
+               optional(place, "shape", &Loader::readShape, object) &&
+               optional(place, "material", &Loader::readMaterial, object) &&
+               optional(place, "wave", &Loader::readWave, object) &&
+               (json.find("material") || takeMaterials(place, read));
     }
     bool readTransform(const Place& place, Transform& transform) {
         return readKeys(place, transformKeys(), {&transform});
     }
-    bool readMaterial(const Place& place, Material& material) {
-        return readKeys(place, materialKeys(), {&material}) &&
+    bool readWave(const Place& place, Object& object) {
+        if (const std::string why = whyIdle(object, "wave"); !why.empty()) return fail(place, why);
+        if (!readKeys(place, waveKeys(), {&object.wave})) return false;
+        if (!place.json.find("amplitude")) return missing(place, "amplitude", "a list of 3 numbers");
+        return keepStatus(place, check(object.wave));
+    }
+
+    bool readMaterial(const Place& place, Object& object) {
+        Material& material = object.material;
+        return readKeys(place, materialKeys(), {&material, &material, &material, &material}) &&
+               readAbsorption(place, material) && keepStatus(place, check(material)) &&
+               refuseIdleKeys(place, object) &&
                readMap(place, "baseMap", material.baseMapFile, material.baseMap) &&
                readMap(place, "diffuseMap", material.diffuseMapFile, material.diffuseMap) &&
                readMap(place, "specularMap", material.specularMapFile, material.specularMap);
     }
 
-    bool readShape(const Place& place, HeightField& field) {
-        if (!expect(place, Json::Type::Object, "an object")) return false;
-        const Json* type = place.json.find("type");
-        if (!type) return missing(place, "type", "heightfield");
-        if (type->string != "heightfield") return wrongType(place.at(*type, "type"), "heightfield");
-        return readKeys(place, shapeKeys(), {&field, &field.source}) && readHeights(place, field) &&
+    bool readAbsorption(const Place& place, Material& material) {
+        constexpr ParamText text{.id = "absorption", .label = "", .min = 0, .max = kFar, .doc = ""};
+        static const Param one = declare(&Coefficients::one, text),
+                           three = declare(&Coefficients::three, text);
+        for (const std::string_view other : {"attenuationColor", "attenuationDistance"})
+            if (place.json.find("absorption") && place.json.find(other))
+                return fail(place,
+                            " has absorption and " + std::string(other) +
+                                "; must have absorption, or attenuationColor with attenuationDistance");
+        if (const Json* color = place.json.find("attenuationColor"))
+            if (!place.json.find("attenuationDistance"))
+                return fail(place.at(*color, "attenuationColor"),
+                            " is given without a distance; must stand beside attenuationDistance");
+        const Json* json = place.json.find("absorption");
+        if (!json) return true;
+        const Place member = place.at(*json, "absorption");
+        Coefficients read;
+        if (json->type == Json::Type::Number) {
+            if (!readParam(member, one, &read.one)) return false;
+            read.three = vec3(read.one);
+        } else if (json->type != Json::Type::Array) {
+            return wrongType(member, "a number or a list of 3 numbers");
+        } else if (!readParam(member, three, &read.three)) {
+            return false;
+        }
+        material.setAbsorption(read.three);
+        return true;
+    }
+    // Keys that change nothing about the object would otherwise be ignored in silence.
+    bool refuseIdleKeys(const Place& place, const Object& object) {
+        for (std::size_t i = 0; i < place.json.keys.size(); ++i)
+            if (const std::string why = whyIdle(object, place.json.keys[i]); !why.empty())
+                return fail(place.at(place.json.items[i], place.json.keys[i]), why);
+        return true;
+    }
+
+    // --- meshes
+    bool readMesh(const Place& place, MeshShape& shape) {
+        if (!readKeys(place, typeOf(Shape(shape)).keys, {&shape})) return false;
+        const Json* source = place.json.find("source");
+        if (!source) return missing(place, "source", "the name of a file");
+        const Place member = place.at(*source, "source");
+        if (!readFileName(member, shape.source)) return false;
+        std::shared_ptr<const Mesh>& whole = meshes_[{shape.source, ""}];
+        if (!whole && !readFile(member, shape.source, whole, decodeShape)) return false;
+        shape.mesh = whole;
+        return optional(place, "part", &Loader::readPart, shape);
+    }
+    bool readPart(const Place& place, MeshShape& shape) {
+        std::string wanted;
+        if (!readText(place, wanted)) return false;
+        std::vector<std::string_view> known;
+        for (const Mesh::Part& part : shape.mesh->parts) {
+            known.push_back(part.material);
+            if (part.material != wanted) continue;
+            usePart(shape, part);
+            return true;
+        }
+        if (known.empty())
+            return fail(place,
+                        " is " + inQuotes(wanted) + ", but the file has no materials; must be left out");
+        return fail(place, " is " + inQuotes(wanted) + ", no material of the file; the nearest is " +
+                               inQuotes(nearest(wanted, known)));
+    }
+    // `part` belongs to the whole mesh that the shape holds.
+    void usePart(MeshShape& shape, const Mesh::Part& part) {
+        std::shared_ptr<const Mesh>& mesh = meshes_[{shape.source, part.material}];
+        if (!mesh) mesh = std::make_shared<Mesh>(partOf(*shape.mesh, part));
+        shape.part = part.material;
+        shape.mesh = mesh;
+    }
+    // An object without a material of its own takes those of its file.
+    bool takeMaterials(const Place& place, std::vector<Object>& read) {
+        const Object object = read.front();
+        const auto* shape = std::get_if<MeshShape>(&object.shape);
+        if (!shape) return true;
+        const std::shared_ptr<const Mesh> whole = meshes_[{shape->source, ""}];
+        if (whole->parts.empty()) return true;
+        read.clear();
+        for (const Mesh::Part& part : whole->parts) {
+            if (!shape->part.empty() && shape->part != part.material) continue;
+            Object& taken = read.emplace_back(object);
+            if (shape->part.empty()) {
+                usePart(std::get<MeshShape>(taken.shape), part);
+                taken.name += "/" + part.material;
+                std::replace(taken.name.begin(), taken.name.end(), '.', '-'); // paths are cut at dots
+            }
+            if (!takeMaterial(place, part, taken)) return false;
+        }
+        return true;
+    }
+    // Only what acts, and only what a scene file could say as well.
+    bool takeMaterial(const Place& place, const Mesh::Part& part, Object& object) {
+        object.material = part.values;
+        const auto complain = [&](const std::string& what) {
+            return fail(place, ".shape.source: material " + inQuotes(part.material) + ": " + what);
+        };
+        if (Status legal = check(part.values); !legal) return complain(legal.error().message);
+        const std::vector<const ParamTable*> acting = materialTables(object);
+        object.material = {};
+        for (const ParamTable* table : acting)
+            for (const Param& param : table->params) {
+                const void* from = reinterpret_cast<const std::byte*>(&part.values) + param.offset;
+                void* to = reinterpret_cast<std::byte*>(&object.material) + param.offset;
+                if (Status set = setText(param, to, getText(param, from)); !set)
+                    return complain(std::string(param.id) + " " + set.error().message);
+            }
+        return true;
+    }
+
+    // --- shapes
+    bool readShape(const Place& place, Object& object) {
+        std::size_t index = 0;
+        if (!readType(place, shapeTypes(), index)) return false;
+        object.shape = alternative<Shape>(index);
+        if (object.isField()) return readHeightField(place, object.field());
+        if (auto* mesh = std::get_if<MeshShape>(&object.shape)) return readMesh(place, *mesh);
+        return readKeys(place, typeOf(object.shape).keys, {dataOf(object.shape)}) &&
+               keepStatus(place, check(object.shape));
+    }
+    bool readHeightField(const Place& place, HeightField& field) {
+        return readKeys(place, shapeTypes()[0].keys, {&field, &field.source}) && readHeights(place, field) &&
                readAlpha(place, field);
     }
     bool readHeights(const Place& place, HeightField& field) {
@@ -366,6 +536,7 @@ private:
     const std::string& path_;
     const ReadFile& read_;
     std::span<const ParamTable* const> techniques_;
+    std::map<std::pair<std::string, std::string>, std::shared_ptr<const Mesh>> meshes_; // by source and part
     Error error_;
 };
 
@@ -384,22 +555,31 @@ Result<std::vector<std::string>> dependencies(const std::string& path, std::span
     const Result<Json> root = parseJson(scene, path);
     if (!root) return root.error();
     std::vector<std::string> files;
-    const auto collect = [&](const Json& object, std::initializer_list<std::string_view> fileKeys) {
+    const auto collect = [&](const Json& object, const KeySet& keys) {
         for (std::size_t i = 0; i < object.keys.size(); ++i) {
             const std::string& name = object.items[i].string;
-            const bool isFile = std::find(fileKeys.begin(), fileKeys.end(), object.keys[i]) != fileKeys.end();
-            if (!isFile || name.empty() || isProcedural(name)) continue;
+            const bool isFile = std::any_of(keys.keys.begin(), keys.keys.end(), [&](const Key& key) {
+                return key.type == KeyType::File && key.id == object.keys[i];
+            });
+            if (!isFile || name.empty()) continue;
             const std::string file = resolvePath(path, name);
             if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
         }
     };
     for (std::size_t i = 0; i < root->keys.size(); ++i) {
-        if (root->keys[i] == "environment") collect(root->items[i], {"source"});
+        const Json& item = root->items[i];
+        if (root->keys[i] == "environment") {
+            const Json* source = item.find("source");
+            if (source && !isProcedural(source->string)) collect(item, environmentKeys());
+        }
         if (root->keys[i] != "objects") continue;
-        for (const Json& object : root->items[i].items)
-            for (const Json& part : object.items) // only a shape and a material have such keys
-                collect(part,
-                        {"heights", "normalMap", "mesh", "alpha", "baseMap", "diffuseMap", "specularMap"});
+        for (const Json& object : item.items)
+            for (std::size_t k = 0; k < object.keys.size(); ++k) {
+                if (object.keys[k] == "material") collect(object.items[k], materialKeys());
+                if (object.keys[k] != "shape") continue;
+                for (const TypeKeys& type : shapeTypes())
+                    collect(object.items[k], type.keys);
+            }
     }
     return files;
 }

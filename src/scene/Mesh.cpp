@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <numeric>
+#include <tuple>
 
 namespace lucent::scene {
 namespace {
-
-constexpr std::string_view kMagic = "LUCENTM1";
-constexpr std::size_t kHeader = 16; // magic, number of positions, number of indices
-static_assert(std::endian::native == std::endian::little, "mesh files are written as they lie in memory");
-static_assert(sizeof(vec3) == 12);
 
 // Corner in texels, x to the right and y down from the picture's top left corner; z towards the viewer.
 using Corner = dvec3;
@@ -50,52 +45,44 @@ void rasterize(const std::array<Corner, 3>& t, std::vector<double>& depth, ivec2
 
 } // namespace
 
-Bytes encodeMesh(const Mesh& mesh) {
-    const std::uint32_t counts[] = {std::uint32_t(mesh.positions.size()), std::uint32_t(mesh.indices.size())};
-    const std::size_t positionBytes = mesh.positions.size() * sizeof(vec3);
-    Bytes bytes(kHeader + positionBytes + mesh.indices.size() * sizeof(std::uint32_t));
-    std::memcpy(bytes.data(), kMagic.data(), kMagic.size());
-    std::memcpy(bytes.data() + kMagic.size(), counts, sizeof counts);
-    std::copy_n(reinterpret_cast<const std::byte*>(mesh.positions.data()), positionBytes,
-                bytes.data() + kHeader);
-    std::copy_n(reinterpret_cast<const std::byte*>(mesh.indices.data()),
-                mesh.indices.size() * sizeof(std::uint32_t), bytes.data() + kHeader + positionBytes);
-    return bytes;
-}
+std::size_t openEdges(const Mesh& mesh) {
+    // Each vertex by the first one at its place.
+    std::vector<std::uint32_t> order(mesh.positions.size()), placeOf(order.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+        const vec3 &p = mesh.positions[a], &q = mesh.positions[b];
+        return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+    };
+    std::sort(order.begin(), order.end(), before);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        placeOf[order[i]] = i > 0 && !before(order[i - 1], order[i]) ? placeOf[order[i - 1]] : order[i];
 
-Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& name) {
-    if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0)
-        return Error{name + ": is no mesh file; must be glTF 2.0 or start with LUCENTM1"};
-    std::uint32_t counts[2];
-    std::memcpy(counts, bytes.data() + kMagic.size(), sizeof counts);
-    const std::uint64_t needed = kHeader + 12 * std::uint64_t(counts[0]) + 4 * std::uint64_t(counts[1]);
-    if (bytes.size() < needed)
-        return Error{name + ": the mesh file ends after " + std::to_string(bytes.size()) +
-                     " bytes; must have " + std::to_string(needed)};
-    if (counts[1] == 0 || counts[1] % 3)
-        return Error{name + ": has " + std::to_string(counts[1]) +
-                     " indices; must be three a triangle, at least one"};
-
-    Mesh mesh;
-    mesh.positions.resize(counts[0]);
-    mesh.indices.resize(counts[1]);
-    std::copy_n(bytes.data() + kHeader, 12 * mesh.positions.size(),
-                reinterpret_cast<std::byte*>(mesh.positions.data()));
-    std::copy_n(bytes.data() + kHeader + 12 * mesh.positions.size(), 4 * mesh.indices.size(),
-                reinterpret_cast<std::byte*>(mesh.indices.data()));
-    for (const std::uint32_t index : mesh.indices)
-        if (index >= counts[0])
-            return Error{name + ": index " + std::to_string(index) + " points behind the " +
-                         std::to_string(counts[0]) + " positions; must be smaller"};
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const vec3 p = mesh.positions[i];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            return Error{name + ": position " + std::to_string(i) + " is not finite; must be"};
+    struct Side {
+        std::uint32_t low, high;
+        int way; // +1 from low to high
+        auto ends() const { return std::tie(low, high); }
+    };
+    std::vector<Side> sides;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t a = placeOf[mesh.indices[i + c]], b = placeOf[mesh.indices[i + (c + 1) % 3]];
+            if (a != b) sides.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
+        }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.ends() < b.ends(); });
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < sides.size();) {
+        int sum = 0; // neighbours walk their common edge in opposite ways
+        const Side edge = sides[i];
+        for (; i < sides.size() && sides[i].ends() == edge.ends(); ++i)
+            sum += sides[i].way;
+        open += std::size_t(std::abs(sum));
     }
-    return mesh;
+    return open;
 }
 
-Image depthOfMesh(const Mesh& mesh, vec3 rotation, ivec2 size, float margin, float floorGap) {
+Image depthOfMesh(const Mesh& source, vec3 rotation, ivec2 size, float margin, float floorGap) {
+    const Mesh moved = source.joints.empty() ? Mesh() : posed(source, poseAt(source.rig, 0));
+    const Mesh& mesh = source.joints.empty() ? source : moved;
     std::vector<Corner> corners;
     corners.reserve(mesh.positions.size());
     const glm::dmat3 turn(rotationFromDegrees(rotation));

@@ -25,13 +25,16 @@ struct MorphTarget {
 struct Channel {
     enum class Path { Translation, Rotation, Scale, Weights };
     enum class Interpolation { Linear, Step, CubicSpline };
-    int node = 0;
+    int node = 0;        ///< which it moves; of no meaning for weights
+    int firstTarget = 0; ///< whose weight it sets, and those of the ones behind it; of weights only
     Path path = Path::Translation;
     Interpolation interpolation = Interpolation::Linear;
-    std::vector<float> times; ///< s, ascending
-    std::vector<float>
-        values; ///< 3, 4 (quaternion x, y, z, w) or as many as there are targets, for each time;
-                ///< three times as many for a cubic spline: tangent in, value, tangent out
+    std::vector<float> times;  ///< s, ascending
+    std::vector<float> values; ///< width() for each time; three times as many for a cubic spline: tangent in,
+                               ///< value, tangent out
+
+    /// Numbers of one value: 3, 4 (quaternion x, y, z, w), or how many weights it sets.
+    std::size_t width() const;
 };
 
 /// A node of a file's tree: scaled, turned, then moved in its parent's space.
@@ -54,7 +57,7 @@ struct Rig {
 };
 
 struct Mesh {
-    std::vector<vec3> positions;        ///< m, at rest
+    std::vector<vec3> positions;        ///< m; with joints: as bound to them, else at rest
     std::vector<std::uint32_t> indices; ///< three a triangle, counter-clockwise seen from outside
     std::vector<vec3> normals{};        ///< unit, one a position; empty: areaWeightedNormals()
     std::vector<std::array<std::uint16_t, 4>> joints{}; ///< of each position, in Rig::joints; empty: none
@@ -81,36 +84,50 @@ struct Pose {
 /// Where the rig stands at `time` [s], which wraps around at the duration.
 Pose poseAt(const Rig& rig, float time);
 
+/// The mesh as it stands in a pose, without its rig. Normals go by the inverse transpose.
+Mesh posed(const Mesh& mesh, const Pose& pose);
+
 /// Normals of the vertices: those of the triangles around, weighted by area. Vertices at the same place with
 /// the same index only; of no triangle: +y. Triangles without area count nothing.
 std::vector<vec3> areaWeightedNormals(std::span<const vec3> positions,
                                       std::span<const std::uint32_t> indices);
 
 /// Meshes of the shapes that are neither files nor fields, centred in their object's space, with normals.
-/// Their vertices lie on the shape; `segments` go once around (the other way in proportion).
-Mesh meshOf(const Plane& plane);
-Mesh meshOf(const Box& box);
+/// Their vertices lie on the shape; `segments` (3 or more) go once around, the other way in proportion but
+/// not more. Flat sides have `cells` squares along each edge: 1 unless the shape is to be bent; lids of
+/// cylinders are fans around their centre. Neighbouring faces meet at the same positions to the bit. The
+/// plane and the open cylinder, which faces away from its axis, are sheets of one layer whose two sides both
+/// count.
+Mesh meshOf(const Plane& plane, int cells = 1);
+Mesh meshOf(const Box& box, int cells = 1);
 Mesh meshOf(const Sphere& sphere, int segments = 256);
 Mesh meshOf(const Torus& torus, int segments = 384);
 Mesh meshOf(const Cylinder& cylinder, int segments = 256);
-/// The triangles of one material.
+
+/// Edges beside which a triangle is missing or lies the wrong way round; 0: the mesh is closed. Vertices at
+/// the same place count as one, so that sharp edges are no gaps.
+std::size_t openEdges(const Mesh& mesh);
+
+/// The triangles of one material with the vertices they use, and all of the rig.
 Mesh partOf(const Mesh& mesh, const Mesh::Part& part);
 
+/// True for bytes that start as the plain form does.
+bool isMesh(std::span<const std::byte> bytes);
 /// The plain form in which meshes reach the loader: "LUCENTM2" and then everything above, little-endian.
 /// The readers write it from glTF and OBJ, natively and in the page alike.
 Bytes encodeMesh(const Mesh& mesh);
-/// Error "NAME: what; expected" for truncated files, indices out of range and values that are not finite.
+/// Error "NAME: what; expected" for truncated files, indices out of range, lists whose lengths do not agree
+/// and values that are not finite or outside their range.
 Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& name);
 
 /// The mesh's depth as heights (height-field thesis 2017, 3.1.2): seen along -z after `rotation`, the
 /// bounding box fitted into `size` texels with square texels and a margin of `margin` of the larger side (of
 /// a narrow picture at least one texel stays free). Depth is taken exactly at texel centres; both sides of a
-/// triangle count.
+/// triangle count. What moves stands as it does at time 0.
 ///
 /// @param rotation  degrees about the fixed x, y, z axes
-/// @return          1 channel; nearest visible point = 1, farthest = `floorGap`, background 0; all 1 where
-/// the
-///                  mesh is a plane seen from straight above
+/// @return          1 channel; nearest visible point = 1, farthest = `floorGap`, background 0; all 1 of a
+///                  plane seen from straight above
 Image depthOfMesh(const Mesh& mesh, vec3 rotation, ivec2 size, float margin, float floorGap);
 
 /// Heights from a normal map by least-squares integration (thesis 3.1.3 sums along paths, which depends on

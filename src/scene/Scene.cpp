@@ -1,6 +1,8 @@
 #include "scene/Scene.h"
 
 #include "base/Text.h"
+#include "scene/Keys.h"
+#include "scene/Mesh.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -8,19 +10,9 @@
 namespace lucent::scene {
 namespace {
 
-constexpr std::string_view kFalloffNames[] = {"none", "inverse-square"};
 constexpr std::string_view kCameraNames[] = {"orthographic", "perspective"};
-constexpr std::string_view kAovNames[] = {"color", "d",        "visibility", "normal",
-                                          "depth", "position", "iterations"};
-
-// Places and directions in metres: far enough for a sun, near enough that squares stay finite in floats.
-constexpr double kFar = 1e9;
-
-// A table whose parameters are declared once, at the first call.
-template <class Struct, std::size_t N>
-ParamTable makeTable(std::string_view name, const Param (&params)[N]) {
-    return tableOf<Struct>(name, params);
-}
+constexpr std::string_view kAovNames[] = {"color",    "d",          "visibility", "normal",    "depth",
+                                          "position", "iterations", "irradiance", "direction", "layers"};
 
 } // namespace
 
@@ -30,128 +22,6 @@ mat4 Transform::worldFromObject() const {
 }
 
 std::span<const std::string_view> aovNames() { return kAovNames; }
-
-const ParamTable& heightFieldParams() {
-    static const Param params[] = {
-        declare(&HeightField::heightScale, {.id = "heightScale",
-                                            .label = "Height",
-                                            .unit = "m",
-                                            .min = 0,
-                                            .max = 1e5,
-                                            .high = 0.5,
-                                            .group = Group::HeightField,
-                                            .doc = "How high a height of 1 stands.",
-                                            .attribute = "height-scale"}),
-        declare(&HeightField::width, {.id = "width",
-                                      .label = "Width",
-                                      .unit = "m",
-                                      .min = kAboveZero,
-                                      .max = 1e6,
-                                      .low = 0.1,
-                                      .high = 10,
-                                      .logarithmic = true,
-                                      .doc = "Width of the field; its texels are square.",
-                                      .attribute = "field-width"}),
-    };
-    static const ParamTable table = makeTable<HeightField>("shape", params);
-    return table;
-}
-
-const ParamTable& heightSourceParams() {
-    static const Param params[] = {
-        declare(&HeightSource::meshRotate,
-                {.id = "meshRotate",
-                 .label = "Mesh rotation",
-                 .unit = "degrees",
-                 .low = -180,
-                 .high = 180,
-                 .doc = "Turns the mesh about the fixed x, y, z axes before its depth is "
-                        "taken along -z."}),
-        declare(&HeightSource::margin, {.id = "margin",
-                                        .label = "Margin",
-                                        .min = 0,
-                                        .max = 0.45,
-                                        .high = 0.45,
-                                        .doc = "Free space around the mesh, as a part of the larger side."}),
-        declare(&HeightSource::floorGap,
-                {.id = "floorGap",
-                 .label = "Floor gap",
-                 .min = 0,
-                 .max = 1,
-                 .doc = "Height of the farthest visible point above the background; the "
-                        "nearest has 1."}),
-    };
-    static const ParamTable table = makeTable<HeightSource>("shape", params);
-    return table;
-}
-
-const ParamTable& materialParams() {
-    static const Param params[] = {
-        declare(&Material::base, {.id = "base",
-                                  .label = "Base colour",
-                                  .min = 0,
-                                  .group = Group::Material,
-                                  .doc = "Colour that shows without any light.",
-                                  .color = true}),
-        declare(&Material::diffuse, {.id = "diffuse",
-                                     .label = "Diffuse colour",
-                                     .min = 0,
-                                     .max = 1,
-                                     .group = Group::Material,
-                                     .doc = "Colour of light that has been inside the solid.",
-                                     .color = true}),
-        declare(&Material::specular, {.id = "specular",
-                                      .label = "Specular colour",
-                                      .min = 0,
-                                      .max = 1,
-                                      .group = Group::Material,
-                                      .doc = "Colour of the mirrored highlight.",
-                                      .color = true}),
-        declare(&Material::specularity, {.id = "specularity",
-                                         .label = "Specularity",
-                                         .min = 0,
-                                         .max = 1,
-                                         .group = Group::Material,
-                                         .doc = "Share of the mirrored highlight in the picture."}),
-        declare(&Material::forwardScatter,
-                {.id = "forwardScatter",
-                 .label = "Forward scattering",
-                 .min = 0,
-                 .max = 1,
-                 .group = Group::Material,
-                 .doc = "How much the light shows only where it comes from behind."}),
-        declare(&Material::depth,
-                {.id = "depth",
-                 .label = "Depth",
-                 .unit = "m",
-                 .min = kAboveZero,
-                 .max = 1e3,
-                 .low = 0.002,
-                 .high = 0.5,
-                 .logarithmic = true,
-                 .group = Group::Material,
-                 .doc = "How far below the surface the light is looked at; small is hard, large is "
-                        "soft."}),
-        declare(&Material::specularFalloff,
-                {.id = "specularFalloff",
-                 .label = "Specular falloff",
-                 .min = -1,
-                 .max = 1,
-                 .group = Group::Falloff,
-                 .doc = "Cosines at which the highlight begins and is full; equal ends "
-                        "make a sharp edge."}),
-        declare(&Material::scatterFalloff,
-                {.id = "scatterFalloff",
-                 .label = "Scattering falloff",
-                 .min = -1,
-                 .max = 1,
-                 .group = Group::Falloff,
-                 .doc = "Cosines at which forward scattering begins and is full; equal "
-                        "ends make a sharp edge."}),
-    };
-    static const ParamTable table = makeTable<Material>("material", params);
-    return table;
-}
 
 const ParamTable& transformParams() {
     static const Param params[] = {
@@ -177,113 +47,7 @@ const ParamTable& transformParams() {
                                     .logarithmic = true,
                                     .doc = "Size of the object's metre."}),
     };
-    static const ParamTable table = makeTable<Transform>("transform", params);
-    return table;
-}
-
-const ParamTable& pointLightParams() {
-    static const Param params[] = {
-        declare(&PointLight::position, {.id = "position",
-                                        .label = "Light position",
-                                        .unit = "m",
-                                        .min = -kFar,
-                                        .max = kFar,
-                                        .low = -1,
-                                        .group = Group::Light,
-                                        .doc = "Where the lamp stands; drag in the picture moves it.",
-                                        .attribute = "light"}),
-        declare(&PointLight::color, {.id = "color",
-                                     .label = "Light colour",
-                                     .min = 0,
-                                     .group = Group::Light,
-                                     .doc = "Colour of the lamp's light.",
-                                     .color = true}),
-        declare(&PointLight::intensity,
-                {.id = "intensity",
-                 .label = "Intensity",
-                 .min = 0,
-                 .high = 4,
-                 .group = Group::Light,
-                 .doc = "Factor of the lamp's light; watts per steradian when it fades with "
-                        "the inverse square."}),
-        declare(&PointLight::falloff,
-                {.id = "falloff",
-                 .label = "Fading",
-                 .group = Group::Light,
-                 .doc = "Whether the light fades with the square of the distance, as lamps do.",
-                 .choices = kFalloffNames}),
-        declare(&PointLight::radius,
-                {.id = "radius",
-                 .label = "Light radius",
-                 .unit = "m",
-                 .min = 0,
-                 .max = kFar,
-                 .high = 0.5f,
-                 .group = Group::Light,
-                 .doc = "Radius of the lamp, a disc that faces what it lights: soft shadows."}),
-    };
-    static const ParamTable table = makeTable<PointLight>("light", params);
-    return table;
-}
-
-const ParamTable& distantLightParams() {
-    static const Param params[] = {
-        declare(&DistantLight::direction, {.id = "direction",
-                                           .label = "Light direction",
-                                           .min = -kFar,
-                                           .max = kFar,
-                                           .low = -1,
-                                           .group = Group::Light,
-                                           .doc = "The way the light travels."}),
-        declare(&DistantLight::color, {.id = "color",
-                                       .label = "Light colour",
-                                       .min = 0,
-                                       .group = Group::Light,
-                                       .doc = "Colour of the light.",
-                                       .color = true}),
-        declare(&DistantLight::irradiance, {.id = "irradiance",
-                                            .label = "Irradiance",
-                                            .min = 0,
-                                            .high = 4,
-                                            .group = Group::Light,
-                                            .doc = "Light on a surface that faces it."}),
-        declare(&DistantLight::angle,
-                {.id = "angle",
-                 .label = "Light angle",
-                 .unit = "degrees",
-                 .min = 0,
-                 .max = 90,
-                 .high = 20,
-                 .group = Group::Light,
-                 .doc = "How wide the light is seen, as a disc: soft shadows. The sun has 0.53."}),
-    };
-    static const ParamTable table = makeTable<DistantLight>("light", params);
-    return table;
-}
-
-const ParamTable& environmentParams() {
-    static const Param params[] = {
-        declare(&Environment::enabled, {.id = "enabled",
-                                        .label = "Environment light",
-                                        .group = Group::Environment,
-                                        .doc = "Light from all around, from the environment map."}),
-        declare(&Environment::rotation,
-                {.id = "rotation",
-                 .label = "Rotation",
-                 .unit = "degrees",
-                 .low = -180,
-                 .high = 180,
-                 .group = Group::Environment,
-                 .doc = "Turns the environment map about the fixed x, y, z axes, x first.",
-                 .attribute = "env-rotation"}),
-        declare(&Environment::intensity, {.id = "intensity",
-                                          .label = "Intensity",
-                                          .min = 0,
-                                          .high = 4,
-                                          .group = Group::Environment,
-                                          .doc = "Factor of the environment's light."}),
-    };
-    static const ParamTable table = makeTable<Environment>("environment", params);
+    static const ParamTable table = tableOf<Transform>("transform", params);
     return table;
 }
 
@@ -335,7 +99,7 @@ const ParamTable& cameraParams() {
                                .group = Group::View,
                                .doc = "Vertical angle that a perspective camera shows."}),
     };
-    static const ParamTable table = makeTable<Camera>("camera", params);
+    static const ParamTable table = tableOf<Camera>("camera", params);
     return table;
 }
 
@@ -359,8 +123,16 @@ const ParamTable& viewParams() {
                                   .label = "Light dot",
                                   .group = Group::View,
                                   .doc = "Marks where the lamp stands."}),
+        declare(&View::time, {.id = "time",
+                              .label = "Time",
+                              .unit = "s",
+                              .min = 0,
+                              .max = 1e6,
+                              .high = 10,
+                              .group = Group::View,
+                              .doc = "Moment that is shown of waves, water and animations."}),
     };
-    static const ParamTable table = makeTable<View>("view", params);
+    static const ParamTable table = tableOf<View>("view", params);
     return table;
 }
 
@@ -376,7 +148,7 @@ const ParamTable& qualityParams() {
                  .doc = "Root mean square error that the picture may have, over its mean: the cheapest "
                         "settings that keep it are chosen. 0: the settings as they are."}),
     };
-    static const ParamTable table = makeTable<Quality>("quality", params);
+    static const ParamTable table = tableOf<Quality>("quality", params);
     return table;
 }
 
@@ -395,15 +167,26 @@ struct Binder {
                                  static_cast<std::byte*>(data) + param.offset,
                                  static_cast<const std::byte*>(table.defaults) + param.offset});
     }
-};
 
-const ParamTable& tableOfLight(const Light& light) {
-    return std::holds_alternative<PointLight>(light) ? pointLightParams() : distantLightParams();
-}
+    void addObject(Object& object, bool first) {
+        const std::string path = "objects." + object.name;
+        for (const ParamTable* table : materialTables(object))
+            add(path + ".material", first ? "material" : "", *table, &object.material);
+        add(path + ".shape", first ? "shape" : "", *typeOf(object.shape).keys.tables[0],
+            dataOf(object.shape));
+        if (whyIdle(object, "wave").empty()) {
+            const std::size_t start = bound.size();
+            add(path + ".wave", first ? "wave" : "", waveParams(), &object.wave);
+            for (std::size_t i = start; i < bound.size(); ++i)
+                bound[i].shown = object.wave.amplitude != vec3(0);
+        }
+        add(path + ".transform", first ? "transform" : "", transformParams(), &object.transform);
+    }
+};
 
 // Group::None stands last: it is in no panel.
 int panelOrder(const BoundParam& bound) {
-    const Group group = bound.param->group;
+    const Group group = bound.group();
     return group == Group::None ? int(Group::View) + 1 : int(group);
 }
 
@@ -434,22 +217,20 @@ std::vector<BoundParam> bindParams(Scene& scene) {
     Binder binder;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         Light& light = scene.lights[i];
-        void* data = std::visit([](auto& value) -> void* { return &value; }, light);
-        binder.add("lights." + std::to_string(i), i == 0 ? "light" : "", tableOfLight(light), data);
+        binder.add("lights." + std::to_string(i), i == 0 ? "light" : "", *typeOf(light).keys.tables[0],
+                   dataOf(light));
     }
-    for (Object& object : scene.objects) {
-        const std::string path = "objects." + object.name;
-        const bool first = &object == &scene.objects.front();
-        binder.add(path + ".material", first ? "material" : "", materialParams(), &object.material);
-        binder.add(path + ".shape", first ? "shape" : "", heightFieldParams(), &object.field());
-        binder.add(path + ".transform", first ? "transform" : "", transformParams(), &object.transform);
-    }
+    for (Object& object : scene.objects)
+        binder.addObject(object, &object == &scene.objects.front());
     if (scene.environment) binder.add("environment", "env", environmentParams(), &*scene.environment);
     for (auto& [name, settings] : scene.technique)
         binder.add("technique." + name, name, settings.table(), settings.data());
     const bool orthographic = scene.camera.type == Camera::Type::Orthographic;
     binder.add("camera", "camera", cameraParams(), &scene.camera, orthographic ? "fov" : "height");
     binder.add("view", "view", viewParams(), &scene.view);
+    const bool still = std::none_of(scene.objects.begin(), scene.objects.end(), moves);
+    for (BoundParam& param : binder.bound)
+        if (param.data == &scene.view.time) param.shown = !still;
     binder.add("quality", "quality", qualityParams(), &scene.quality);
     std::stable_sort(binder.bound.begin(), binder.bound.end(),
                      [](const BoundParam& a, const BoundParam& b) { return panelOrder(a) < panelOrder(b); });
@@ -466,13 +247,94 @@ Status check(const Camera& camera) {
     return Done{};
 }
 
-Status check(const Light& light) {
-    const auto* distant = std::get_if<DistantLight>(&light);
-    if (distant && isZero(distant->direction)) return Error{"direction is 0 0 0; must have a length"};
+namespace {
+
+Status checkDirection(vec3 direction) {
+    if (isZero(direction)) return Error{"direction is 0 0 0; must have a length"};
     return Done{};
 }
 
+Status checkKind(const PointLight&) { return Done{}; }
+
+Status checkKind(const DistantLight& light) { return checkDirection(light.direction); }
+
+Status checkKind(const SpotLight& light) {
+    if (light.innerAngle > light.outerAngle)
+        return Error{"innerAngle is " + shortest(light.innerAngle) + "; must be at most outerAngle, " +
+                     shortest(light.outerAngle)};
+    return checkDirection(light.direction);
+}
+
+Status checkKind(const AreaLight& light) {
+    if (isZero(light.edgeU)) return Error{"edgeU is 0 0 0; must have a length"};
+    if (isZero(light.edgeV)) return Error{"edgeV is 0 0 0; must have a length"};
+    // The angle below which a camera's up counts as along its view.
+    if (glm::length(glm::cross(glm::normalize(light.edgeU), glm::normalize(light.edgeV))) < 1e-4f)
+        return Error{"edgeV is " + vectorText(light.edgeV) + ", along edgeU; must point elsewhere"};
+    return Done{};
+}
+
+} // namespace
+
+Status check(const Light& light) {
+    return std::visit([](const auto& kind) { return checkKind(kind); }, light);
+}
+
+Status check(const Shape& shape) {
+    const auto* torus = std::get_if<Torus>(&shape);
+    if (torus && torus->minor > torus->major)
+        return Error{"minor is " + shortest(torus->minor) + "; must be at most major, " +
+                     shortest(torus->major)};
+    const auto* water = std::get_if<Water>(&shape);
+    if (water && isZero(vec3(water->direction, 0))) return Error{"direction is 0 0; must have a length"};
+    return Done{};
+}
+
+Status check(const Material& material) {
+    if (material.isRefractive() && material.isMirror())
+        return Error{"reflectance is " + vectorText(material.reflectance) +
+                     "; must be 0 beside a transmission above 0"};
+    return Done{};
+}
+
+Status check(const Wave& wave) { return checkDirection(wave.direction); }
+
+bool moves(const Object& object) {
+    if (std::holds_alternative<Water>(object.shape)) return true;
+    const auto* shape = std::get_if<MeshShape>(&object.shape);
+    return object.wave.amplitude != vec3(0) || (shape && shape->mesh && shape->mesh->moves());
+}
+
 namespace {
+
+Status checkAll(const Scene& scene) {
+    const auto at = [](const std::string& path, const Status& legal) -> Status {
+        return legal ? legal : Error{path + "." + legal.error().message};
+    };
+    if (Status legal = at("camera", check(scene.camera)); !legal) return legal;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        if (Status legal = at("lights." + std::to_string(i), check(scene.lights[i])); !legal) return legal;
+    for (const Object& object : scene.objects) {
+        const std::string path = "objects." + object.name;
+        if (Status legal = at(path + ".shape", check(object.shape)); !legal) return legal;
+        if (Status legal = at(path + ".material", check(object.material)); !legal) return legal;
+        if (Status legal = at(path + ".wave", check(object.wave)); !legal) return legal;
+    }
+    return Done{};
+}
+
+// " does nothing on ...": why a path that looks like a parameter of an object is none now; "" for others.
+std::string whyUnbound(const Scene& scene, std::string_view path) {
+    for (const Object& object : scene.objects) {
+        const std::string owner = "objects." + object.name + ".";
+        if (!path.starts_with(owner)) continue;
+        const std::string_view rest = path.substr(owner.size());
+        const std::size_t dot = rest.find('.');
+        if (rest.substr(0, dot) == "wave") return whyIdle(object, "wave");
+        return rest.substr(0, dot) == "material" ? whyIdle(object, rest.substr(dot + 1)) : std::string();
+    }
+    return {};
+}
 
 Status assign(Scene& scene, std::string_view path, std::string_view value) {
     const std::string wanted = pathWithName(scene, path);
@@ -480,6 +342,7 @@ Status assign(Scene& scene, std::string_view path, std::string_view value) {
     const auto found =
         std::find_if(bound.begin(), bound.end(), [&](const BoundParam& b) { return b.path == wanted; });
     if (found == bound.end()) {
+        if (const std::string why = whyUnbound(scene, wanted); !why.empty()) return Error{wanted + why};
         std::vector<std::string_view> paths;
         for (const BoundParam& b : bound)
             paths.push_back(b.path);
@@ -488,11 +351,7 @@ Status assign(Scene& scene, std::string_view path, std::string_view value) {
     }
     if (Status set = setText(*found->param, found->data, value); !set)
         return Error{found->path + " " + set.error().message};
-    if (Status legal = check(scene.camera); !legal) return Error{"camera." + legal.error().message};
-    for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        if (Status legal = check(scene.lights[i]); !legal)
-            return Error{"lights." + std::to_string(i) + "." + legal.error().message};
-    return Done{};
+    return checkAll(scene);
 }
 
 } // namespace

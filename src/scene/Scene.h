@@ -109,7 +109,8 @@ struct Wave {
 };
 
 /// What the surface does with light. The relief model's colours and factors (height-field thesis 2017, 3.5)
-/// hold for height fields; of other shapes `base` and `diffuse` are an opaque surface's own light and albedo.
+/// hold for height fields. Other shapes are either opaque, with `base` and `diffuse` as their own radiance
+/// and albedo, or refractive, or mirrors.
 struct Material {
     vec3 base{0};               ///< cB, shown without light
     vec3 diffuse{0.8f};         ///< cD
@@ -120,20 +121,24 @@ struct Material {
     vec2 specularFalloff{0, 1}; ///< s_min, s_max
     vec2 scatterFalloff{0, 1};  ///< f_min, f_max
 
-    // Refraction, where transmission > 0; not for height fields. As glTF defines the words.
+    // Refraction, where transmission > 0; not of height fields. As glTF defines the words.
     float transmission = 0;        ///< share of the light inside that passes, [0,1]
     float ior = 1.5f;              ///< index of refraction of the inside over that of vacuum, > 0
-    vec3 attenuationColor{1};      ///< what is left of white after `attenuationDistance`, [0,1]
+    vec3 attenuationColor{1};      ///< what is left of white after `attenuationDistance`, [1e-6,1]
     float attenuationDistance = 0; ///< m; 0: nothing is absorbed
     float dispersion = 0;          ///< 20 / Abbe number
     bool fresnel = true;           ///< false: all light is transmitted where Snell's law lets it
-    // Mirrors, where reflectance > 0.
+    // Mirrors, where reflectance > 0; not of height fields, and not beside transmission.
     vec3 reflectance{0}; ///< share of mirrored light at any angle, [0,1]
 
     bool isRefractive() const { return transmission > 0; }
     bool isMirror() const { return reflectance != vec3(0); }
-    /// Absorption coefficient: light falls by exp(-sigma l) on a way of l metres.
+    /// Absorption coefficient sigma [1/m]: light falls by exp(-sigma l) on a way of l metres. It is
+    /// -ln(attenuationColor) / attenuationDistance; 0 where the distance is 0.
     vec3 absorption() const;
+    /// Sets attenuationColor and attenuationDistance so that absorption() gives `sigma` [1/m, >= 0 and
+    /// finite] back, to float precision in channels of a hundredth of the largest or more.
+    void setAbsorption(vec3 sigma);
 
     std::shared_ptr<const Image> baseMap, diffuseMap,
         specularMap;                                          ///< 3 channels, linear; multiply the colours
@@ -265,10 +270,24 @@ struct Scene {
 
 const ParamTable& heightFieldParams();
 const ParamTable& heightSourceParams(); ///< read when loaded; not bound by bindParams()
-const ParamTable& materialParams();
+const ParamTable& meshParams();
+const ParamTable& planeParams();
+const ParamTable& boxParams();
+const ParamTable& sphereParams();
+const ParamTable& torusParams();
+const ParamTable& cylinderParams();
+const ParamTable& waterParams();
+const ParamTable& waveParams();
+// Of the material, by where they act; see whyIdle() in Keys.h.
+const ParamTable& colorParams();      ///< height fields and opaque surfaces
+const ParamTable& reliefParams();     ///< height fields
+const ParamTable& opticsParams();     ///< every other shape: what makes it clear or a mirror
+const ParamTable& refractionParams(); ///< what is clear
 const ParamTable& transformParams();
 const ParamTable& pointLightParams();
 const ParamTable& distantLightParams();
+const ParamTable& spotLightParams();
+const ParamTable& areaLightParams();
 const ParamTable& environmentParams();
 const ParamTable& cameraParams();
 const ParamTable& viewParams();
@@ -280,14 +299,21 @@ std::span<const std::string_view> aovNames();
 /// Every parameter of a scene bound to its value, in the order of the panel.
 ///
 /// The pointers stay valid while the scene's vectors keep their size. Of a camera's height and field of view
-/// only the one in use is bound. Attributes address the first light and the first object; others are set by
-/// path.
+/// only the one in use is bound, and of a material what acts on its object. A wave without amplitude and the
+/// time of a scene in which nothing moves are bound but not shown. Attributes address the first light and the
+/// first object; others are set by path.
 std::vector<BoundParam> bindParams(Scene& scene);
 
-/// What no single range can say: the camera looks somewhere, a direction has a length. Error "KEY is X;
-/// must...".
+/// True where the picture depends on View::time: water, a wave, an animation.
+bool moves(const Object& object);
+
+/// What no single range can say: the camera looks somewhere, a direction has a length, a torus has a hole or
+/// a dent. Error "KEY is X; must...".
 Status check(const Camera& camera);
 Status check(const Light& light);
+Status check(const Shape& shape);
+Status check(const Material& material);
+Status check(const Wave& wave);
 
 /// Sets one parameter by its path ("objects.coin.material.specularity"; objects by name or number, lights by
 /// number). On error the scene is unchanged and the message names the path, what was found and expected, and

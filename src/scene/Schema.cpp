@@ -44,6 +44,7 @@ void writeType(JsonWriter& json, const Param& param) {
         break;
     case Kind::Vector:
     case Kind::Range:
+    case Kind::Pair:
         writeNumbers(json, param);
         break;
     default:
@@ -66,6 +67,21 @@ void writeSizeType(JsonWriter& json) {
     json.key("items").beginObject().key("type").value("integer");
     json.key("minimum").value(1).key("maximum").value(kMaxPictureSide).end();
     json.key("minItems").value(2).key("maxItems").value(2);
+}
+
+// A number that is not negative, or three.
+void writeCoefficientType(JsonWriter& json) {
+    const auto writeNumber = [&] {
+        json.beginObject().key("type").value("number");
+        json.key("minimum").value(0).key("maximum").value(kFar).end();
+    };
+    json.key("anyOf").beginArray();
+    writeNumber();
+    json.beginObject().key("type").value("array");
+    json.key("items");
+    writeNumber();
+    json.key("minItems").value(3).key("maxItems").value(3).end();
+    json.end();
 }
 
 class SchemaWriter {
@@ -128,6 +144,9 @@ private:
         case KeyType::Size:
             writeSizeType(json_);
             break;
+        case KeyType::Coefficient:
+            writeCoefficientType(json_);
+            break;
         case KeyType::Content:
             writeContent(key.id);
             break;
@@ -150,34 +169,44 @@ private:
         else if (id == "quality")
             writeObject(qualityKeys());
         else if (id == "shape")
-            writeShape();
+            writeTypes(shapeTypes());
         else if (id == "material")
             writeObject(materialKeys());
         else if (id == "transform")
             writeObject(transformKeys());
+        else if (id == "wave")
+            writeObject(waveKeys(), {"amplitude"});
     }
 
     void writeLights() {
-        json_.key("type").value("array").key("items").beginObject().key("oneOf").beginArray();
-        for (const KeySet* keys : {&pointLightKeys(), &distantLightKeys()}) {
+        json_.key("type").value("array").key("items").beginObject();
+        writeTypes(lightTypes());
+        json_.end();
+    }
+
+    // One schema for each "type".
+    void writeTypes(std::span<const TypeKeys> types) {
+        json_.key("oneOf").beginArray();
+        for (const TypeKeys& one : types) {
             json_.beginObject();
-            writeObject(*keys, {"type"});
+            writeType(one);
             json_.end();
         }
-        json_.end().end();
+        json_.end();
+    }
+    void writeType(const TypeKeys& one) {
+        if (one.type == "mesh") return writeObject(one.keys, {"type", "source"});
+        writeObject(one.keys, {"type"});
+        if (one.type != "heightfield") return;
+        json_.key("oneOf").beginArray(); // exactly one source of heights
+        for (const std::string_view source : {"heights", "normalMap", "mesh"})
+            json_.beginObject().key("required").beginArray().value(source).end().end();
+        json_.end();
     }
 
     void writeObjects() {
         json_.key("type").value("array").key("minItems").value(1).key("items").beginObject();
         writeObject(objectKeys(), {"shape"});
-        json_.end();
-    }
-
-    void writeShape() {
-        writeObject(shapeKeys(), {"type"});
-        json_.key("oneOf").beginArray(); // exactly one source of heights
-        for (const std::string_view source : {"heights", "normalMap", "mesh"})
-            json_.beginObject().key("required").beginArray().value(source).end().end();
         json_.end();
     }
 

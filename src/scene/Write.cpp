@@ -1,7 +1,9 @@
 // A Scene back to its file.
 #include "base/JsonWriter.h"
+#include "scene/Keys.h"
 #include "scene/Load.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -29,6 +31,11 @@ bool isDefault(const ParamTable& table, const Param& param, const void* values) 
     return getText(param, at(values)) == getText(param, at(table.defaults));
 }
 
+bool isDefault(const ParamTable& table, const void* values) {
+    return std::all_of(table.params.begin(), table.params.end(),
+                       [&](const Param& param) { return isDefault(table, param, values); });
+}
+
 // Parameters that differ from their defaults; `always` is written in any case.
 void writeParams(JsonWriter& json, const ParamTable& table, const void* values,
                  std::string_view always = "") {
@@ -48,10 +55,8 @@ void writeSize(JsonWriter& json, std::string_view key, ivec2 size) {
     json.key(key).value(std::span<const float>(sides));
 }
 
-void writeShape(JsonWriter& json, const HeightField& field) {
+void writeHeightField(JsonWriter& json, const HeightField& field) {
     const HeightSource& source = field.source;
-    json.key("shape").beginObject();
-    json.key("type").value("heightfield");
     constexpr std::string_view kKeys[] = {"heights", "normalMap", "mesh"};
     json.key(kKeys[int(source.kind)]).value(source.file);
     if (source.kind == HeightSource::Kind::Mesh) {
@@ -61,32 +66,61 @@ void writeShape(JsonWriter& json, const HeightField& field) {
     writeParams(json, heightFieldParams(), &field, "heightScale"); // a normal map has its own default
     writeText(json, "alpha", field.alphaFile);
     if (!field.alphaIsSolid) json.key("alphaIsSolid").value(false);
+}
+
+void writeShape(JsonWriter& json, const Shape& shape) {
+    json.key("shape").beginObject();
+    json.key("type").value(typeOf(shape).type);
+    if (const auto* field = std::get_if<HeightField>(&shape)) {
+        writeHeightField(json, *field);
+    } else {
+        if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
+            json.key("source").value(mesh->source);
+            writeText(json, "part", mesh->part);
+        }
+        writeParams(json, *typeOf(shape).keys.tables[0], dataOf(shape));
+    }
+    json.end();
+}
+
+// Always there: without it a mesh would take the materials of its file.
+void writeMaterial(JsonWriter& json, const Object& object) {
+    const Material& material = object.material;
+    json.key("material").beginObject();
+    // A colour of attenuation stands beside its distance.
+    const std::string_view always = material.attenuationColor == vec3(1) ? "" : "attenuationDistance";
+    for (const ParamTable* table : materialTables(object))
+        writeParams(json, *table, &material, always);
+    writeText(json, "baseMap", material.baseMapFile);
+    writeText(json, "diffuseMap", material.diffuseMapFile);
+    writeText(json, "specularMap", material.specularMapFile);
+    json.end();
+}
+
+void writeWave(JsonWriter& json, const Object& object) {
+    if (!whyIdle(object, "wave").empty() || isDefault(waveParams(), &object.wave)) return;
+    json.key("wave").beginObject();
+    writeParams(json, waveParams(), &object.wave, "amplitude");
     json.end();
 }
 
 void writeObject(JsonWriter& json, const Object& object) {
     json.beginObject();
     json.key("name").value(object.name);
-    writeShape(json, object.field());
-    json.key("material").beginObject();
-    writeParams(json, materialParams(), &object.material);
-    writeText(json, "baseMap", object.material.baseMapFile);
-    writeText(json, "diffuseMap", object.material.diffuseMapFile);
-    writeText(json, "specularMap", object.material.specularMapFile);
-    json.end();
+    writeShape(json, object.shape);
+    writeMaterial(json, object);
     json.key("transform").beginObject();
     writeParams(json, transformParams(), &object.transform);
     json.end();
+    writeWave(json, object);
     if (!object.visible) json.key("visible").value(false);
     json.end();
 }
 
 void writeLight(JsonWriter& json, const Light& light) {
     json.beginObject();
-    const bool point = std::holds_alternative<PointLight>(light);
-    json.key("type").value(point ? "point" : "distant");
-    const void* values = std::visit([](const auto& value) -> const void* { return &value; }, light);
-    writeParams(json, point ? pointLightParams() : distantLightParams(), values);
+    json.key("type").value(typeOf(light).type);
+    writeParams(json, *typeOf(light).keys.tables[0], dataOf(light));
     json.end();
 }
 

@@ -130,13 +130,20 @@ private:
     std::vector<double> upTo_;
 };
 
-/// Radiance that a map shows at a place of the sphere.
-dvec3 radianceAt(const Image& map, double turns, double cosine) {
-    const double down = std::acos(std::clamp(cosine, -1.0, 1.0)) / std::numbers::pi;
+/// The pixel of a map at a place of the sphere, in turns from the left edge and from the top.
+Radiance radianceAt(const Image& map, double turns, double down) {
     const int x = std::min(int(turns * map.width), map.width - 1);
     const int y = std::min(int(down * map.height), map.height - 1);
-    return Radiance(map, x, y).color;
+    return Radiance(map, x, y);
 }
+
+/// Where a unit direction of the map lies on it.
+struct MapPlace {
+    double turns, down; ///< [0,1]: in turns from the left edge, in half turns from the top
+    explicit MapPlace(const dvec3& on)
+        : turns(std::atan2(on.x, -on.z) / kTwoPi + 0.5),
+          down(std::atan2(std::hypot(on.x, on.z), on.y) / std::numbers::pi) {}
+};
 
 /// A direction of the map from anywhere inside a cell, even by area.
 LightSource evenlyFrom(const Image& map, const SkyCell& cell, dvec2 within) {
@@ -145,7 +152,8 @@ LightSource evenlyFrom(const Image& map, const SkyCell& cell, dvec2 within) {
     LightSource light;
     light.distant = true;
     light.place = mapDirection(turns, cosine);
-    light.color = cell.weight() * radianceAt(map, turns, cosine);
+    const double down = std::acos(std::clamp(cosine, -1.0, 1.0)) / std::numbers::pi;
+    light.color = cell.weight() * radianceAt(map, turns, down).color;
     return light;
 }
 
@@ -200,25 +208,50 @@ std::array<dvec2, 4> mirroredPairs(Random& random) {
     return {first, 1.0 - first, second, 1.0 - second};
 }
 
+std::optional<LightSource> sourceOf(const scene::Light& light) {
+    LightSource source;
+    if (const auto* point = std::get_if<scene::PointLight>(&light)) {
+        source.place = dvec3(point->position);
+        source.inverseSquare = point->falloff == scene::LightFalloff::InverseSquare;
+        source.color = double(point->intensity) * dvec3(point->color);
+        source.radius = double(point->radius);
+        return source;
+    }
+    if (const auto* sun = std::get_if<scene::DistantLight>(&light)) {
+        source.place = -glm::normalize(dvec3(sun->direction));
+        source.distant = true;
+        source.color = double(sun->irradiance) * dvec3(sun->color);
+        source.radius = std::tan(double(sun->angle) * kTwoPi / 720);
+        return source;
+    }
+    return {};
+}
+
 std::vector<LightSource> worldLamps(const scene::Scene& scene, bool normalise) {
     std::vector<LightSource> lamps;
-    for (const scene::Light& light : scene.lights) {
-        LightSource source;
-        if (const auto* point = std::get_if<scene::PointLight>(&light)) {
-            source.place = dvec3(point->position);
-            source.inverseSquare = point->falloff == scene::LightFalloff::InverseSquare;
-            source.color = double(point->intensity) * dvec3(point->color);
-            source.radius = double(point->radius);
-        } else if (const auto* sun = std::get_if<scene::DistantLight>(&light)) {
-            source.place = -glm::normalize(dvec3(sun->direction));
-            source.distant = true;
-            source.color = double(sun->irradiance) * dvec3(sun->color);
-            source.radius = std::tan(double(sun->angle) * kTwoPi / 720);
+    for (const scene::Light& light : scene.lights)
+        if (auto source = sourceOf(light)) {
+            source->color *= shareOfOneLight(scene, normalise);
+            lamps.push_back(*source);
         }
-        source.color *= shareOfOneLight(scene, normalise);
-        lamps.push_back(source);
-    }
     return lamps;
+}
+
+Sky::Sky(const scene::Environment& environment)
+    : map_(environment.map), worldFromMap_(rotation(environment.rotation)),
+      intensity_(double(environment.intensity)) {}
+
+dvec3 Sky::radiance(const dvec3& direction) const {
+    const auto [turns, down] = MapPlace(direction * worldFromMap_); // transposed
+    const double x = turns * map_->width - 0.5;
+    const double y = std::clamp(down * map_->height - 0.5, 0.0, map_->height - 1.0);
+    const int left = int(std::floor(x)), top = std::min(int(y), std::max(map_->height - 2, 0));
+    const auto texel = [&](int column, int row) {
+        const int around = (column + map_->width) % map_->width;
+        return Radiance(*map_, around, std::min(row, map_->height - 1)).color;
+    };
+    const auto along = [&](int row) { return glm::mix(texel(left, row), texel(left + 1, row), x - left); };
+    return intensity_ * glm::mix(along(top), along(top + 1), y - top);
 }
 
 std::optional<scene::Environment> shiningEnvironment(const scene::Scene& scene, bool normalise) {
@@ -263,7 +296,7 @@ EnvironmentSampler::EnvironmentSampler(const scene::Environment& environment, Ch
 
 LightSource EnvironmentSampler::choose(dvec2 within) const {
     LightSource light;
-    if (choice_ == Choice::Evenly || upTo_.back() <= 0) {
+    if (isEven()) {
         light = evenlyFrom(*map_, kWholeSky, within);
     } else {
         const Chosen chosen = truth::choose(upTo_, within.x);
@@ -278,6 +311,13 @@ LightSource EnvironmentSampler::choose(dvec2 within) const {
     light.place = worldFromMap_ * light.place;
     light.color *= intensity_;
     return light;
+}
+
+double EnvironmentSampler::density(const dvec3& direction) const {
+    constexpr double kWholeSphere = 2 * kTwoPi; // sr
+    if (isEven()) return 1 / kWholeSphere;
+    const auto [turns, down] = MapPlace(direction * worldFromMap_); // transposed
+    return radianceAt(*map_, turns, down).sum / (kWholeSphere * upTo_.back());
 }
 
 } // namespace lucent::truth

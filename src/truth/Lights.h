@@ -57,7 +57,10 @@ dvec2 placeInDisc(dvec2 within);
 /// is left.
 std::array<dvec2, 4> mirroredPairs(Random& random);
 
-/// The lamps of a scene in world space.
+/// A point or distant light in world space; nothing for others, which relief does not know.
+std::optional<LightSource> sourceOf(const scene::Light& light);
+
+/// All sourceOf() of a scene.
 ///
 /// @param normalise  divide their light by the number of lights, an environment counting as one
 std::vector<LightSource> worldLamps(const scene::Scene& scene, bool normalise);
@@ -90,13 +93,35 @@ public:
     ///
     /// @param within  [0,1) each
     LightSource choose(dvec2 within) const;
+    /// How densely choose() takes directions around one, 1/sr.
+    ///
+    /// @param direction  unit, in world space
+    double density(const dvec3& direction) const;
 
 private:
+    bool isEven() const { return choice_ == Choice::Evenly || upTo_.back() <= 0; }
     std::shared_ptr<const Image> map_;
     Choice choice_;
     glm::dmat3 worldFromMap_;
     double intensity_;
     std::vector<double> upTo_; ///< light of all pixels up to and with each, row by row
+};
+
+/// What an environment shows in each direction: bilinear between the centres of its map's texels, across the
+/// seam at the map's left and right edge too; above the first row's centres and below the last row's constant
+/// down each column.
+class Sky {
+public:
+    explicit Sky(const scene::Environment& environment);
+    /// Radiance times intensity.
+    ///
+    /// @param direction  unit, in world space, away from the one who looks
+    dvec3 radiance(const dvec3& direction) const;
+
+private:
+    std::shared_ptr<const Image> map_;
+    glm::dmat3 worldFromMap_;
+    double intensity_;
 };
 
 /// Rotation about the fixed x, then y, then z axis.

@@ -5,7 +5,9 @@
 #include "base/Text.h"
 #include "scene/Json.h"
 #include "scene/Load.h"
+#include "scene/Mesh.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -34,6 +36,13 @@ public:
         add(std::as_bytes(std::span(sizes)));
         add(std::as_bytes(std::span(image->pixels)));
     }
+    void add(const scene::Shape& shape) {
+        if (const auto* field = std::get_if<scene::HeightField>(&shape)) {
+            add(field->heights);
+            add(field->alpha);
+        }
+        if (const auto* mesh = std::get_if<scene::MeshShape>(&shape)) add(scene::encodeMesh(*mesh->mesh));
+    }
     std::string text() const {
         char digits[17];
         std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));
@@ -50,7 +59,29 @@ void writeFacts(JsonWriter& json, const Facts& facts) {
     json.key("aov").value(facts.aov).key("estimator").value(facts.estimator);
     json.key("seed").raw(std::to_string(facts.seed));
     json.key("samples").value(facts.samples).key("directions").value(facts.directions);
+    json.key("photons").raw(std::to_string(facts.photons)).key("antialias").value(facts.antialias);
     json.key("exposure").value(facts.exposure);
+}
+
+/// The entries of a book by their names in files.
+struct Entry {
+    const char* name;
+    dvec3 EnergyBook::*value;
+};
+constexpr Entry kEntries[] = {{"met", &EnergyBook::met},           {"received", &EnergyBook::received},
+                              {"absorbed", &EnergyBook::absorbed}, {"reflected", &EnergyBook::reflected},
+                              {"escaped", &EnergyBook::escaped},   {"lost", &EnergyBook::lost}};
+
+/// Red, green and blue of each entry: "met": { "red": 1, ... }.
+void writeEnergy(JsonWriter& json, const EnergyBook& energy) {
+    json.key("energy").beginObject();
+    for (const Entry& entry : kEntries) {
+        const dvec3& flux = energy.*entry.value;
+        json.key(entry.name).beginObject();
+        json.key("red").value(flux.r).key("green").value(flux.g).key("blue").value(flux.b);
+        json.end();
+    }
+    json.end();
 }
 
 /// Members of a JSON object by name; remembers when one was missing or of another type.
@@ -68,6 +99,9 @@ public:
         }
         return std::int64_t(value);
     }
+    bool truth(std::string_view key) { return member(key, scene::Json::Type::Bool).boolean; }
+    Reader object(std::string_view key) { return Reader(member(key, scene::Json::Type::Object)); }
+    void require(const Reader& other) { complete_ &= other.complete_; }
     bool complete() const { return complete_; }
 
 private:
@@ -94,22 +128,39 @@ Facts readFacts(Reader& reader) {
     facts.seed = std::uint64_t(reader.whole("seed", 0, 0x1p53));
     facts.samples = int(reader.whole("samples", 0, kMany));
     facts.directions = int(reader.whole("directions", 0, kMany));
+    facts.photons = reader.whole("photons", 0, 0x1p53);
+    facts.antialias = reader.truth("antialias");
     facts.exposure = float(reader.number("exposure"));
     return facts;
 }
 
-/// Name and value of all that two parts of one picture have in common.
+EnergyBook readEnergy(Reader& reader) {
+    EnergyBook energy;
+    Reader book = reader.object("energy");
+    for (const Entry& entry : kEntries) {
+        Reader flux = book.object(entry.name);
+        energy.*entry.value = {flux.number("red"), flux.number("green"), flux.number("blue")};
+        book.require(flux);
+    }
+    reader.require(book);
+    return energy;
+}
+
+/// Name and value of all that two parts of one picture have in common. What says most comes first; the
+/// fingerprint, which many of the others change as well, last.
 std::vector<std::pair<std::string, std::string>> identity(const Part& part) {
     const Facts& facts = part.facts;
-    return {{"the scene's fingerprint", facts.fingerprint},
-            {"the size", std::to_string(facts.size.x) + "x" + std::to_string(facts.size.y)},
+    return {{"the size", std::to_string(facts.size.x) + "x" + std::to_string(facts.size.y)},
             {"the AOV", facts.aov},
             {"the estimator", facts.estimator},
             {"the seed", std::to_string(facts.seed)},
             {"the number of samples", std::to_string(facts.samples)},
             {"the number of directions", std::to_string(facts.directions)},
+            {"the number of photons", std::to_string(facts.photons)},
+            {"the antialiasing", facts.antialias ? "on" : "off"},
             {"the exposure", shortest(facts.exposure)},
-            {"the number of parts", std::to_string(part.tile.count)}};
+            {"the number of parts", std::to_string(part.tile.count)},
+            {"the scene's fingerprint", facts.fingerprint}};
 }
 
 Status checkSame(const Part& first, const std::string& firstName, const Part& other,
@@ -126,9 +177,40 @@ std::string partNumber(int index, int count) {
     return "part " + std::to_string(index + 1) + " of " + std::to_string(count);
 }
 
-void copyRow(const Image& from, int fromRow, Image& to, int toRow) {
-    std::memcpy(to.at(0, toRow), from.at(0, fromRow),
-                std::size_t(from.width) * std::size_t(from.channels) * sizeof(float));
+Picture mergeRows(std::span<const Part* const> parts) {
+    const auto copyRow = [](const Image& from, int fromRow, Image& to, int toRow) {
+        std::memcpy(to.at(0, toRow), from.at(0, fromRow),
+                    std::size_t(from.width) * std::size_t(from.channels) * sizeof(float));
+    };
+    Picture picture(parts.front()->facts.size);
+    for (const Part* part : parts)
+        for (int row = 0; row < part->rows.values.height; ++row) {
+            copyRow(part->rows.values, row, picture.values, part->tile.row(row));
+            copyRow(part->rows.errors, row, picture.errors, part->tile.row(row));
+        }
+    return picture;
+}
+
+/// Independent means of different numbers of rays.
+Picture mergeRays(std::span<const Part* const> parts) {
+    Picture picture(parts.front()->facts.size);
+    std::vector<double> values(picture.values.pixels.size()), variances(picture.errors.pixels.size());
+    picture.energy.emplace();
+    for (const Part* part : parts) {
+        const std::int64_t photons = part->facts.photons;
+        const double share = double(part->tile.photons(photons)) / double(photons);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] += share * double(part->rows.values.pixels[i]);
+        for (std::size_t i = 0; i < variances.size(); ++i) {
+            const double error = share * double(part->rows.errors.pixels[i]);
+            variances[i] += error * error;
+        }
+        picture.energy->add(*part->rows.energy, share);
+    }
+    std::copy(values.begin(), values.end(), picture.values.pixels.begin());
+    std::transform(variances.begin(), variances.end(), picture.errors.pixels.begin(),
+                   [](double variance) { return float(std::sqrt(variance)); });
+    return picture;
 }
 
 void append(Bytes& bytes, std::span<const std::byte> more) {
@@ -142,8 +224,8 @@ std::string fingerprint(const scene::Scene& scene) {
     hash.add(std::as_bytes(std::span(json)));
     for (const scene::Object& object : scene.objects) {
         const scene::Material& material = object.material;
-        for (const auto& map : {object.field().heights, object.field().alpha, material.baseMap,
-                                material.diffuseMap, material.specularMap})
+        hash.add(object.shape);
+        for (const auto& map : {material.baseMap, material.diffuseMap, material.specularMap})
             hash.add(map);
     }
     if (scene.environment) hash.add(scene.environment->map);
@@ -155,6 +237,7 @@ std::string sidecar(const Facts& facts, const Picture& picture) {
     json.beginObject();
     writeFacts(json, facts);
     json.key("standardError").value(picture.standardError());
+    if (picture.energy) writeEnergy(json, *picture.energy);
     json.end();
     return json.text();
 }
@@ -164,6 +247,7 @@ Bytes encodePart(const Part& part) {
     json.beginObject();
     writeFacts(json, part.facts);
     json.key("part").value(part.tile.index + 1).key("parts").value(part.tile.count);
+    if (part.rows.energy) writeEnergy(json, *part.rows.energy);
     json.end();
     const std::string header = json.text();
     const std::string start = std::string(kMagic) + std::to_string(header.size()) + "\n" + header;
@@ -189,18 +273,22 @@ Result<Part> decodePart(std::span<const std::byte> bytes, const std::string& nam
 
     Reader reader(*json);
     Part part{readFacts(reader), {}, {}};
-    part.tile.count = int(reader.whole("parts", 1, part.facts.size.y));
+    const double most = part.facts.photons > 0 ? double(part.facts.photons) : part.facts.size.y;
+    part.tile.count = int(reader.whole("parts", 1, std::min(most, 0x1p31 - 1)));
     part.tile.index = int(reader.whole("part", 1, part.tile.count)) - 1;
+    std::optional<EnergyBook> energy;
+    if (part.facts.photons > 0) energy = readEnergy(reader);
     if (!reader.complete()) return damaged;
     if (Status size = checkImageSize(part.facts.size.x, part.facts.size.y, name); !size) return size.error();
 
-    const std::size_t pixels =
-        std::size_t(part.facts.size.x) * std::size_t(part.tile.rows(part.facts.size.y));
+    const int rows = part.facts.rowsOf(part.tile);
+    const std::size_t pixels = std::size_t(part.facts.size.x) * std::size_t(rows);
     const std::size_t needed = line + 1 + length + 7 * sizeof(float) * pixels;
     if (bytes.size() != needed)
         return Error{name + ": has " + std::to_string(bytes.size()) + " bytes; must have " +
                      std::to_string(needed)};
-    part.rows = Picture({part.facts.size.x, part.tile.rows(part.facts.size.y)});
+    part.rows = Picture({part.facts.size.x, rows});
+    part.rows.energy = energy;
     const std::byte* data = bytes.data() + line + 1 + length;
     std::memcpy(part.rows.values.pixels.data(), data, 4 * sizeof(float) * pixels);
     std::memcpy(part.rows.errors.pixels.data(), data + 4 * sizeof(float) * pixels,
@@ -228,13 +316,7 @@ Result<Picture> merge(std::span<const Part> parts, std::span<const std::string> 
         return Error{names[0] + ": is " + partNumber(first.tile.index, count) +
                      " and these are missing: " + missing + "; must be given all " + std::to_string(count)};
 
-    Picture picture(first.facts.size);
-    for (const Part* part : ordered)
-        for (int row = 0; row < part->rows.values.height; ++row) {
-            copyRow(part->rows.values, row, picture.values, part->tile.row(row));
-            copyRow(part->rows.errors, row, picture.errors, part->tile.row(row));
-        }
-    return picture;
+    return first.facts.photons > 0 ? mergeRays(ordered) : mergeRows(ordered);
 }
 
 } // namespace lucent::truth

@@ -1,5 +1,6 @@
 #pragma once
-/// Tiles of a truth as files that know what they belong to, and putting them together again.
+/// Parts of a truth as files that know what they belong to, and putting them together again. A part holds
+/// some of the picture's rows, or, of pictures by light rays, the whole picture by some of its rays.
 
 #include "base/File.h"
 #include "base/Math.h"
@@ -19,19 +20,24 @@ struct Facts {
     std::string scene;       ///< its file, as it was named
     std::string fingerprint; ///< of the scene with everything it loaded; see fingerprint()
     ivec2 size{0};
-    std::string aov;       ///< "color" or "d"
-    std::string estimator; ///< "relief" or "lambert"
+    std::string aov;       ///< "color", "d", "direction", ...
+    std::string estimator; ///< "relief", "lambert", "glass", "glass-tree", "light" or "light-tree"
     std::uint64_t seed = 0;
-    int samples = 0;    ///< of discs; of discs and the environment for lambert
-    int directions = 0; ///< of the environment, for relief
-    float exposure = 0; ///< ev, for a picture as it is displayed
+    int samples = 0;          ///< of discs; for all but relief of the environment as well
+    int directions = 0;       ///< of the environment, for relief
+    std::int64_t photons = 0; ///< light rays of the whole picture; 0: the picture is made pixel by pixel
+    bool antialias = false;   ///< samples lie all over each pixel
+    float exposure = 0;       ///< ev, for a picture as it is displayed
+
+    /// Rows of the picture that a part holds.
+    int rowsOf(const Tile& part) const { return photons > 0 ? size.y : part.rows(size.y); }
 };
 
 /// 16 hexadecimal digits that change when a parameter or a texel of the scene does.
 std::string fingerprint(const scene::Scene& scene);
 
-/// JSON with the facts, the picture's standard error (Picture::standardError) and how many pixels it was
-/// taken over.
+/// JSON with the facts, the picture's standard error (Picture::standardError) and the fluxes of its light
+/// rays.
 std::string sidecar(const Facts& facts, const Picture& picture);
 
 /// A part of a picture with what it belongs to.
@@ -46,7 +52,8 @@ Bytes encodePart(const Part& part);
 /// Error "NAME: what was found; what was expected" when the bytes are no part, or not a whole one.
 Result<Part> decodePart(std::span<const std::byte> bytes, const std::string& name);
 
-/// Puts all parts of one picture together, in any order. Equal, bit by bit, to the picture made in one piece.
+/// Puts all parts of one picture together, in any order. By rows: equal, bit by bit, to the picture made in
+/// one piece. By light rays: their mean weighted by numbers of rays, errors and fluxes along with it.
 ///
 /// @param names  of the parts, for messages
 /// @return       Error that names the part which belongs elsewhere or is given twice, or those that are

@@ -6,7 +6,9 @@
 #include "base/Result.h"
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace lucent::truth {
 
@@ -26,19 +28,35 @@ public:
     virtual Pixel solve(ivec2 pixel) const = 0;
 };
 
-/// A part of a picture: every `count`-th row, from row `index` on. Neighbouring rows cost about the same, so
-/// all parts take about as long.
+/// A part of a picture: every `count`-th row, or every `count`-th light ray, from number `index` on.
+/// Neighbouring rows cost about the same, so all parts take about as long.
 struct Tile {
     int index = 0; ///< [0, count)
     int count = 1;
     int rows(int height) const { return (height - index + count - 1) / count; }
+    std::int64_t photons(std::int64_t all) const { return (all - index + count - 1) / count; }
     int row(int inside) const { return index + inside * count; }
+};
+
+/// What became of light that met something refractive or mirroring, W of each colour. Every entry is counted
+/// on its own; the first is the sum of the others.
+struct EnergyBook {
+    dvec3 met{0};
+    dvec3 received{0};  ///< by opaque surfaces
+    dvec3 absorbed{0};  ///< by media and mirrors
+    dvec3 reflected{0}; ///< at interfaces and not followed: the chain's simplification
+    dvec3 escaped{0};   ///< left the scene
+    dvec3 lost{0};      ///< given up inside
+
+    /// Adds a share of another book.
+    void add(const EnergyBook& other, double share);
 };
 
 /// A picture, or the rows of one tile.
 struct Picture {
-    Image values; ///< 4 channels: linear light and coverage
-    Image errors; ///< 3 channels: the standard error of each value
+    Image values;                     ///< 4 channels: linear light and coverage
+    Image errors;                     ///< 3 channels: the standard error of each value
+    std::optional<EnergyBook> energy; ///< of pictures by light rays
 
     Picture() = default;
     explicit Picture(ivec2 size) : values(size.x, size.y, 4), errors(size.x, size.y, 3) {}

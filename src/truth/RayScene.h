@@ -2,15 +2,17 @@
 /// Rays through whole scenes: which of many shapes one meets first, and whether any is in its way.
 ///
 /// Embree (3.13) finds the candidates; its numbers are floats. Every hit is therefore solved again in double
-/// precision: height fields by their exact cut, spheres and tori in closed form, triangles by their plane.
-/// Rays start where they enter the scene's box, so that a distant eye or lamp costs no digits.
+/// precision: height fields by their exact cut, spheres and tori in closed form, waves between the places
+/// where they turn, triangles by their plane. Rays start where they enter the scene's box, so that a distant
+/// eye or lamp costs no digits, and Embree's begin a little earlier, so that it misses no layer close by.
 
 #include "base/Math.h"
 #include "base/Result.h"
-#include "scene/Mesh.h"
 #include "truth/Field.h"
 #include "truth/Sight.h"
 
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -38,14 +40,32 @@ struct FieldBlock {
     Placement placement;
 };
 
+/// Triangles in world space.
+struct Triangles {
+    std::vector<dvec3> positions;
+    std::vector<dvec3> normals; ///< unit, one a position; empty: the triangles' own
+    std::vector<std::uint32_t> indices;
+};
+
+/// A sheet over a rectangle of its placement's xz plane with the height amplitude sin(wave . (x, z) - phase).
+struct Ripple {
+    Placement placement;
+    dvec2 half{0.5};      ///< m, of the rectangle along x and z
+    dvec2 wave{0};        ///< radians per metre along x and z
+    double amplitude = 0; ///< m
+    double phase = 0;     ///< radians
+};
+
 /// A shape's number is its place in the list that the scene was made of.
-using Shape = std::variant<scene::Mesh, FieldBlock, Sphere, Torus>;
+using Shape = std::variant<Triangles, FieldBlock, Sphere, Torus, Ripple>;
 
 /// A ray in world space.
 struct WorldRay {
     dvec3 origin;
     dvec3 direction;                                         ///< unit
     double length = std::numeric_limits<double>::infinity(); ///< m
+    double begin = 0;        ///< m; nothing nearer is met. -infinity: a whole line
+    bool meetsHidden = true; ///< whether shapes that the eye does not see are met
 };
 
 /// The beginning of a ray on which one shape is not seen: the one it starts on.
@@ -57,26 +77,51 @@ struct Leaving {
 struct Hit {
     dvec3 position;
     dvec3 normal; ///< unit, outward; of a triangle to the side from which its corners run counter-clockwise
+    dvec3 smoothNormal; ///< unit: interpolated between a mesh's vertices, elsewhere the same as `normal`
     int shape;
     double distance; ///< m from the ray's origin
+};
+
+/// Surfaces that a ray meets at one place, nearest first: faces that lie on each other. A shape appears once
+/// entered (its normal against the ray) and once left, whatever number of its triangles meets there.
+struct Hits {
+    static constexpr int kMost = 16; ///< more are left out, the farthest first
+    std::array<Hit, kMost> at;
+    int count = 0;
+
+    const Hit* begin() const { return at.data(); }
+    const Hit* end() const { return at.data() + count; }
 };
 
 class RayScene {
 public:
     /// Error when Embree cannot work on this machine, with its own message.
-    static Result<RayScene> create(std::vector<Shape> shapes);
+    ///
+    /// @param hidden  for each shape whether the eye does not see it; empty: it sees all
+    static Result<RayScene> create(std::vector<Shape> shapes, const std::vector<bool>& hidden = {});
     RayScene(RayScene&&) noexcept;
     ~RayScene();
 
-    /// The nearest hit past the origin. From inside, spheres, tori and meshes are met as well; of a field
+    /// The nearest hit of the ray. From inside, spheres, tori and meshes are met as well; of a field
     /// only what firstHit() sees is: nothing from inside or below.
     std::optional<Hit> intersect(const WorldRay& ray, const Leaving& leaving = {}) const;
+
+    /// The nearest hit and all that lie no more than gap() behind it.
+    Hits meet(const WorldRay& ray, const Leaving& leaving = {}) const;
+
+    /// Surfaces that are no further apart count as one [m]: 1e-9 of the scene's box, a thousand times what a
+    /// hit's place may be off by rounding.
+    double gap() const;
+    const Shape& shape(int number) const;
+    /// A ball around a shape: around its box, or the sphere itself.
+    Sphere around(int number) const;
 
     /// Whether anything is on the ray, its origin included where that lies inside a field.
     bool occluded(const WorldRay& ray, const Leaving& leaving = {}) const;
 
 private:
     struct State;
+    Hits search(const WorldRay& ray, const Leaving& leaving, double within) const;
     explicit RayScene(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };

@@ -19,7 +19,7 @@ Placement::Placement(const scene::Transform& transform)
 std::vector<PlacedField> placeAll(const scene::Scene& scene) {
     std::vector<PlacedField> placed;
     for (const scene::Object& object : scene.objects)
-        placed.push_back({&object, Field(object.field()), Placement(object.transform)});
+        if (object.isField()) placed.push_back({&object, Field(object.field()), Placement(object.transform)});
     return placed;
 }
 
@@ -47,11 +47,39 @@ Eye::Eye(const scene::Camera& camera, ivec2 size)
     extent_ = half * dvec2(double(size.x) / size.y, 1);
 }
 
-Ray Eye::ray(ivec2 pixel) const {
-    const dvec2 place = 2.0 * (dvec2(pixel) + 0.5) / dvec2(size_) - 1.0; // y down
-    const dvec3 aside = place.x * extent_.x * right_ - place.y * extent_.y * up_;
+Ray Eye::ray(dvec2 place) const {
+    const dvec2 at = 2.0 * place / dvec2(size_) - 1.0; // y down
+    const dvec3 aside = at.x * extent_.x * right_ - at.y * extent_.y * up_;
     if (perspective_) return {origin_, dvec3(0), glm::normalize(forward_ + aside)};
     return {origin_, aside, forward_};
+}
+
+std::optional<dvec2> Eye::placeOf(const dvec3& point) const {
+    const dvec3 out = point - origin_;
+    const double away = perspective_ ? glm::dot(out, forward_) : 1;
+    if (!(away > 0)) return {};
+    const dvec2 at = dvec2(glm::dot(out, right_), -glm::dot(out, up_)) / (away * extent_);
+    const dvec2 place = 0.5 * (at + 1.0) * dvec2(size_);
+    if (!(place.x >= 0 && place.y >= 0 && place.x < size_.x && place.y < size_.y)) return {};
+    return place;
+}
+
+dvec3 Eye::directionFrom(const dvec3& point) const {
+    return perspective_ ? glm::normalize(origin_ - point) : -forward_;
+}
+
+double Eye::distanceFrom(const dvec3& point) const {
+    return perspective_ ? glm::distance(origin_, point) : kInfinity;
+}
+
+double Eye::areaOfPixel(const dvec3& point, const dvec3& normal) const {
+    // On the picture's plane, 1 m away where that makes a difference.
+    const double area = 4 * extent_.x * extent_.y / (double(size_.x) * double(size_.y));
+    const double slant = std::abs(glm::dot(normal, directionFrom(point)));
+    if (!perspective_) return area / slant;
+    // The pixel's solid angle is area cos³; on a surface it covers distance² / slant of that.
+    const double distance = distanceFrom(point), away = glm::dot(point - origin_, forward_);
+    return area * away * away * away / (distance * slant);
 }
 
 Sight Eye::look(const Ray& ray, std::span<const PlacedField> objects) const {

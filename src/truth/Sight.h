@@ -33,7 +33,7 @@ struct PlacedField {
     Placement placement;
 };
 
-/// All objects of a scene, those hidden from the camera too.
+/// All height fields of a scene, those hidden from the camera too.
 std::vector<PlacedField> placeAll(const scene::Scene& scene);
 
 /// First point at which a ray meets what is drawn of a field: the surface and the side walls down to
@@ -55,7 +55,24 @@ public:
     Eye(const scene::Camera& camera, ivec2 size);
 
     /// A pixel's middle as a ray in world space. Orthographic ones come from infinity.
-    Ray ray(ivec2 pixel) const;
+    Ray ray(ivec2 pixel) const { return ray(dvec2(pixel) + 0.5); }
+    /// The same of any place, in pixels from the picture's first corner.
+    Ray ray(dvec2 place) const;
+    bool isPerspective() const { return perspective_; }
+
+    /// Where on the picture a point of the world is seen, in pixels; nothing beside it or behind the eye.
+    std::optional<dvec2> placeOf(const dvec3& point) const;
+    /// Unit direction from a point to the eye.
+    dvec3 directionFrom(const dvec3& point) const;
+    /// m to the eye; infinite for an orthographic one.
+    double distanceFrom(const dvec3& point) const;
+    /// Width of what one pixel shows in the middle of the picture, m.
+    ///
+    /// @param away  m from the eye
+    double pixelWidth(double away) const { return 2 * extent_.x / size_.x * (perspective_ ? away : 1); }
+    /// What one pixel shows of a surface, m²: the derivative of area by pixels at the point, so that light
+    /// per pixel over this is light per area however large the pixel.
+    double areaOfPixel(const dvec3& point, const dvec3& normal) const;
     /// The nearest visible object that is not looked through: a place whose alpha is 0 is.
     Sight look(const Ray& ray, std::span<const PlacedField> objects) const;
     /// Unit direction, in the object's space, from the eye to a place there.

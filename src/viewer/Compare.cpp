@@ -3,6 +3,7 @@
 #include "base/Pfm.h"
 #include "relief/Relief.h"
 #include "scene/Load.h"
+#include "scene/Mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -14,16 +15,19 @@ namespace {
 
 constexpr std::string_view kModes[] = {"off", "truth", "error"};
 
-// Images that decide what a scene looks like, in a fixed order.
-std::vector<const void*> imagesOf(const scene::Scene& scene) {
-    std::vector<const void*> images{scene.environment ? scene.environment->map.get() : nullptr};
+// Images and meshes that decide what a scene looks like, in a fixed order.
+std::vector<const void*> contentOf(const scene::Scene& scene) {
+    std::vector<const void*> content{scene.environment ? scene.environment->map.get() : nullptr};
     for (const scene::Object& object : scene.objects) {
+        if (const auto* field = std::get_if<scene::HeightField>(&object.shape))
+            content.insert(content.end(), {field->heights.get(), field->alpha.get()});
+        if (const auto* shape = std::get_if<scene::MeshShape>(&object.shape))
+            content.push_back(shape->mesh.get());
         const scene::Material& material = object.material;
-        images.insert(images.end(),
-                      {object.field().heights.get(), object.field().alpha.get(), material.baseMap.get(),
-                       material.diffuseMap.get(), material.specularMap.get()});
+        content.insert(content.end(),
+                       {material.baseMap.get(), material.diffuseMap.get(), material.specularMap.get()});
     }
-    return images;
+    return content;
 }
 
 // What the exact picture depends on, as text: the model of a technique counts, its methods and knobs do not.
@@ -32,10 +36,13 @@ std::string modelOf(scene::Scene scene) {
     relief::Settings model;
     model.attenuation = shown.attenuation;
     model.normalise = shown.normalise;
+    for (auto& [name, settings] : scene.technique)
+        settings = Settings(settings.table());
     *static_cast<relief::Settings*>(scene.technique.at("relief").data()) = model;
-    const scene::Aov quantity = scene.view.show;
-    scene.view = {};
-    scene.view.show = quantity;
+    scene::View view;
+    view.show = scene.view.show;
+    view.time = scene.view.time;
+    scene.view = view;
     scene.quality = {};
     return scene::toJson(scene);
 }
@@ -46,6 +53,20 @@ void packImage(std::vector<std::pair<std::string, Bytes>>& files, const std::sha
     if (!image) return;
     file = std::to_string(files.size()) + ".pfm";
     files.emplace_back(file, encodePfm(*image));
+}
+
+void packField(std::vector<std::pair<std::string, Bytes>>& files, scene::HeightField& field) {
+    field.source = {};
+    field.alphaIsSolid = true;
+    packImage(files, field.heights, field.source.file);
+    packImage(files, field.alpha, field.alphaFile);
+}
+
+// A part of a file becomes a file of its own.
+void packMesh(std::vector<std::pair<std::string, Bytes>>& files, scene::MeshShape& shape) {
+    shape.source = std::to_string(files.size()) + ".mesh";
+    shape.part.clear();
+    files.emplace_back(shape.source, scene::encodeMesh(*shape.mesh));
 }
 
 } // namespace
@@ -95,7 +116,7 @@ Image asTruthImage(const Image& picture) {
 }
 
 bool samePicture(const scene::Scene& a, const scene::Scene& b) {
-    return imagesOf(a) == imagesOf(b) && modelOf(a) == modelOf(b);
+    return contentOf(a) == contentOf(b) && modelOf(a) == modelOf(b);
 }
 
 Result<measure::Metrics> compareWithTruth(const Image& picture, const Image& truth) {
@@ -123,11 +144,8 @@ std::vector<std::pair<std::string, Bytes>> packScene(scene::Scene scene) {
     std::vector<std::pair<std::string, Bytes>> files{{"scene.json", {}}};
     if (scene.environment) packImage(files, scene.environment->map, scene.environment->source);
     for (scene::Object& object : scene.objects) {
-        scene::HeightField& shape = object.field();
-        shape.source = {};
-        shape.alphaIsSolid = true;
-        packImage(files, shape.heights, shape.source.file);
-        packImage(files, shape.alpha, shape.alphaFile);
+        if (auto* field = std::get_if<scene::HeightField>(&object.shape)) packField(files, *field);
+        if (auto* mesh = std::get_if<scene::MeshShape>(&object.shape)) packMesh(files, *mesh);
         scene::Material& material = object.material;
         packImage(files, material.baseMap, material.baseMapFile);
         packImage(files, material.diffuseMap, material.diffuseMapFile);

@@ -44,10 +44,10 @@ Result<measure::Metrics> compareWithTruth(const Image& picture, const Image& tru
 /// A round number from a 99th percentile on, for the end of a scale: 1, 2 or 5 times a power of ten.
 double fullScale(double p99);
 
-/// A scene and its images as files that load() reads without any other.
+/// A scene with its images and meshes as files that load() reads without any other.
 ///
 /// Holes are in the heights already and depths of meshes are heights, so that the truth sees what the picture
-/// is made of. @return "scene.json" first; float maps (PFM) after it
+/// is made of. @return "scene.json" first; float maps (PFM) and meshes (plain form) after it
 std::vector<std::pair<std::string, Bytes>> packScene(scene::Scene scene);
 
 } // namespace lucent::viewer

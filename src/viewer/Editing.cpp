@@ -9,6 +9,13 @@ namespace {
 
 constexpr double kBurst = 1; // s within which changes of one parameter are one step
 
+// Settings of a technique that this scene does not need.
+bool isIdle(const scene::Scene& scene, std::string_view path) {
+    for (const auto& [name, settings] : scene.technique)
+        if (path.starts_with("technique." + name + ".")) return !frame::need(scene, name);
+    return false;
+}
+
 } // namespace
 
 void Viewer::State::changed() {
@@ -20,6 +27,8 @@ void Viewer::State::changed() {
 void Viewer::State::adopt(scene::Scene newScene) {
     scene = std::make_unique<scene::Scene>(std::move(newScene));
     loaded.clear();
+    offered.clear();
+    play = {};
     history.clear();
     grip = Grip::None;
     light = 0;
@@ -31,15 +40,38 @@ void Viewer::State::adopt(scene::Scene newScene) {
     changed();
 }
 
-// The controls of the scene as it is now; a parameter met for the first time is as it was loaded.
+// The controls of the scene as it is now.
 void Viewer::State::bind() {
     controls.clear();
     for (BoundParam& bound : scene::bindParams(*scene)) {
+        if (isIdle(*scene, bound.path)) bound.shown = false;
+        if (bound.data == &scene->view.time) offerOfView(bindPlaying(play, bound.shown));
+        // A parameter met for the first time is as it was loaded.
         const auto found = loaded.emplace(bound.path, getText(*bound.param, bound.data)).first;
-        controls.push_back({std::move(bound), found->second});
+        offer(std::move(bound), found->second);
     }
     for (BoundParam& bound : bindCompare(compare))
-        controls.push_back({bound, getText(*bound.param, bound.defaults)});
+        offerOfView(std::move(bound));
+}
+
+// What the panel has shown stays in it: a slider must not vanish under the hand that drags it to 0.
+void Viewer::State::offer(BoundParam bound, const std::string& before) {
+    if (bound.shown) offered.insert(bound.path);
+    bound.shown = offered.contains(bound.path);
+    controls.push_back({std::move(bound), before});
+}
+
+void Viewer::State::offerOfView(BoundParam bound) {
+    const std::string before = getText(*bound.param, bound.defaults);
+    offer(std::move(bound), before);
+}
+
+// What belongs to the view alone: it is in no scene file.
+std::vector<BoundParam> Viewer::State::bindView() {
+    std::vector<BoundParam> bound = bindCompare(compare);
+    if (const Control* playing = find("playing"); playing && playing->bound.shown)
+        bound.push_back(playing->bound);
+    return bound;
 }
 
 const Control* Viewer::State::find(const std::string& path) const {
@@ -50,7 +82,7 @@ const Control* Viewer::State::find(const std::string& path) const {
 
 // The path may be an alias (an object's number), so what changed is found by looking.
 Status Viewer::State::change(const std::string& path, const std::string& value, std::uint64_t step) {
-    for (const BoundParam& bound : bindCompare(compare))
+    for (const BoundParam& bound : bindView())
         if (bound.path == path) return changeView(bound, value);
     const auto textOf = [](const Control& c) { return getText(*c.bound.param, c.bound.data); };
     std::vector<std::string> before;

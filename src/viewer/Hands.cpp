@@ -27,12 +27,18 @@ vec3 rounded(vec3 value, float pixelWorth) {
 
 } // namespace
 
-std::optional<vec2> Viewer::State::dotOf(std::size_t index) const {
-    const scene::PointLight* point = pointLight(index);
-    return point ? lens().project(point->position) : std::nullopt;
+// A relief is looked at by moving its light, everything else by walking around it.
+bool Viewer::State::hasField() const {
+    return std::any_of(scene->objects.begin(), scene->objects.end(),
+                       [](const scene::Object& object) { return object.isField(); });
 }
 
-// Chooses the point light whose dot is nearest. @return its distance in CSS pixels
+std::optional<vec2> Viewer::State::dotOf(std::size_t index) const {
+    const vec3* place = lightPlace(index);
+    return place ? lens().project(*place) : std::nullopt;
+}
+
+// Chooses the light whose dot is nearest. @return its distance in CSS pixels
 float Viewer::State::pickLight(vec2 position) {
     float nearest = FLT_MAX;
     for (std::size_t i = 0; i < scene->lights.size(); ++i)
@@ -47,12 +53,15 @@ Viewer::State::Grip Viewer::State::gripAt(vec2 position, int button, Modifiers m
     if (!scene || button == 1 || position.x > pictureSize().x) return Grip::None;
     if (comparing() && std::abs(position.x - dividerPlace()) < (touch ? kDividerTouch : kDividerReach))
         return Grip::Divider;
-    if (modifiers.shift) return Grip::Orbit;
+    const bool forCamera = modifiers.shift == hasField();
+    if (forCamera && modifiers.shift) return Grip::Orbit;
     const float distance = pickLight(position);
     const bool onDot = scene->view.lightDot && distance < kDotReach;
     const bool roll = modifiers.alt || button == 2;
-    if (mapShines() && !onDot) return roll ? Grip::Roll : Grip::Map;
-    return scene->lights.empty() || button == 2 ? Grip::None : Grip::Light;
+    if (mapShines() && !onDot && (roll || !forCamera)) return roll ? Grip::Roll : Grip::Map;
+    if (button == 2) return Grip::None;
+    if (forCamera && !onDot) return Grip::Orbit;
+    return scene->lights.empty() ? Grip::None : Grip::Light;
 }
 
 void Viewer::State::startGrip(Grip wanted, vec2 position) {
@@ -61,8 +70,8 @@ void Viewer::State::startGrip(Grip wanted, vec2 position) {
     gripCamera = scene->camera;
     if (grip == Grip::Map || grip == Grip::Roll) gripValue = scene->environment->rotation;
     if (grip != Grip::Light) return;
-    if (const scene::PointLight* point = pointLight(light))
-        gripValue = point->position;
+    if (const vec3* place = lightPlace(light))
+        gripValue = *place;
     else
         gripValue = std::get<scene::DistantLight>(scene->lights[light]).direction;
 }
@@ -91,12 +100,15 @@ void Viewer::State::drag(vec2 position) {
     }
 }
 
-// From gripValue on, by pixels or (a distant light) by half turns.
+// From gripValue on, by pixels or (a distant light) by half turns. Over a relief a light keeps its height,
+// elsewhere its distance from the picture.
 void Viewer::State::moveLight(vec2 from, vec2 to, vec2 turns) {
-    if (scene::PointLight* point = pointLight(light)) {
-        const vec3 place = movedLight(lens(), gripValue, from, to);
-        assign(&point->position, vec3(rounded(place, lens().metresPerPixel(place)).x,
-                                      rounded(place, lens().metresPerPixel(place)).y, place.z));
+    if (const vec3* place = lightPlace(light)) {
+        const vec3 normal = hasField() ? vec3(0, 0, 1) : lens().forward();
+        const vec3 moved = movedLight(lens(), gripValue, normal, from, to);
+        vec3 readable = rounded(moved, lens().metresPerPixel(moved));
+        if (hasField()) readable.z = gripValue.z;
+        assign(place, readable);
         return;
     }
     auto& distant = std::get<scene::DistantLight>(scene->lights[light]);
@@ -104,11 +116,14 @@ void Viewer::State::moveLight(vec2 from, vec2 to, vec2 turns) {
     assign(&distant.direction, rounded(turnedLight(scene->camera, gripValue, turns), length * 0.01f));
 }
 
+// What the wheel and its keys do: the light of a relief is lifted, everything else is brought nearer.
+void Viewer::State::nearer(float factor) { inMapMode() || !hasField() ? zoom(factor) : lift(factor); }
+
 void Viewer::State::lift(float factor) {
-    scene::PointLight* point = pointLight(light);
-    if (!point) return zoom(factor);
-    const float z = liftedLight(point->position.z, factor);
-    assign(&point->position, vec3(vec2(point->position), rounded(z, std::abs(z) * 0.01f)));
+    const vec3* place = lightPlace(light);
+    if (!place) return zoom(factor);
+    const float z = liftedLight(place->z, factor);
+    assign(place, vec3(vec2(*place), rounded(z, std::abs(z) * 0.01f)));
 }
 
 void Viewer::State::zoom(float factor) {
@@ -133,7 +148,7 @@ void Viewer::State::resetPose() {
 
 bool Viewer::State::arrow(vec2 step, Modifiers modifiers) {
     const vec2 turns = step * kKeyTurn;
-    if (modifiers.shift) {
+    if (modifiers.shift == hasField()) {
         (void)burst("camera.eye");
         startGrip(Grip::Orbit, {});
         drag(turns * std::min(pictureSize().x, pictureSize().y));
@@ -165,11 +180,12 @@ bool Viewer::State::shortcut(const std::string& key, Modifiers modifiers) {
     if (more || less) {
         const float factor = more ? kKeyFactor : 1 / kKeyFactor;
         (void)burst("lift");
-        inMapMode() ? zoom(factor) : lift(factor);
+        nearer(factor);
         return true;
     }
     if (key == "c" || key == "C") return nextCompareMode(), true;
     if (key == "0" || key == "Home") return resetPose(), true;
+    if (key == " ") return togglePlaying();
     return false;
 }
 

@@ -39,13 +39,14 @@ std::optional<vec2> Lens::project(vec3 point) const {
     return corner_ + size_ * 0.5f + metres / (perspective_ ? spread_ * depth : spread_);
 }
 
-std::optional<vec3> Lens::onPlane(vec2 pixel, float z) const {
+std::optional<vec3> Lens::onPlane(vec2 pixel, vec3 point, vec3 normal) const {
     const vec2 metres = (pixel - corner_ - size_ * 0.5f) * spread_;
     const vec3 aside = right_ * metres.x - up_ * metres.y;
     const vec3 origin = perspective_ ? eye_ : eye_ + aside;
     const vec3 direction = glm::normalize(perspective_ ? forward_ + aside : forward_);
-    if (std::abs(direction.z) < kGrazing) return {};
-    const float distance = (z - origin.z) / direction.z;
+    const float slope = glm::dot(direction, normal);
+    if (std::abs(slope) < kGrazing) return {};
+    const float distance = glm::dot(point - origin, normal) / slope;
     if (perspective_ && distance <= 0) return {};
     return origin + distance * direction;
 }
@@ -62,11 +63,21 @@ scene::Camera framed(scene::Camera camera, ivec2 sceneSize, vec2 viewSize) {
     return camera;
 }
 
-vec3 movedLight(const Lens& lens, vec3 position, vec2 from, vec2 to) {
-    const auto start = lens.onPlane(from, position.z);
-    const auto end = lens.onPlane(to, position.z);
-    if (!start || !end) return position;
-    return vec3(vec2(position) + vec2(*end) - vec2(*start), position.z);
+const vec3* placeOf(const scene::Light& light) {
+    if (const auto* point = std::get_if<scene::PointLight>(&light)) return &point->position;
+    if (const auto* spot = std::get_if<scene::SpotLight>(&light)) return &spot->position;
+    if (const auto* area = std::get_if<scene::AreaLight>(&light)) return &area->corner;
+    return nullptr;
+}
+
+vec3 colorOf(const scene::Light& light) {
+    return std::visit([](const auto& kind) { return kind.color; }, light);
+}
+
+vec3 movedLight(const Lens& lens, vec3 position, vec3 normal, vec2 from, vec2 to) {
+    const auto start = lens.onPlane(from, position, normal);
+    const auto end = lens.onPlane(to, position, normal);
+    return start && end ? position + *end - *start : position;
 }
 
 vec3 turnedLight(const scene::Camera& camera, vec3 direction, vec2 turns) {

@@ -17,11 +17,13 @@ public:
 
     /// Pixel at which a world point is seen; nothing behind a perspective camera.
     std::optional<vec2> project(vec3 point) const;
-    /// Where the sight line of a pixel meets the plane z = const; nothing when it runs along the plane
-    /// (steeper than 1 : 20) or meets it behind the camera.
-    std::optional<vec3> onPlane(vec2 pixel, float z) const;
+    /// Where the sight line of a pixel meets the plane through `point`; nothing when it runs along the plane
+    /// (steeper than 1 : 20) or meets it behind the camera. @param normal  unit
+    std::optional<vec3> onPlane(vec2 pixel, vec3 point, vec3 normal) const;
     /// Metres that one pixel covers at the depth of a world point.
     float metresPerPixel(vec3 point) const;
+    /// Unit vector in which the camera looks.
+    vec3 forward() const { return forward_; }
 
 private:
     bool perspective_;
@@ -34,8 +36,13 @@ private:
 /// more above and below instead of cutting off the sides.
 scene::Camera framed(scene::Camera camera, ivec2 sceneSize, vec2 viewSize);
 
-/// The point light moved from under one pixel to under another, at its z. Unmoved where onPlane() fails.
-vec3 movedLight(const Lens& lens, vec3 position, vec2 from, vec2 to);
+/// Where a light stands that a drag can move: an area light's corner; null for a distant light, which turns.
+const vec3* placeOf(const scene::Light& light);
+vec3 colorOf(const scene::Light& light);
+
+/// A light moved from under one pixel to under another, in the plane through it. Unmoved where onPlane()
+/// fails.
+vec3 movedLight(const Lens& lens, vec3 position, vec3 normal, vec2 from, vec2 to);
 /// A distant light turned so that its source goes with the pointer; half a turn for the view's shorter side.
 vec3 turnedLight(const scene::Camera& camera, vec3 direction, vec2 turns);
 /// An environment turned about the world's y axis (sideways) and x axis (up and down), or with `roll` about

@@ -21,7 +21,7 @@ constexpr float kScaleBar = 16; // height
 struct HelpLine {
     const char *keys, *does;
 };
-constexpr HelpLine kHelp[] = {
+constexpr HelpLine kReliefHelp[] = {
     {"Drag", "moves the light, turns the environment"},
     {"Alt + drag", "rolls the environment"},
     {"Shift + drag", "orbits the camera"},
@@ -30,6 +30,19 @@ constexpr HelpLine kHelp[] = {
     {"Arrows", "move the light, turn the environment"},
     {"Page up, Page down", "lift the light, or zoom"},
     {"Shift + arrows", "orbit the camera"},
+};
+constexpr HelpLine kOrbitHelp[] = {
+    {"Drag", "orbits the camera, moves a light by its dot"},
+    {"Alt + drag", "rolls the environment"},
+    {"Shift + drag", "turns the environment, or moves the light"},
+    {"Wheel, pinch", "zooms"},
+    {"Arrows", "orbit the camera"},
+    {"Page up, Page down", "zoom"},
+    {"Shift + arrows", "turn the environment, or move the light"},
+    {"Space", "plays what moves, or stops it"},
+};
+static_assert(std::size(kReliefHelp) == std::size(kOrbitHelp)); // one card for both
+constexpr HelpLine kHelp[] = {
     {"0, Home", "camera and light as they were"},
     {"Ctrl + Z, Ctrl + Y", "undo, redo"},
     {"Double click", "types a value"},
@@ -135,17 +148,22 @@ bool drawMessage(const std::string& message, vec2 picture, const Theme& theme) {
     return closed;
 }
 
-bool drawHelp(vec2 picture, const Theme& theme) {
-    const vec2 size(std::min(470.0f, picture.x - 2 * kMargin), std::size(kHelp) * kLine + 2 * kPadding);
+bool drawHelp(bool orbiting, vec2 picture, const Theme& theme) {
+    const std::size_t lines = std::size(kReliefHelp) + std::size(kHelp);
+    const vec2 size(std::min(470.0f, picture.x - 2 * kMargin), float(lines) * kLine + 2 * kPadding);
     const vec2 at = glm::max((picture - size) / 2.0f, vec2(kMargin));
     beginCard("help", at, size, theme.cardBorder);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     float y = at.y + kPadding + (kLine - kText) / 2;
-    for (const HelpLine& line : kHelp) {
-        list.AddText({at.x + kPadding, y}, theme.accent, line.keys);
-        list.AddText({at.x + kPadding + kKeyColumn, y}, theme.text, line.does);
-        y += kLine;
-    }
+    const auto write = [&](std::span<const HelpLine> part) {
+        for (const HelpLine& line : part) {
+            list.AddText({at.x + kPadding, y}, theme.accent, line.keys);
+            list.AddText({at.x + kPadding + kKeyColumn, y}, theme.text, line.does);
+            y += kLine;
+        }
+    };
+    write(orbiting ? kOrbitHelp : kReliefHelp);
+    write(kHelp);
     const bool closed = closeButton({at.x + size.x, at.y}, theme);
     ImGui::End();
     return closed;

@@ -16,7 +16,9 @@ void drawLightDot(vec2 place, vec3 color);
 bool drawMessage(const std::string& message, vec2 picture, const Theme& theme);
 
 /// The list of gestures and keys. @return true when it was closed
-bool drawHelp(vec2 picture, const Theme& theme);
+///
+/// @param orbiting  a drag is for the camera, with Shift for the light: a scene without a relief
+bool drawHelp(bool orbiting, vec2 picture, const Theme& theme);
 
 /// One line at the bottom: what the last complete picture cost.
 void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme);

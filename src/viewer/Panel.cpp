@@ -139,10 +139,15 @@ std::string colorText(const BoundParam& bound) {
     return inRange ? hexText(encoded(bound)) : numbers;
 }
 
-// Objects and lights after the first share labels: the part of the path that tells them apart.
+// Objects and lights share labels: the part of the path that tells them apart.
 std::string_view ownerOf(std::string_view path) {
     const std::size_t first = path.find('.');
     return path.substr(0, path.find('.', first + 1));
+}
+
+// Two objects, or two lights.
+bool isSibling(std::string_view a, std::string_view b) {
+    return ownerOf(a) != ownerOf(b) && a.substr(0, a.find('.')) == b.substr(0, b.find('.'));
 }
 
 } // namespace
@@ -284,7 +289,7 @@ void Panel::Frame::body(Rect place) {
     ImGui::Indent(kPadding);
     for (int group = int(Group::Light); group <= int(Group::View); ++group) {
         const bool any = std::any_of(input_.controls.begin(), input_.controls.end(),
-                                     [&](const Control& c) { return int(c.bound.param->group) == group; });
+                                     [&](const Control& c) { return int(c.bound.group()) == group; });
         if (any && groupHeading(Group(group))) groupControls(Group(group));
     }
     take(kPadding);
@@ -304,8 +309,7 @@ void Panel::Frame::scrollByFinger() {
 bool Panel::Frame::groupHeading(Group group) {
     bool& folded = panel_.folded_[std::size_t(group)];
     for (const Control& c : input_.controls)
-        if (c.bound.path == input_.focus && panel_.seenFocus_ != input_.focus &&
-            c.bound.param->group == group)
+        if (c.bound.path == input_.focus && panel_.seenFocus_ != input_.focus && c.bound.group() == group)
             folded = false;
     const vec2 at = take(40);
     if (button(name(group).data(), {at.x - kPadding, at.y}, {width_ + 2 * kPadding, 40})) folded = !folded;
@@ -318,10 +322,10 @@ void Panel::Frame::groupControls(Group group) {
     std::string_view owner;
     bool several = false;
     for (const Control& c : input_.controls) {
-        if (c.bound.param->group != group) continue;
+        if (c.bound.group() != group) continue;
         several =
             several || std::any_of(input_.controls.begin(), input_.controls.end(), [&](const Control& other) {
-                return other.bound.param == c.bound.param && other.bound.path != c.bound.path;
+                return other.bound.group() == group && isSibling(other.bound.path, c.bound.path);
             });
         const std::string_view now = ownerOf(c.bound.path);
         if (several && now != owner) ownerHeading(now);
@@ -372,6 +376,7 @@ void Panel::Frame::editor(const Control& control) {
     case Kind::Color:
         return color(control);
     case Kind::Vector:
+    case Kind::Pair:
         return vector(control);
     case Kind::Range:
         return range(control);
@@ -517,14 +522,16 @@ void Panel::Frame::vector(const Control& control) {
     labelLine(control, "", 0);
     const vec2 start = glmVec(ImGui::GetCursorScreenPos());
     const float sliderWidth = width_ - kAxis - kInlineValue;
-    for (int i = 0; i < 3; ++i) {
+    const int count = componentCount(param.kind);
+    const std::string_view axes = param.kind == Kind::Pair ? "xz" : "xyz";
+    for (int i = 0; i < count; ++i) {
         const vec2 at = take(kLine);
-        text({at.x, at.y + 4}, theme_.muted, std::string_view("xyz").substr(std::size_t(i), 1));
+        text({at.x, at.y + 4}, theme_.muted, axes.substr(std::size_t(i), 1));
         slider(control, i, {at.x + kAxis, at.y + 2}, sliderWidth);
         value(control, i, withUnit(param, numberText(param, getComponent(param, control.bound.data, i))),
               {at.x + width_, at.y + 4});
     }
-    seen(control, start + vec2(kAxis, 0), start + vec2(kAxis + sliderWidth, 3 * kLine));
+    seen(control, start + vec2(kAxis, 0), start + vec2(kAxis + sliderWidth, float(count) * kLine));
 }
 
 void Panel::Frame::range(const Control& control) {

@@ -100,13 +100,13 @@ void Viewer::State::overlays() {
         const Rect place = picturePlace();
         list.PushClipRect({place.low.x, place.low.y}, {place.high.x, place.high.y});
         for (std::size_t i = 0; i < scene->lights.size(); ++i)
-            if (const auto dot = dotOf(i)) drawLightDot(*dot, pointLight(i)->color);
+            if (const auto dot = dotOf(i)) drawLightDot(*dot, colorOf(scene->lights[i]));
         list.PopClipRect();
     }
     compareOverlay();
     if (showStats && renderer && compare.mode == CompareMode::Off) // whose card holds the cost as well
         drawStats(renderer->stats(), openSize(), theme(dark));
-    if (help && drawHelp(size, theme(dark))) help = false;
+    if (help && drawHelp(scene && !hasField(), size, theme(dark))) help = false;
     if (!message.empty() && drawMessage(message, size, theme(dark))) message.clear();
     if (const Control* control = find(tooltip); control && panel.hovered() == tooltip)
         drawTooltip(control->bound.param->doc, panel.hoveredPlace(), canvas(), theme(dark));

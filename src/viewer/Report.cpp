@@ -8,7 +8,7 @@ namespace {
 
 std::string_view kindName(Kind kind) {
     constexpr std::string_view names[] = {"number", "integer", "toggle", "choice",
-                                          "color",  "vector",  "range"};
+                                          "color",  "vector",  "range",  "pair"};
     return names[int(kind)];
 }
 
@@ -18,7 +18,7 @@ void writeControl(JsonWriter& json, const Control& control) {
     json.beginObject();
     json.key("path").value(bound.path).key("attribute").value(attributeName(bound));
     json.key("label").value(param.label).key("unit").value(param.unit);
-    json.key("group").value(name(param.group)).key("doc").value(param.doc);
+    json.key("group").value(name(bound.group())).key("doc").value(param.doc);
     json.key("kind").value(kindName(param.kind)).key("components").value(componentCount(param.kind));
     json.key("min").value(param.min).key("max").value(param.max);
     json.key("low").value(param.low).key("high").value(param.high);
@@ -47,12 +47,12 @@ std::string controlsJson(std::span<const Control> controls) {
     return json.text();
 }
 
-std::string changesJson(std::span<const Control> controls) {
+std::string changesJson(std::span<const Control> controls, const void* leftOut) {
     JsonWriter json;
     json.beginObject();
     for (const Control& control : controls) {
         const std::string now = getText(*control.bound.param, control.bound.data);
-        if (now != control.loaded) json.key(control.bound.path).value(now);
+        if (now != control.loaded && control.bound.data != leftOut) json.key(control.bound.path).value(now);
     }
     json.end();
     return json.text();

@@ -13,7 +13,9 @@ namespace lucent::viewer {
 std::string controlsJson(std::span<const Control> controls);
 
 /// Object path -> value of every parameter that differs from the loaded scene.
-std::string changesJson(std::span<const Control> controls);
+///
+/// @param leftOut  value of a parameter that is never named
+std::string changesJson(std::span<const Control> controls, const void* leftOut);
 
 struct StatsInput {
     frame::Stats cost;

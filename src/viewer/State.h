@@ -4,6 +4,7 @@
 ///   Hands.cpp     drags, wheel and keys on the picture
 ///   Panels.cpp    frames of ImGui
 ///   Pictures.cpp  work on the picture and the screen
+///   Playing.cpp   time that runs
 ///   Comparing.cpp the picture beside its truth
 
 #include "scene/Load.h"
@@ -11,12 +12,14 @@
 #include "viewer/History.h"
 #include "viewer/Interaction.h"
 #include "viewer/Overlays.h"
+#include "viewer/Playing.h"
 #include "viewer/Report.h"
 #include "viewer/Viewer.h"
 
 #include <imgui.h>
 
 #include <chrono>
+#include <set>
 
 namespace lucent::viewer {
 
@@ -42,6 +45,7 @@ struct Viewer::State {
     std::unique_ptr<scene::Scene> scene;
     std::vector<Control> controls; // of the scene
     std::map<std::string, std::string> loaded;
+    std::set<std::string> offered; // paths that the panel has shown: what is offered once stays
     History history;
     std::uint64_t revision = 0, gesture = 1;
     std::string burstPath;
@@ -64,6 +68,9 @@ struct Viewer::State {
     int drawCount = 0;
     double frameTime = 0, hoverTime = 0;
     std::string hovered, tooltip;
+
+    PlaySettings play;
+    double lastDraw = 0, due = 0; // s: of the page's clock; time that passed since the picture's moment
 
     CompareSettings compare;
     std::optional<Truth> truth;
@@ -98,6 +105,9 @@ struct Viewer::State {
     // --- scene
     void adopt(scene::Scene newScene);
     void bind();
+    void offer(BoundParam bound, const std::string& before);
+    void offerOfView(BoundParam bound);
+    std::vector<BoundParam> bindView();
     const Control* find(const std::string& path) const;
     Status change(const std::string& path, const std::string& value, std::uint64_t step);
     Status changeView(const BoundParam& bound, const std::string& value);
@@ -110,8 +120,10 @@ struct Viewer::State {
     // --- lights and gestures
     bool mapShines() const { return scene->environment && scene->environment->enabled; }
     bool inMapMode() const { return mapShines() && scene->lights.empty(); }
-    scene::PointLight* pointLight(std::size_t index) const {
-        return index < scene->lights.size() ? std::get_if<scene::PointLight>(&scene->lights[index]) : nullptr;
+    bool hasField() const;
+    // Where a light stands; null when there is no such light, or a distant one.
+    const vec3* lightPlace(std::size_t index) const {
+        return index < scene->lights.size() ? placeOf(scene->lights[index]) : nullptr;
     }
     std::optional<vec2> dotOf(std::size_t index) const;
     float pickLight(vec2 position);
@@ -119,12 +131,17 @@ struct Viewer::State {
     void startGrip(Grip wanted, vec2 position);
     void drag(vec2 position);
     void moveLight(vec2 from, vec2 to, vec2 turns);
+    void nearer(float factor);
     void lift(float factor);
     void zoom(float factor);
     void resetPose();
     void nextCompareMode();
     bool shortcut(const std::string& key, Modifiers modifiers);
     bool arrow(vec2 step, Modifiers modifiers);
+
+    // --- time
+    void tick(double now);
+    bool togglePlaying();
 
     // --- the truth beside the picture
     bool comparing() const { return scene && truth && compare.mode != CompareMode::Off; }
@@ -152,6 +169,11 @@ struct Viewer::State {
     // --- drawing
     bool advance();
     Status paint();
+    // While time runs, a picture is as good as the next moment lets it be.
+    bool complete() const {
+        const bool seen = play.playing && phase == Phase::Refine && shown;
+        return scene && !stale && (phase == Phase::Done || seen);
+    }
     bool working() const {
         return scene && (stale || phase == Phase::Look || (phase == Phase::Refine && !held));
     }

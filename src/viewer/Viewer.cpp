@@ -60,6 +60,16 @@ Status Viewer::openImage(const std::string& name, std::span<const std::byte> byt
     return opened;
 }
 
+Status Viewer::openMesh(const std::string& name, std::span<const std::byte> bytes) {
+    Result<scene::Scene> scene = scene::sceneFromMesh(name, bytes, frame::techniques());
+    if (!scene) {
+        showMessage(scene.error().message);
+        return scene.error();
+    }
+    state_->adopt(std::move(*scene));
+    return Done{};
+}
+
 Status Viewer::openEnvironment(const std::string& name, std::span<const std::byte> bytes) {
     State& s = *state_;
     if (!s.scene) return Error{name + ": there is no scene to light; open a height map first"};
@@ -77,15 +87,18 @@ Status Viewer::openEnvironment(const std::string& name, std::span<const std::byt
 
 Status Viewer::openHeights(const std::string& name, std::span<const std::byte> bytes) {
     State& s = *state_;
-    if (!s.scene || s.scene->objects.empty()) {
+    if (!s.scene || !s.hasField()) {
         Result<scene::Scene> scene = scene::sceneFromHeights(name, bytes, frame::techniques());
         if (!scene) return scene.error();
         s.adopt(std::move(*scene));
         return Done{};
     }
-    scene::Object object = s.scene->objects.front();
+    auto& objects = s.scene->objects;
+    const auto field = std::find_if(objects.begin(), objects.end(),
+                                    [](const scene::Object& object) { return object.isField(); });
+    scene::Object object = *field;
     if (Status replaced = scene::replaceHeights(object, name, bytes); !replaced) return replaced;
-    s.scene->objects.front() = std::move(object);
+    *field = std::move(object);
     s.message.clear();
     s.bind();
     s.changed();
@@ -121,6 +134,7 @@ bool Viewer::draw(double nowSeconds) {
     State& s = *state_;
     if (s.pixels.x <= 0 || s.pixels.y <= 0) return false;
     ImGui::SetCurrentContext(s.imgui);
+    s.tick(nowSeconds);
     double wait = s.tooltipWait(nowSeconds);
     if (!s.settled) s.settle(); // the panel decides the picture's size
     const bool isNew = s.advance();
@@ -134,7 +148,7 @@ bool Viewer::draw(double nowSeconds) {
         s.shownHash = hash;
         ++s.drawCount;
     }
-    return s.working() || !s.settled || wait > 0;
+    return s.working() || !s.settled || wait > 0 || s.play.playing;
 }
 
 int Viewer::drawCount() const { return state_->drawCount; }
@@ -187,7 +201,7 @@ bool Viewer::wheel(vec2 position, float delta, Modifiers modifiers) {
     if (!s.scene || position.x > s.pictureSize().x) return false;
     (void)s.burst("wheel");
     const float factor = std::exp(-delta * kWheelFactor);
-    modifiers.control || s.inMapMode() ? s.zoom(factor) : s.lift(factor);
+    modifiers.control ? s.zoom(factor) : s.nearer(factor);
     return true;
 }
 
@@ -262,7 +276,7 @@ std::string Viewer::stats() const {
     const State& s = *state_;
     StatsInput input;
     if (s.renderer) input.cost = s.renderer->stats();
-    input.complete = s.scene && !s.stale && s.phase == State::Phase::Done;
+    input.complete = s.complete();
     input.frames = s.drawCount;
     input.revision = s.revision;
     if (s.scene && s.pixels.y > 0) input.light = s.dotOf(s.light);
@@ -270,7 +284,7 @@ std::string Viewer::stats() const {
     return statsJson(input);
 }
 
-std::string Viewer::changes() const { return changesJson(state_->controls); }
+std::string Viewer::changes() const { return changesJson(state_->controls, &state_->play.playing); }
 std::string Viewer::sceneJson() const { return state_->scene ? scene::toJson(*state_->scene) : ""; }
 std::string Viewer::title() const { return state_->scene ? state_->scene->title : ""; }
 std::string Viewer::caption() const { return state_->scene ? state_->scene->caption : ""; }

@@ -31,8 +31,11 @@ public:
     /// Loads a scene file through `read`. On error the scene that was showing stays and the message is shown
     /// on the canvas until dismissed.
     Status load(const std::string& path, const ReadFile& read);
-    /// A dropped or opened picture: a height map, or an environment map when `asEnvironment`.
+    /// A dropped or opened picture: a height map, or an environment map when `asEnvironment`. Heights take
+    /// the place of the scene's first height field; without one they become a scene.
     Status openImage(const std::string& name, std::span<const std::byte> bytes, bool asEnvironment);
+    /// A dropped or opened mesh in the plain form becomes a scene.
+    Status openMesh(const std::string& name, std::span<const std::byte> bytes);
     /// Shows a message over the picture ("" removes it).
     void showMessage(const std::string& message);
 
@@ -48,12 +51,13 @@ public:
 
     /// Pointer in CSS pixels from the top left corner. @return true when the viewer used the event
     ///
-    /// A drag moves the point light whose dot is nearest (a distant light turns). While the environment
-    /// shines, a drag turns it, with Alt or the right button about z, and the light is gripped at its dot
-    /// only. With Shift it leads the camera around its target.
+    /// Over a relief a drag moves the light whose dot is nearest (a distant light turns). While the
+    /// environment shines, a drag turns it, with Alt or the right button about z, and the light is gripped at
+    /// its dot only. With Shift it leads the camera around its target. In a scene without height fields Shift
+    /// swaps both: a drag is for the camera but at a light's dot, with Shift for the environment, else the
+    /// light.
     bool pointer(PointerEvent event, vec2 position, int button, Modifiers modifiers, bool touch);
-    /// Distance of the light; zoom with Control and where there is no point light to lift. @param delta CSS
-    /// pixels
+    /// Height of a relief's light; zoom with Control and where there is none to lift. @param delta CSS pixels
     bool wheel(vec2 position, float delta, Modifiers modifiers);
     bool pinch(float factor);
     /// `key` as in KeyboardEvent.key.
@@ -77,9 +81,13 @@ public:
     /// pixels.
     std::string stats() const;
     /// JSON object path -> value of every parameter that differs from the loaded scene: what a link carries.
+    /// Never "playing": whether things move is up to whoever follows the link.
     std::string changes() const;
     std::string sceneJson() const;
 
+    /// While the parameter "playing" is on, which scenes have in which something moves, each draw() shows a
+    /// later moment: view.time follows its clock.
+    ///
     /// The parameters "compare" (off, truth, error) and "divider" show the picture beside its truth, drawn at
     /// the truth's size. A truth belongs to a scene: once that has changed, nothing is compared.
     ///

@@ -1,8 +1,12 @@
 #include "views/Eye.h"
 
 #include "views/FieldTextures.h"
+#include "views/Meshes.h"
+#include "views/Water.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace lucent::views {
 
@@ -12,18 +16,64 @@ vec4 Eye::inObject(const mat4& worldFromObject) const {
     return vec4(glm::normalize(vec3(objectFromWorld * vec4(forward, 0))), 0);
 }
 
-Bounds boundsOf(const scene::Object& object) {
-    const scene::HeightField& field = object.field();
+namespace {
+
+Bounds fieldBounds(const scene::HeightField& field) {
     const HeightRange range = heightRange(*field.heights);
     const vec2 half = 0.5f * field.footprint();
+    Bounds bounds;
+    bounds.add({-half, std::min(range.lowest, 0.0f) * field.heightScale});
+    bounds.add({half, range.highest * field.heightScale});
+    return bounds;
+}
+
+Bounds waterBounds(const scene::Water& water) {
+    Bounds bounds;
+    const float reach = waterReach(water);
+    bounds.add({-0.5f * water.size.x, -reach, -0.5f * water.size.y});
+    bounds.add({0.5f * water.size.x, reach, 0.5f * water.size.y});
+    return bounds;
+}
+
+Bounds localBounds(const scene::Object& object) {
+    if (const auto* field = std::get_if<scene::HeightField>(&object.shape)) return fieldBounds(*field);
+    if (const auto* water = std::get_if<scene::Water>(&object.shape)) return waterBounds(*water);
+    Bounds bounds = meshBounds(meshOf(object));
+    bounds.low -= glm::abs(object.wave.amplitude);
+    bounds.high += glm::abs(object.wave.amplitude);
+    return bounds;
+}
+
+} // namespace
+
+Bounds boundsOf(const scene::Object& object) {
+    const Bounds local = localBounds(object);
     const mat4 worldFromObject = object.transform.worldFromObject();
     Bounds bounds;
     for (int corner = 0; corner < 8; ++corner) {
-        const float z = (corner & 4 ? range.highest : std::min(range.lowest, 0.0f)) * field.heightScale;
-        const vec3 point(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, z);
+        const vec3 point(corner & 1 ? local.high.x : local.low.x, corner & 2 ? local.high.y : local.low.y,
+                         corner & 4 ? local.high.z : local.low.z);
         bounds.add(vec3(worldFromObject * vec4(point, 1)));
     }
     return bounds;
+}
+
+ViewBlock viewBlock(const Eye& eye, ivec2 size) {
+    const vec2 pixel = 2.0f * eye.halfExtent / vec2(size);
+    return {.eye = vec4(eye.position, eye.perspective ? 1 : 0),
+            .forward = vec4(eye.forward, eye.farthest),
+            .right = vec4(pixel.x * eye.right, eye.nearest),
+            .up = vec4(pixel.y * eye.up, 0),
+            .size = vec2(size)};
+}
+
+std::vector<graph::BlockLayout::Member> viewMembers(std::size_t offset) {
+    return {{"view.eye", offset + offsetof(ViewBlock, eye)},
+            {"view.forward", offset + offsetof(ViewBlock, forward)},
+            {"view.right", offset + offsetof(ViewBlock, right)},
+            {"view.up", offset + offsetof(ViewBlock, up)},
+            {"view.size", offset + offsetof(ViewBlock, size)},
+            {"view.padding", offset + offsetof(ViewBlock, padding)}};
 }
 
 Eye makeEye(const scene::Scene& scene, float aspect) {
@@ -36,6 +86,8 @@ Eye makeEye(const scene::Scene& scene, float aspect) {
     if (glm::length(glm::cross(eye.forward, up)) < 1e-6f) // looking along up: any other direction will do
         up = std::abs(eye.forward.z) < 0.9f ? vec3(0, 0, 1) : vec3(0, 1, 0);
     const mat4 viewFromWorld = glm::lookAt(camera.eye, camera.eye + eye.forward, up);
+    eye.right = glm::normalize(glm::cross(eye.forward, up));
+    eye.up = glm::cross(eye.right, eye.forward);
 
     float nearest = 1e30f, farthest = -1e30f;
     for (const scene::Object& object : scene.objects) {
@@ -45,7 +97,8 @@ Eye makeEye(const scene::Scene& scene, float aspect) {
         nearest = std::min(nearest, middle - margin);
         farthest = std::max(farthest, middle + margin);
     }
-    const float half = 0.5f * camera.height;
+    const float half = eye.perspective ? std::tan(glm::radians(camera.fov) / 2) : 0.5f * camera.height;
+    eye.halfExtent = {half * aspect, half};
     if (eye.perspective) {
         farthest = std::max(farthest, 1e-3f);
         nearest = std::max(nearest, 1e-3f * farthest);
@@ -55,6 +108,8 @@ Eye makeEye(const scene::Scene& scene, float aspect) {
         eye.clipFromWorld =
             glm::ortho(-half * aspect, half * aspect, -half, half, nearest, farthest) * viewFromWorld;
     }
+    eye.nearest = nearest;
+    eye.farthest = farthest;
     return eye;
 }
 

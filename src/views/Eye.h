@@ -1,7 +1,10 @@
 #pragma once
 /// A camera as matrices: what a view is seen through.
 
+#include "graph/Device.h"
 #include "scene/Scene.h"
+
+#include <vector>
 
 namespace lucent::views {
 
@@ -10,6 +13,9 @@ struct Eye {
     vec3 position{0}; ///< world
     vec3 forward{0};  ///< world, unit
     bool perspective = false;
+    vec3 right{0}, up{0};            ///< world, unit
+    vec2 halfExtent{0};              ///< of the picture: m, or m for each metre of depth
+    float nearest = 0, farthest = 0; ///< depths between which everything lies, m
 
     /// Where eye rays come from in the space of an object: the position with w = 1, or with w = 0 the unit
     /// direction that all of them share. This is what shaders call `eye`.
@@ -21,6 +27,15 @@ struct Eye {
 /// @param aspect  width over height of the picture
 Eye makeEye(const scene::Scene& scene, float aspect);
 
+/// Mirrors struct View of shaders/views/view.glsl.
+struct ViewBlock {
+    vec4 eye, forward, right, up;
+    vec2 size, padding{0};
+};
+ViewBlock viewBlock(const Eye& eye, ivec2 size);
+/// Offsets of a ViewBlock's members in a block that holds one named `view` at `offset`, for a BlockLayout.
+std::vector<graph::BlockLayout::Member> viewMembers(std::size_t offset);
+
 /// Corners of the box around an object in world space: lowest and highest coordinate.
 struct Bounds {
     vec3 low{1e30f}, high{-1e30f};
@@ -31,6 +46,7 @@ struct Bounds {
     vec3 center() const { return 0.5f * (low + high); }
     float radius() const { return 0.5f * glm::length(high - low); }
 };
+/// Of an object at any time. A moving mesh's are those of its poses at a few times, with a margin.
 Bounds boundsOf(const scene::Object& object);
 
 } // namespace lucent::views

@@ -187,6 +187,16 @@ Result<const FieldTextures*> ImageCache::field(const std::shared_ptr<const Image
     return entry.value.get();
 }
 
+Result<const MeshTextures*> ImageCache::mesh(const std::shared_ptr<const scene::Mesh>& mesh) {
+    auto& entry = meshes_[mesh.get()];
+    if (!entry.value) {
+        entry.value = std::make_unique<MeshTextures>(context_, mesh);
+        entry.source = mesh;
+    }
+    entry.used = true;
+    return entry.value.get();
+}
+
 Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image>& image) {
     Entry<graph::Texture>& entry = images_[image.get()];
     if (!entry.value) {
@@ -215,15 +225,19 @@ Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image
 void ImageCache::trim() {
     std::erase_if(fields_, [](const auto& entry) { return !entry.second.used; });
     std::erase_if(images_, [](const auto& entry) { return !entry.second.used; });
+    std::erase_if(meshes_, [](const auto& entry) { return !entry.second.used; });
     for (auto& [key, entry] : fields_)
         entry.used = false;
     for (auto& [key, entry] : images_)
+        entry.used = false;
+    for (auto& [key, entry] : meshes_)
         entry.used = false;
 }
 
 void ImageCache::clear() {
     fields_.clear();
     images_.clear();
+    meshes_.clear();
 }
 
 std::size_t ImageCache::bytes() const {
@@ -232,6 +246,8 @@ std::size_t ImageCache::bytes() const {
         sum += entry.value->bytes();
     for (const auto& [key, entry] : images_)
         sum += entry.value->desc().bytes();
+    for (const auto& [key, entry] : meshes_)
+        sum += entry.value->bytes();
     return sum;
 }
 

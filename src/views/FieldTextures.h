@@ -4,6 +4,7 @@
 #include "gl/Context.h"
 #include "graph/Device.h"
 #include "scene/Scene.h"
+#include "views/Meshes.h"
 
 #include <cstdint>
 #include <map>
@@ -63,6 +64,8 @@ public:
     explicit ImageCache(gl::Context& context) : context_(context) {}
     /// Error (Fault::Machine) when the map is larger than the GPU's textures.
     Result<const FieldTextures*> field(const std::shared_ptr<const Image>& heights);
+    /// Error (Fault::Machine) when it has more vertices than a texture holds.
+    Result<const MeshTextures*> mesh(const std::shared_ptr<const scene::Mesh>& mesh);
     /// A colour map or alpha: 1 channel becomes R32F, 3 become RGBA16F filtered.
     Result<graph::TextureHandle> image(const std::shared_ptr<const Image>& image);
     /// Drops what was not asked for since the last trim().
@@ -71,16 +74,17 @@ public:
     std::size_t bytes() const;
 
 private:
-    template <class Value>
+    template <class Value, class Source = Image>
     struct Entry {
         std::unique_ptr<Value> value;
-        std::shared_ptr<const Image> source;
+        std::shared_ptr<const Source> source;
         bool used = true;
     };
     Status checkSize(const Image& image) const;
     gl::Context& context_;
     std::map<const Image*, Entry<FieldTextures>> fields_;
     std::map<const Image*, Entry<graph::Texture>> images_;
+    std::map<const scene::Mesh*, Entry<MeshTextures, scene::Mesh>> meshes_;
 };
 
 } // namespace lucent::views

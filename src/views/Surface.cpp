@@ -50,6 +50,16 @@ struct GeometryBlock {
     }
 };
 
+struct SolidBlock {
+    ViewBlock view;
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = viewMembers(offsetof(SolidBlock, view));
+        static const graph::BlockLayout layout{"SolidBlock", sizeof(SolidBlock), members};
+        return layout;
+    }
+};
+
 const char* switchFor(scene::Aov aov) {
     switch (aov) {
     case scene::Aov::Normal:
@@ -67,7 +77,7 @@ Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCa
     std::vector<DrawnObject> drawn;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
-        if (!object.visible) continue;
+        if (!object.visible || !object.isField()) continue;
         DrawnObject one{.object = &object, .index = int(i)};
         Result<const FieldTextures*> field = images.field(object.field().heights);
         if (!field) return field.error();
@@ -88,55 +98,89 @@ Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCa
     return drawn;
 }
 
+namespace {
+
+void drawField(graph::Commands& commands, const gl::Program& program, const DrawnObject& drawn,
+               const Eye& eye, ivec2 size, graph::DepthTest depthTest) {
+    const auto clipFromPixel = glm::scale(glm::dmat4(1), glm::dvec3(2.0 / size.x, 2.0 / size.y, 1));
+    const mat4 worldFromObject = drawn.object->transform.worldFromObject();
+    const mat4 clipFromObject = eye.clipFromWorld * worldFromObject;
+    const SurfaceBlock block{.clipFromObject = clipFromObject,
+                             .objectFromPixel =
+                                 mat4(glm::inverse(glm::dmat4(clipFromObject)) * clipFromPixel),
+                             .eye = eye.inObject(worldFromObject),
+                             .field = drawn.field->block(drawn.object->field()),
+                             .size = vec2(size),
+                             .object = drawn.index,
+                             .hasAlpha = drawn.alpha != graph::TextureHandle::None};
+    auto textures = drawn.field->bindings();
+    if (block.hasAlpha) textures.push_back({"uAlpha", drawn.alpha});
+    commands.draw({.program = &program,
+                   .vertices = 36,
+                   .cull = graph::Cull::Front,
+                   .depthTest = depthTest,
+                   .block = block,
+                   .textures = std::move(textures)});
+}
+
+} // namespace
+
 Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                     const std::vector<DrawnObject>& objects, graph::TextureId target, ivec2 size) {
-    Result<const gl::Program*> program = context.program("views/surface");
-    if (!program) return program.error();
+                     const std::vector<DrawnObject>& fields, const std::vector<PosedMesh>& solids,
+                     graph::TextureId target, ivec2 size) {
+    const gl::Program *ofFields = nullptr, *ofSolids = nullptr;
+    const auto find = [&](const char* stem, const gl::Program*& program) -> Status {
+        Result<const gl::Program*> found = context.program(stem);
+        if (!found) return found.error();
+        program = *found;
+        return Done{};
+    };
+    if (!fields.empty())
+        if (Status s = find("views/surface", ofFields); !s) return s;
+    if (!solids.empty())
+        if (Status s = find("views/solid", ofSolids); !s) return s;
     graph.addPass("views.surface", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("the first point of " + std::to_string(objects.size()) +
+        pass.reason("the first point of " + std::to_string(fields.size() + solids.size()) +
                     " visible object(s) that each pixel meets");
+        for (const PosedMesh& solid : solids) {
+            pass.sample(solid.positions);
+            pass.sample(solid.normals);
+        }
         pass.write(target);
-        if (objects.size() > 1) pass.createDepth("views.depth", size);
-        pass.clear(vec4(0));
-        return [=, program = *program](const graph::Resources&, graph::Commands& commands) {
-            const auto clipFromPixel = glm::scale(glm::dmat4(1), glm::dvec3(2.0 / size.x, 2.0 / size.y, 1));
-            for (const DrawnObject& drawn : objects) {
-                const mat4 worldFromObject = drawn.object->transform.worldFromObject();
-                const mat4 clipFromObject = eye.clipFromWorld * worldFromObject;
-                const SurfaceBlock block{.clipFromObject = clipFromObject,
-                                         .objectFromPixel =
-                                             mat4(glm::inverse(glm::dmat4(clipFromObject)) * clipFromPixel),
-                                         .eye = eye.inObject(worldFromObject),
-                                         .field = drawn.field->block(drawn.object->field()),
-                                         .size = vec2(size),
-                                         .object = drawn.index,
-                                         .hasAlpha = drawn.alpha != graph::TextureHandle::None};
-                auto textures = drawn.field->bindings();
-                if (block.hasAlpha) textures.push_back({"uAlpha", drawn.alpha});
-                commands.draw({.program = program,
-                               .vertices = 36,
-                               .cullFront = true,
-                               .depthTest = objects.size() > 1,
-                               .block = block,
-                               .textures = std::move(textures)});
-            }
+        pass.clear(target, vec4(0));
+        const bool several = fields.size() > 1 || !solids.empty();
+        if (several) pass.clear(pass.createDepth("views.depth", size), 1.0f);
+        const auto depthTest = several ? graph::DepthTest::Less : graph::DepthTest::None;
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            for (const DrawnObject& drawn : fields)
+                drawField(commands, *ofFields, drawn, eye, size, depthTest);
+            for (const PosedMesh& solid : solids)
+                drawMesh(commands, *ofSolids, resources, solid, eye, size, solid.drawn.index,
+                         {.depthTest = depthTest});
         };
     });
     return Done{};
 }
 
-Status recordGeometry(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                      const std::vector<DrawnObject>& objects, graph::TextureId surface,
-                      graph::TextureId target, scene::Aov aov) {
-    Result<const gl::Program*> program = context.program("views/geometry", {switchFor(aov)});
-    if (!program) return program.error();
+namespace {
+
+// `quantity`: a switch of views/geometry.frag.
+Status recordQuantity(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                      const std::vector<DrawnObject>& fields, const std::vector<PosedMesh>& solids,
+                      graph::TextureId surface, graph::TextureId target, ivec2 size, const char* quantity,
+                      const std::string& reason) {
+    Result<const gl::Program*> ofFields = context.program("views/geometry", {quantity});
+    if (!ofFields) return ofFields.error();
+    Result<const gl::Program*> ofSolids = context.program("views/geometry", {quantity, "OF_MESHES"});
+    if (!ofSolids) return ofSolids.error();
     graph.addPass("views.geometry", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("view.show asks for \"" + std::string(scene::aovNames()[std::size_t(aov)]) + "\"");
+        pass.reason(reason);
         pass.sample(surface);
         pass.write(target);
-        pass.clear(vec4(0));
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
-            for (const DrawnObject& drawn : objects) {
+        pass.clear(target, vec4(0));
+        return [=, ofFields = *ofFields, ofSolids = *ofSolids](const graph::Resources& resources,
+                                                               graph::Commands& commands) {
+            for (const DrawnObject& drawn : fields) {
                 const GeometryBlock block{.worldFromObject = drawn.object->transform.worldFromObject(),
                                           .eye = vec4(eye.position, 1),
                                           .forward = vec4(eye.forward, 0),
@@ -144,11 +188,31 @@ Status recordGeometry(graph::FrameGraph& graph, gl::Context& context, const Eye&
                                           .object = drawn.index};
                 auto textures = drawn.field->bindings();
                 textures.push_back({"uSurface", resources[surface]});
-                commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+                commands.draw({.program = ofFields, .block = block, .textures = std::move(textures)});
             }
+            if (!solids.empty())
+                commands.draw({.program = ofSolids,
+                               .block = SolidBlock{viewBlock(eye, size)},
+                               .textures = {{"uSurface", resources[surface]}}});
         };
     });
     return Done{};
+}
+
+} // namespace
+
+Status recordGeometry(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                      const std::vector<DrawnObject>& fields, const std::vector<PosedMesh>& solids,
+                      graph::TextureId surface, graph::TextureId target, scene::Aov aov, ivec2 size) {
+    return recordQuantity(graph, context, eye, fields, solids, surface, target, size, switchFor(aov),
+                          "view.show asks for \"" + std::string(scene::aovNames()[std::size_t(aov)]) + "\"");
+}
+
+Status recordSolid(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                   const std::vector<DrawnObject>& fields, const std::vector<PosedMesh>& solids,
+                   graph::TextureId surface, graph::TextureId target, ivec2 size) {
+    return recordQuantity(graph, context, eye, fields, solids, surface, target, size, "SHOW_SOLID",
+                          "opaque surfaces on which rays through refractive objects end");
 }
 
 } // namespace lucent::views

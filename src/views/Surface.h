@@ -21,16 +21,25 @@ struct DrawnObject {
     graph::TextureHandle specularMap = graph::TextureHandle::None;
 };
 
-/// Looks the textures of a scene's visible objects up.
+/// Looks the textures of a scene's visible height fields up.
 Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCache& images);
 
 /// Draws the surface image (layout: shaders/views/surface_pixel.glsl) into `target`, RGBA32F.
+///
+/// @param solids  opaque objects and mirrors that are no height fields
 Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                     const std::vector<DrawnObject>& objects, graph::TextureId target, ivec2 size);
+                     const std::vector<DrawnObject>& fields, const std::vector<PosedMesh>& solids,
+                     graph::TextureId target, ivec2 size);
 
 /// Draws a geometric AOV (normal, depth or position) of the surface image into `target`.
 Status recordGeometry(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                      const std::vector<DrawnObject>& objects, graph::TextureId surface,
-                      graph::TextureId target, scene::Aov aov);
+                      const std::vector<DrawnObject>& fields, const std::vector<PosedMesh>& solids,
+                      graph::TextureId surface, graph::TextureId target, scene::Aov aov, ivec2 size);
+
+/// Draws depth, normal and coverage of the surface image into `target`, RGBA32F, as uSolid of
+/// shaders/views/layers.glsl has them: what rays through refractive objects may end on.
+Status recordSolid(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                   const std::vector<DrawnObject>& fields, const std::vector<PosedMesh>& solids,
+                   graph::TextureId surface, graph::TextureId target, ivec2 size);
 
 } // namespace lucent::views

@@ -134,6 +134,10 @@ const char* viewer_open_image(int viewer, const char* name, const std::uint8_t* 
     return answer(viewerOf(viewer).openImage(name, bytesOf(bytes, size), kind == 1));
 }
 
+const char* viewer_open_mesh(int viewer, const char* name, const std::uint8_t* bytes, int size) {
+    return answer(viewerOf(viewer).openMesh(name, bytesOf(bytes, size)));
+}
+
 void viewer_message(int viewer, const char* text) { viewerOf(viewer).showMessage(text); }
 void viewer_resize(int viewer, int width, int height, float scale) {
     viewerOf(viewer).resize({width, height}, scale);

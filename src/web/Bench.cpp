@@ -77,6 +77,15 @@ Result<truth::Picture> solve(const scene::Scene& scene, int directions, const tr
     return measure::solveRelief(scene, directions, rows, 1);
 }
 
+Status addField(const std::string& name) {
+    for (const scene::Object& object : bench().scene.objects)
+        if (const auto* field = std::get_if<scene::HeightField>(&object.shape)) {
+            bench().fields.push_back({name, field->heights, field->heightScale / field->width});
+            return Done{};
+        }
+    return Error{name + ": has no height field; must have one to measure relief on"};
+}
+
 Status addEnvironment(const std::string& path) {
     const Result<Bytes> bytes = readPut(path);
     if (!bytes) return bytes.error();
@@ -140,11 +149,8 @@ const float* bench_pixels() { return bench().pixels.pixels.data(); }
 
 // --- the sweep
 
-/// Adds the height field of the loaded scene's first object to what the sweep measures.
-void bench_add_field(const char* name) {
-    const scene::HeightField& shape = bench().scene.objects.front().field();
-    bench().fields.push_back({name, shape.heights, shape.heightScale / shape.width});
-}
+/// Adds the loaded scene's first height field to what the sweep measures; "" or the message.
+const char* bench_add_field(const char* name) { return answer(addField(name)); }
 
 /// Adds an environment map that was put; "" or the message.
 const char* bench_add_environment(const char* path) { return answer(addEnvironment(path)); }

@@ -4,6 +4,7 @@
 
 #include "scene/readers/Readers.h"
 #include "base/JsonWriter.h"
+#include "scene/readers/Obj.h"
 
 #include <nlohmann/json.hpp>
 
@@ -49,6 +50,14 @@ std::string decodedUri(const std::string& uri) {
     return name;
 }
 
+std::string namesJson(const std::vector<std::string>& names) {
+    JsonWriter json;
+    json.beginArray();
+    for (const std::string& name : names)
+        json.value(name);
+    return json.end().text();
+}
+
 // Files were put under the names that reader_needs() gave, which are relative to the file that needs them.
 ReadFile filesBeside(const std::string& name) {
     return [name](const std::string& path) -> Result<Bytes> {
@@ -73,24 +82,24 @@ int reader_is_foreign(const char* name, const std::uint8_t* bytes, int size) {
     return scene::isForeign(name, std::as_bytes(std::span(bytes, std::size_t(size))));
 }
 
-/// JSON array of the files that a .gltf which was put keeps its data in, relative to it. A text that is no
-/// glTF needs nothing here: reader_to_plain() says what is wrong with it.
+/// JSON array of the files that a .gltf which was put keeps its data in, relative to it, or those in which an
+/// .obj has its materials. A text that is no glTF needs nothing here: reader_to_plain() says what is wrong
+/// with it.
 const char* reader_needs(const char* name) {
     const Bytes& bytes = converter().files[name];
+    if (scene::isObj(name)) return answer(namesJson(scene::materialFilesOf(bytes)));
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     const nlohmann::json gltf = nlohmann::json::parse(text, text + bytes.size(), nullptr, false);
-    JsonWriter json;
-    json.beginArray();
+    std::vector<std::string> names;
     const auto buffers = gltf.find("buffers"); // of anything but an object: its end
     if (buffers != gltf.end() && buffers->is_array())
         for (const nlohmann::json& buffer : *buffers) {
             const auto uri = buffer.find("uri");
             if (uri == buffer.end() || !uri->is_string()) continue;
             const auto& place = uri->get_ref<const std::string&>();
-            if (!place.starts_with("data:")) json.value(decodedUri(place));
+            if (!place.starts_with("data:")) names.push_back(decodedUri(place));
         }
-    json.end();
-    return answer(json.text());
+    return answer(namesJson(names));
 }
 
 /// Converts a file that was put and forgets all files. "" or the message; the result is at reader_bytes().

@@ -2,6 +2,7 @@
 /// fetched only when a person asks for that. C functions as in Api.h; strings returned stay valid until the
 /// next call that returns one.
 
+#include "base/Text.h"
 #include "frame/Renderer.h"
 #include "relief/Relief.h"
 #include "scene/Load.h"
@@ -53,6 +54,16 @@ truth::ReliefOptions optionsOf(const scene::Scene& scene, int directions) {
             .threads = 1};
 }
 
+// What follows rays through whole scenes needs Embree, which exists natively only.
+Status checkScene(const scene::Scene& scene) {
+    for (const scene::Object& object : scene.objects)
+        if (!object.isField())
+            return Error{
+                "truth: object " + inQuotes(object.name) +
+                " is no height field; must be one, or the scene be solved by the program (lucent truth)"};
+    return truth::checkAov(scene.view.show);
+}
+
 void solveNext() {
     Job& j = job();
     const ivec2 at(j.done % j.image.width, j.done / j.image.width);
@@ -85,7 +96,7 @@ const char* truth_start(int width, int height, int directions) {
     j.files.clear();
     if (!scene) return answer(scene.error().message);
     j.scene = std::move(*scene);
-    if (Status known = truth::checkAov(j.scene.view.show); !known) return answer(known.error().message);
+    if (Status known = checkScene(j.scene); !known) return answer(known.error().message);
     j.estimator = std::make_unique<truth::ReliefEstimator>(j.scene, ivec2(width, height), j.scene.view.show,
                                                            optionsOf(j.scene, directions));
     j.image = Image(width, height, 4);

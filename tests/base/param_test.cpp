@@ -19,6 +19,7 @@ struct Knobs {
     vec3 color{0.25f, 0.5f, 1};
     vec3 place{1, -2, 3};
     vec2 range{0, 1};
+    vec2 across{2, 1};
     float size = 1;
     float free = 0;
 };
@@ -32,6 +33,7 @@ const ParamTable& knobs() {
         declare(&Knobs::color, {.id = "color", .label = "", .min = 0, .doc = "", .color = true}),
         declare(&Knobs::place, {.id = "place", .label = "", .doc = ""}),
         declare(&Knobs::range, {.id = "lightRange", .label = "", .min = 0, .max = 1, .doc = ""}),
+        declare(&Knobs::across, {.id = "across", .label = "", .min = -5, .doc = "", .pair = true}),
         declare(&Knobs::size,
                 {.id = "size", .label = "", .min = kAboveZero, .max = 1e3, .doc = "", .attribute = "big"}),
         declare(&Knobs::free, {.id = "free", .label = "", .max = 5, .doc = ""}),
@@ -86,6 +88,7 @@ TEST(Param, EachKindReadsItsText) {
     EXPECT_EQ(set("color", "#ff0000"), "1 0 0");
     EXPECT_EQ(set("place", "-1 2e3 0"), "-1 2000 0");
     EXPECT_EQ(set("lightRange", "0.2 0.2"), "0.2 0.2");
+    EXPECT_EQ(set("across", "3,-4"), "3 -4"); // in any order, unlike a range
 }
 
 TEST(Param, HexColoursAreSrgb) {
@@ -108,6 +111,7 @@ TEST(Param, WrongTextSaysWhatWasExpected) {
     EXPECT_EQ(set("color", "#12345g"), "is \"#12345g\"; must be 3 numbers or #rrggbb");
     EXPECT_EQ(set("place", "1 2"), "is \"1 2\"; must be 3 numbers");
     EXPECT_EQ(set("lightRange", "1"), "is \"1\"; must be 2 numbers");
+    EXPECT_EQ(set("across", "1 2 3"), "is \"1 2 3\"; must be 2 numbers");
 }
 
 TEST(Param, ValuesOutOfRangeSayTheRange) {
@@ -119,6 +123,7 @@ TEST(Param, ValuesOutOfRangeSayTheRange) {
     EXPECT_EQ(set("free", "6"), "is 6; must be at most 5");
     EXPECT_EQ(set("place", "1 nan 2"), "is 1 nan 2; must be finite");
     EXPECT_EQ(set("place", "1e300 0 0"), "is inf 0 0; must be finite");
+    EXPECT_EQ(set("across", "0 -6"), "is 0 -6; must be at least -5");
     EXPECT_EQ(set("lightRange", "0.8 0.2"), "is 0.8 0.2; the first must not be above the second");
 }
 
@@ -132,6 +137,15 @@ TEST(Param, ComponentsAreNumbers) {
     EXPECT_FALSE(values.on);
     EXPECT_EQ(getComponent(knob("place"), &values.place, 2), 3);
     EXPECT_EQ(getComponent(knob("speed"), &values.speed, 0), 2);
+}
+
+TEST(Param, WhatIsNotShownIsInNoGroupOfThePanel) {
+    Param param = knob("size");
+    param.group = Group::Material;
+    BoundParam bound{"x", "material", &param, nullptr, nullptr};
+    EXPECT_EQ(bound.group(), Group::Material);
+    bound.shown = false;
+    EXPECT_EQ(bound.group(), Group::None);
 }
 
 TEST(Param, AttributesAreKebabCaseBehindTheirPrefix) {

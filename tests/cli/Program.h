@@ -5,6 +5,7 @@
 #include "base/Image.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <cstdlib>
@@ -79,6 +80,23 @@ protected:
         std::filesystem::remove(path(".out"));
         std::filesystem::remove(path(".err"));
         return outcome;
+    }
+
+    /// The command must end with code 1 and exactly this message, and leave no new file.
+    void expectRefusal(const std::string& arguments, const std::string& message) const {
+        const std::size_t before = fileCount();
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.code, 1) << arguments;
+        EXPECT_EQ(outcome.out, "") << arguments;
+        EXPECT_EQ(outcome.err, "lucent: " + message + "\n") << arguments;
+        EXPECT_EQ(fileCount(), before) << arguments;
+    }
+
+    /// What a text in JSON says; a failure and null when it is none.
+    static nlohmann::json parsed(const std::string& text) {
+        nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+        EXPECT_FALSE(json.is_discarded()) << text;
+        return json.is_discarded() ? nlohmann::json() : json;
     }
 
 private:

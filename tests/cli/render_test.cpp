@@ -2,6 +2,10 @@
 
 #include "scene/readers/Readers.h"
 
+#include <chrono>
+#include <csignal>
+#include <thread>
+
 namespace lucent::test {
 namespace {
 
@@ -15,6 +19,13 @@ protected:
         if (outcome.code != 2) return;
         if (std::getenv("LUCENT_REQUIRE_GL")) FAIL() << outcome.err;
         GTEST_SKIP() << outcome.err;
+    }
+    /// "moving.json": a ball through which a wave runs sideways.
+    void writeMovingScene() const {
+        write("moving.json", R"({ "lucent": 1, "size": [16, 16],
+  "camera": { "type": "orthographic", "eye": [0, 0, 5], "height": 4 },
+  "objects": [ { "name": "ball", "shape": { "type": "sphere" }, "material": { "base": [1, 1, 1] },
+                 "wave": { "amplitude": [1, 0, 0], "direction": [0, 0, 1], "wavelength": 100 } } ] })");
     }
     Image load(const std::string& name) const {
         const auto bytes = scene::plainFiles()(path(name));
@@ -72,6 +83,63 @@ TEST_F(Render, WritesWhatItCostAsJson) {
     for (const char* key :
          {"\"milliseconds\"", "\"passes\"", "\"lights\": 1", "\"textureBytes\"", "\"width\": 16"})
         EXPECT_NE(text("stats.json").find(key), std::string::npos) << text("stats.json");
+}
+
+TEST_F(Render, StatsNameWhatTheErrorBudgetChose) {
+    writeScene("\"bump.pfm\"", R"("depth": 0.1)", R"("environment": { "source": "sky" })");
+    ASSERT_EQ(run("render scene.json -o a.pfm --stats stats.json --max-error 0.1").code, 0);
+    const nlohmann::json stats = parsed(text("stats.json"));
+    EXPECT_NE(stats["settings"], "");
+    EXPECT_GT(stats["predictedError"], 0);
+    EXPECT_LE(stats["predictedError"], 0.1);
+    EXPECT_GT(stats["planMilliseconds"], 0);
+    EXPECT_LT(stats["planMilliseconds"], stats["milliseconds"]);
+}
+
+TEST_F(Render, ASequenceHasNumberedPicturesAndTheirTimes) {
+    writeMovingScene();
+    const Outcome outcome =
+        run("render moving.json -o out.pfm --time 1 --frames 3 --fps 4 --stats stats.json");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const nlohmann::json stats = parsed(text("stats.json"));
+    ASSERT_EQ(stats["pictures"].size(), 3u);
+    for (int i = 0; i < 3; ++i) {
+        const std::string file = "out-000" + std::to_string(i + 1) + ".pfm";
+        EXPECT_EQ(load(file).size(), ivec2(16, 16));
+        EXPECT_EQ(stats["pictures"][i]["file"], file);
+        EXPECT_EQ(stats["pictures"][i]["time"], 1 + 0.25 * i);
+    }
+    EXPECT_FALSE(exists("out.pfm"));
+    // The wave moves the ball sideways by half its width: no picture is like the next, and each is what one
+    // picture of its moment is.
+    EXPECT_NE(load("out-0001.pfm").pixels, load("out-0002.pfm").pixels);
+    ASSERT_EQ(run("render moving.json -o one.pfm --time 1.25").code, 0);
+    EXPECT_EQ(load("one.pfm").pixels, load("out-0002.pfm").pixels);
+}
+
+TEST_F(Render, AStoppedSequenceLeavesWholePicturesOnly) {
+    writeMovingScene();
+    const pid_t program = fork();
+    if (program == 0) {
+        alarm(60); // outlives exec: a program that does not stop is stopped all the same
+        if (chdir(path(".").c_str()) == 0 && std::freopen("err", "w", stderr))
+            execl(LUCENT_PROGRAM, "lucent", "render", "moving.json", "-o", "out.pfm", "--frames", "9999",
+                  nullptr);
+        _exit(127);
+    }
+    for (int i = 0; i < 300 && !exists("out-0002.pfm"); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    kill(program, SIGINT);
+    int status = 0;
+    waitpid(program, &status, 0);
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
+    EXPECT_NE(text("err").find(" of 9999 pictures"), std::string::npos) << text("err");
+    const std::size_t pictures = fileCount() - 4; // bump, two scenes, err
+    for (std::size_t i = 1; i <= pictures; ++i) {
+        char name[32];
+        std::snprintf(name, sizeof name, "out-%04zu.pfm", i);
+        EXPECT_EQ(load(name).size(), ivec2(16, 16)) << name;
+    }
 }
 
 TEST_F(Render, ExplainNamesThePassesAndWhatWasLeftOut) {

@@ -17,14 +17,6 @@ protected:
     }
     static inline const std::string kFew = " --directions 32 --samples 16 --set lights.0.radius=0.2";
 
-    void expectRefusal(const std::string& arguments, const std::string& message) const {
-        const std::size_t before = fileCount();
-        const Outcome outcome = run(arguments);
-        EXPECT_EQ(outcome.code, 1) << arguments;
-        EXPECT_EQ(outcome.out, "") << arguments;
-        EXPECT_EQ(outcome.err, "lucent: " + message + "\n") << arguments;
-        EXPECT_EQ(fileCount(), before) << arguments;
-    }
     void expectDone(const std::string& arguments) const {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.code, 0) << arguments << "\n" << outcome.err;
@@ -95,6 +87,93 @@ TEST_F(Truth, MergeRefusesWhatDoesNotBelongTogether) {
     const Outcome outcome = run("merge 1.tile 2.tile -o out.pfm");
     EXPECT_EQ(outcome.code, 1);
     EXPECT_NE(outcome.err.find("2.tile: the scene's fingerprint is "), std::string::npos) << outcome.err;
+}
+
+TEST_F(Truth, MergeRefusesTilesOfOtherPicturesAndOfOtherCuts) {
+    expectDone("truth scene.json -o half.tile --tile 1/2" + kFew);
+    expectDone("truth scene.json -o third.tile --tile 2/3" + kFew); // has rows that half.tile has
+    expectRefusal("merge half.tile third.tile -o out.pfm",
+                  "third.tile: the number of parts is 3; must be 2 as in half.tile");
+    expectRefusal("merge third.tile -o out.pfm",
+                  "third.tile: is part 2 of 3 and these are missing: 1, 3; must be given all 3");
+    expectDone("truth scene.json -o other.tile --tile 2/2 --size 16x8" + kFew);
+    expectRefusal("merge half.tile other.tile -o out.pfm",
+                  "other.tile: the size is 16x8; must be 16x16 as in half.tile");
+    expectDone("truth scene.json -o other.tile --tile 2/2 --aov d" + kFew);
+    expectRefusal("merge half.tile other.tile -o out.pfm",
+                  "other.tile: the AOV is d; must be color as in half.tile");
+    expectDone("truth scene.json -o other.tile --tile 2/2 --estimator lambert --samples 16 --set "
+               "lights.0.radius=0.2");
+    expectRefusal("merge half.tile other.tile -o out.pfm",
+                  "other.tile: the estimator is lambert; must be relief as in half.tile");
+}
+
+TEST_F(Truth, ARefusedMergeLeavesAnOlderPictureAsItWas) {
+    expectDone("truth scene.json -o 1.tile --tile 1/2" + kFew);
+    write("out.pfm", std::string("kept"));
+    write("out.pfm.json", std::string("kept as well"));
+    expectRefusal("merge 1.tile -o out.pfm",
+                  "1.tile: is part 1 of 2 and these are missing: 2; must be given all 2");
+    expectRefusal("merge 1.tile -o out.gif",
+                  "out.gif: ends in no known image type; must be .png, .hdr, .exr or .pfm");
+    expectRefusal("merge 1.tile -o no/out.pfm",
+                  "no/out.pfm: cannot be written, no is no folder; must be in an existing one");
+    EXPECT_EQ(text("out.pfm"), "kept");
+    EXPECT_EQ(text("out.pfm.json"), "kept as well");
+}
+
+TEST_F(Truth, WhatIsReadIsNotWrittenOver) {
+    expectRefusal("truth scene.json -o bump.pfm",
+                  "bump.pfm: is read as well; must be another file than bump.pfm");
+    expectRefusal("truth scene.json -o scene.json --tile 1/2",
+                  "scene.json: is read as well; must be another file than scene.json");
+    expectRefusal("truth scene.json -o a.pfm --errors ./bump.pfm",
+                  "./bump.pfm: is read as well; must be another file than bump.pfm");
+    write("a.pfm.json", text("scene.json"));
+    expectRefusal("truth a.pfm.json -o a.pfm",
+                  "a.pfm.json: is read as well; must be another file than a.pfm.json");
+    expectDone("truth scene.json -o a.pfm --tile 1/1" + kFew);
+    const std::string part = text("a.pfm");
+    expectRefusal("merge a.pfm -o a.pfm", "a.pfm: is read as well; must be another file than a.pfm");
+    expectRefusal("merge a.pfm -o b.pfm --errors a.pfm",
+                  "a.pfm: is read as well; must be another file than a.pfm");
+    EXPECT_EQ(text("a.pfm"), part);
+}
+
+TEST_F(Truth, CausticsThatAreDrawnBelongToTheTruth) {
+    const std::string view =
+        R"({"lucent": 1, "size": [4, 4], "camera": {"eye": [0, 3, 0], "up": [0, 0, -1]},)";
+    const std::string objects = R"("objects": [{"name": "floor", "shape": {"type": "plane"}},
+        {"name": "ball", "shape": {"type": "sphere", "radius": 0.3}, "material": {"transmission": 1},
+         "transform": {"translate": [0, 1, 0]}}]})";
+    write("dark.json", view + objects);
+    write("lit.json", view + R"("lights": [{"type": "distant", "direction": [0, -1, 0]}],)" + objects);
+    const auto estimator = [&](const std::string& scene) {
+        expectDone("truth " + scene + " -o out.pfm --threads 1 --samples 4");
+        const std::string facts = text("out.pfm.json"), key = "\"estimator\": \"";
+        const std::size_t from = facts.find(key) + key.size();
+        return facts.substr(from, facts.find('"', from) - from);
+    };
+    EXPECT_EQ(estimator("dark.json"), "glass");
+    const bool drawn = run("explain lit.json").out.find("caustics.") != std::string::npos;
+    EXPECT_EQ(estimator("lit.json"), drawn ? "light" : "glass");
+    EXPECT_EQ(estimator("lit.json --estimator glass"), "glass");
+    EXPECT_EQ(estimator("lit.json --aov depth"), "glass");
+    EXPECT_EQ(estimator("lit.json --aov irradiance"), "light");
+}
+
+TEST_F(Truth, ADamagedTileIsRefused) {
+    expectDone("truth scene.json -o 1.tile --tile 1/1" + kFew);
+    const std::string whole = text("1.tile");
+    const std::size_t width = whole.find("\"width\": 16");
+    ASSERT_NE(width, std::string::npos);
+    write("damaged.tile", std::string(whole).replace(width, 11, "\"width\": -1"));
+    expectRefusal("merge damaged.tile -o out.pfm",
+                  "damaged.tile: the header of the part is damaged; must be as lucent truth --tile wrote it");
+    write("empty.tile", std::string());
+    expectRefusal("merge empty.tile -o out.pfm",
+                  "empty.tile: is no part of a truth; must be a file that lucent truth --tile wrote");
+    expectDone("merge 1.tile -o out.pfm");
 }
 
 TEST_F(Truth, WrongOptionsAreRefused) {

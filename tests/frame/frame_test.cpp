@@ -48,7 +48,7 @@ TEST_F(Frame, ExplainNamesReasonsBytesAndWhatWasLeftOut) {
           "lights 0 to 0 of 1 through the solid, method hierarchy",
           "-> frame.surface 40x30 RGBA32F, 19200 bytes",
           "views.depth: one visible object cannot hide another", "environment: the scene names none",
-          "heights, pyramids and maps of the objects"})
+          "heights, pyramids, meshes and maps of the objects"})
         EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
 }
 

@@ -49,7 +49,7 @@ TEST_F(Gl, ShaderErrorsNameOurFileAndLine) {
 TEST_F(Gl, LogsOfBothDriversAreTranslated) {
     const shaders::Stage* stage = shaders::find("frame/display.frag");
     ASSERT_NE(stage, nullptr);
-    const shaders::Line& first = stage->lines[0];
+    const shaders::Piece& first = *stage->pieces[0];
     const std::string place = std::string(first.file) + ":" + std::to_string(first.line);
     EXPECT_EQ(translateLog("0:7(12): error: no", "frame/display.frag", 7), place + ": error: no");
     EXPECT_EQ(translateLog("ERROR: 0:7: 'x' : no", "frame/display.frag", 7), place + ": 'x' : no");

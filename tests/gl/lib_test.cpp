@@ -6,8 +6,10 @@
 #include <cmath>
 
 namespace glsl {
-using glm::clamp, glm::max, glm::min, glm::vec2, glm::vec3;
-using std::exp, std::pow, std::sqrt;
+using glm::clamp, glm::max, glm::min, glm::normalize, glm::vec2, glm::vec3;
+using std::abs, std::exp, std::pow, std::sqrt;
+#include "shaders/lib/fresnel.glsl"
+#include "shaders/lib/octahedral.glsl"
 #include "shaders/lib/quadratic.glsl"
 #include "shaders/lib/shading.glsl"
 } // namespace glsl
@@ -60,6 +62,47 @@ TEST(Quadratic, AgreesWithSamplingOverManyCoefficients) {
         // A sampled length is off by at most one step of 2 / 4000 at each of two roots.
         EXPECT_NEAR(glsl::positivePart(a, b, c, 2).x, 2.0 * inside / kSamples, 1e-3 + 1e-5) << seed;
     }
+}
+
+TEST(Octahedral, EveryDirectionComesBack) {
+    // Two floats of up to 1 hold a direction to about their rounding, 6e-8, times a slope of at most 3.
+    for (int i = 0; i < 2000; ++i) {
+        const float y = 1 - (2 * float(i) + 1) / 2000, turn = 2.39996f * float(i);
+        const float r = std::sqrt(1 - y * y);
+        const lucent::vec3 n(r * std::cos(turn), y, r * std::sin(turn));
+        const lucent::vec2 e = glsl::octahedralFrom(n);
+        EXPECT_LE(std::max(std::abs(e.x), std::abs(e.y)), 1);
+        EXPECT_LT(glm::distance(glsl::fromOctahedral(e), n), 3e-7f) << i;
+    }
+}
+
+TEST(Octahedral, AxesAreExact) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.0f, 1.0f}) {
+            lucent::vec3 n(0);
+            n[axis] = side;
+            EXPECT_EQ(glsl::fromOctahedral(glsl::octahedralFrom(n)), n);
+        }
+}
+
+TEST(Fresnel, KnownAngles) {
+    // Normal incidence: ((n1 - n2) / (n1 + n2))², the same from both sides; grazing: all.
+    EXPECT_NEAR(glsl::fresnelReflectance(1, 1 / 1.5f), 0.04f, 1e-7);
+    EXPECT_NEAR(glsl::fresnelReflectance(1, 1.5f), 0.04f, 1e-7);
+    EXPECT_NEAR(glsl::fresnelReflectance(0, 1 / 1.5f), 1, 1e-6);
+    // Brewster's angle, tan = 1.5: half of what is polarised across, (1.5² - 1)² / (1.5² + 1)² / 2.
+    EXPECT_NEAR(glsl::fresnelReflectance(std::cos(std::atan(1.5f)), 1 / 1.5f),
+                0.5 * 1.25 * 1.25 / (3.25 * 3.25), 1e-6);
+    // Equal media: nothing, for any angle but 0, where the formula is 0 / 0 in the limit.
+    for (const float cosine : {0.01f, 0.5f, 1.0f})
+        EXPECT_NEAR(glsl::fresnelReflectance(cosine, 1), 0, 1e-6) << cosine;
+}
+
+TEST(Fresnel, BeyondTheCriticalAngleAllIsMirrored) {
+    // sin = 1 / 1.5: cos = sqrt(1 - 4/9) = 0.74536.
+    EXPECT_EQ(glsl::fresnelReflectance(0.7453f, 1.5f), 1);
+    EXPECT_LT(glsl::fresnelReflectance(0.7455f, 1.5f), 0.95f);
+    EXPECT_EQ(glsl::fresnelReflectance(0, 1.5f), 1);
 }
 
 TEST(Shading, EmptyFalloffRangeIsAStep) {

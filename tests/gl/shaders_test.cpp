@@ -5,30 +5,40 @@
 
 #include <cstring>
 #include <string>
+#include <vector>
 
 namespace lucent::shaders {
 namespace {
 
-TEST(Shaders, EveryStageHasALineTableAsLongAsItsSource) {
+TEST(Shaders, StagesHoldCodeOnly) {
     int stages = 0;
     for (const Stage* stage = begin(); stage != end(); ++stage, ++stages) {
-        const std::string source = stage->source;
-        EXPECT_EQ(std::count(source.begin(), source.end(), '\n'), stage->lineCount) << stage->path;
-        EXPECT_EQ(source.find("#include"), std::string::npos) << stage->path;
-        EXPECT_EQ(source.find("//"), std::string::npos) << stage->path;
+        ASSERT_GT(stage->pieceCount, 0) << stage->path;
+        for (int i = 0; i < stage->pieceCount; ++i) {
+            const std::string source = stage->pieces[i]->source;
+            EXPECT_EQ(source.back(), '\n') << stage->path;
+            EXPECT_NE(source.front(), '\n') << stage->path;
+            EXPECT_EQ(source.find("#include"), std::string::npos) << stage->path;
+            EXPECT_EQ(source.find("//"), std::string::npos) << stage->path;
+        }
     }
     EXPECT_GE(stages, 5);
 }
 
-TEST(Shaders, LinesPointIntoTheFilesTheyCameFrom) {
-    const Stage* stage = find("relief/light.frag");
-    ASSERT_NE(stage, nullptr);
-    bool fromLib = false, fromItself = false;
-    for (int i = 0; i < stage->lineCount; ++i) {
-        fromLib |= !std::strcmp(stage->lines[i].file, "lib/shading.glsl");
-        fromItself |= !std::strcmp(stage->lines[i].file, "relief/light.frag");
-    }
-    EXPECT_TRUE(fromLib && fromItself);
+// The pieces of a stage that come from one file.
+std::vector<const Piece*> piecesOf(const char* path, const char* file) {
+    std::vector<const Piece*> list;
+    const Stage* stage = find(path);
+    for (int i = 0; stage && i < stage->pieceCount; ++i)
+        if (!std::strcmp(stage->pieces[i]->file, file)) list.push_back(stage->pieces[i]);
+    return list;
+}
+
+TEST(Shaders, AFileStandsOnceInAStageAndIsSharedByStages) {
+    const auto inLight = piecesOf("relief/light.frag", "views/field.glsl");
+    ASSERT_EQ(inLight.size(), 1u); // it includes nothing
+    EXPECT_EQ(piecesOf("views/surface.frag", "views/field.glsl"), inLight);
+    EXPECT_FALSE(piecesOf("relief/light.frag", "relief/light.frag").empty());
 }
 
 TEST(Shaders, UnknownStagesAreNotFound) { EXPECT_EQ(find("relief/nothing.frag"), nullptr); }

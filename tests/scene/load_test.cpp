@@ -155,17 +155,20 @@ TEST(Load, WhatIsMissingIsNamed) {
               "scenes/a.json:1: objects is empty; must hold at least one object");
     EXPECT_EQ(messageOf(R"({ "lucent": 1, "objects": [ {} ] })"),
               "scenes/a.json:1: objects.0.shape is missing; must be an object");
-    EXPECT_EQ(messageOf(R"({ "lucent": 1, "objects": [ { "shape": {} } ] })"),
-              "scenes/a.json:1: objects.0.shape.type is missing; must be heightfield");
+    EXPECT_EQ(
+        messageOf(R"({ "lucent": 1, "objects": [ { "shape": {} } ] })"),
+        "scenes/a.json:1: objects.0.shape.type is missing; must be heightfield, mesh, plane, box, sphere, "
+        "torus, cylinder or water");
     EXPECT_EQ(messageOf(beside(R"("lights": [ {} ])")),
-              "scenes/a.json:2: lights.0.type is missing; must be point or distant");
+              "scenes/a.json:2: lights.0.type is missing; must be point, distant, spot or area");
 }
 
 TEST(Load, WhatIsNotBuiltIsRefusedWithWhatExists) {
-    EXPECT_EQ(messageOf(beside(R"("lights": [ { "type": "spot", "innerAngle": 3 } ])")),
-              "scenes/a.json:2: lights.0.type is \"spot\"; must be point or distant");
-    EXPECT_EQ(messageOf(R"({ "lucent": 1, "objects": [ { "shape": { "type": "sphere", "radius": 1 } } ] })"),
-              "scenes/a.json:1: objects.0.shape.type is \"sphere\"; must be heightfield");
+    EXPECT_EQ(messageOf(beside(R"("lights": [ { "type": "tube", "length": 3 } ])")),
+              "scenes/a.json:2: lights.0.type is \"tube\"; must be point, distant, spot or area");
+    EXPECT_EQ(messageOf(R"({ "lucent": 1, "objects": [ { "shape": { "type": "cone", "radius": 1 } } ] })"),
+              "scenes/a.json:1: objects.0.shape.type is \"cone\"; must be heightfield, mesh, plane, box, "
+              "sphere, torus, cylinder or water");
 }
 
 TEST(Load, NamesOfObjectsAreUniqueAndWithoutDots) {
@@ -325,12 +328,13 @@ TEST(Load, DependenciesAreAllFilesOnceInTheOrderOfTheFile) {
     const std::string json = R"({ "environment": { "source": "sky" }, "objects": [
         { "material": { "baseMap": "b.png", "diffuseMap": "b.png", "specularMap": "s.png" },
           "shape": { "heights": "h.pfm", "alpha": "/abs/a.png" } },
-        { "shape": { "normalMap": "n.png" } }, { "shape": { "mesh": "m/m.glb" } } ] })";
+        { "shape": { "normalMap": "n.png" } }, { "shape": { "mesh": "m/m.glb" } },
+        { "shape": { "type": "mesh", "source": "g.gltf" } }, { "shape": { "source": "sky" } } ] })";
     const auto bytes = std::as_bytes(std::span(json.data(), json.size()));
     const Result<std::vector<std::string>> files = dependencies("x/a.json", bytes);
     ASSERT_TRUE(files);
     EXPECT_EQ(*files, (std::vector<std::string>{"x/b.png", "x/s.png", "x/h.pfm", "/abs/a.png", "x/n.png",
-                                                "x/m/m.glb"}));
+                                                "x/m/m.glb", "x/g.gltf", "x/sky"}));
     const std::string probe = R"({ "environment": { "source": "p.hdr" } })";
     EXPECT_EQ(*dependencies("a.json", std::as_bytes(std::span(probe.data(), probe.size()))),
               (std::vector<std::string>{"p.hdr"}));
@@ -381,6 +385,12 @@ TEST(Load, ReplacedHeightsDropWhatBelongedToTheOldPicture) {
     EXPECT_FALSE(object.field().alpha);
     EXPECT_FALSE(object.material.baseMap);
     EXPECT_EQ(object.material.depth, 0.2f);
+
+    Object ball;
+    ball.name = "ball";
+    ball.shape = Sphere{};
+    EXPECT_EQ(replaceHeights(ball, "new.png", *encodeImage(Image(3, 3, 1), "a.png")).error().message,
+              "new.png: would replace \"ball\", a \"sphere\"; must replace a height field");
 }
 
 } // namespace

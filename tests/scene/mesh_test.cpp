@@ -25,34 +25,6 @@ Mesh gridMesh(int squares, Height height) {
     return mesh;
 }
 
-TEST(Mesh, FileKeepsEveryBit) {
-    const Mesh mesh = gridMesh(3, [](float x, float y) { return x * y + 0.1f; });
-    const Result<Mesh> back = decodeMesh(encodeMesh(mesh), "a");
-    ASSERT_TRUE(back) << back.error().message;
-    EXPECT_EQ(back->positions, mesh.positions);
-    EXPECT_EQ(back->indices, mesh.indices);
-}
-
-TEST(Mesh, DamagedFilesAreRefused) {
-    Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}};
-    const Bytes file = encodeMesh(mesh);
-    for (std::size_t length = 0; length < file.size(); ++length)
-        EXPECT_FALSE(decodeMesh(std::span(file).first(length), "a")) << length;
-    EXPECT_EQ(decodeMesh(std::span(file).first(10), "a").error().message,
-              "a: is no mesh file; must be glTF 2.0 or start with LUCENTM1");
-    EXPECT_EQ(decodeMesh(std::span(file).first(20), "a").error().message, // 16 + 3 * 12 + 3 * 4
-              "a: the mesh file ends after 20 bytes; must have 64");
-    mesh.indices[1] = 3;
-    EXPECT_EQ(decodeMesh(encodeMesh(mesh), "a").error().message,
-              "a: index 3 points behind the 3 positions; must be smaller");
-    mesh.indices = {0, 1};
-    EXPECT_EQ(decodeMesh(encodeMesh(mesh), "a").error().message,
-              "a: has 2 indices; must be three a triangle, at least one");
-    mesh.indices = {0, 1, 2};
-    mesh.positions[2].y = NAN;
-    EXPECT_EQ(decodeMesh(encodeMesh(mesh), "a").error().message, "a: position 2 is not finite; must be");
-}
-
 TEST(MeshDepth, TiltedPlaneIsExactAtTexelCentres) {
     // z = 2x + y over [-1, 1]^2 in 8 x 8 texels without margin: centres at x = -7/8 ... 7/8. z runs from
     // -3 * 7/8 to 3 * 7/8 over the centres, which become the floor gap 0.2 and 1.
@@ -145,6 +117,20 @@ TEST(MeshDepth, NearerSurfaceHidesTheFartherOne) {
     const Image image = depthOfMesh(mesh, vec3(0), {8, 8}, 0, 0);
     for (int x = 0; x < 8; ++x) // |x| at centres: 1/8 is 0, 7/8 is 1
         EXPECT_NEAR(*image.at(x, 4), (std::abs(-1 + (x + 0.5) / 4) - 0.125) / 0.75, 1e-6);
+}
+
+TEST(MeshDepth, MovingMeshStandsAsAtTimeZero) {
+    // A wedge that its only joint turns by 90 degrees about z: high at +y, the top row.
+    Mesh mesh = gridMesh(1, [](float x, float) { return x; });
+    mesh.joints.assign(4, {0, 0, 0, 0});
+    mesh.jointWeights.assign(4, {1, 0, 0, 0});
+    const float half = std::sqrt(0.5f);
+    mesh.rig.nodes = {{-1, {}, {half, 0, 0, half}, vec3(1)}};
+    mesh.rig.joints = {0};
+    mesh.rig.jointFromMesh = {mat4(1)};
+    const Image image = depthOfMesh(mesh, vec3(0), {8, 8}, 0, 0);
+    EXPECT_NEAR(*image.at(3, 0), 1, 1e-6);
+    EXPECT_NEAR(*image.at(3, 7), 0, 1e-6);
 }
 
 } // namespace

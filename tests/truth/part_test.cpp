@@ -1,5 +1,6 @@
 #include "truth/Part.h"
 
+#include "scene/Mesh.h"
 #include "tests/truth/fields.h"
 #include "truth/Random.h"
 
@@ -152,6 +153,25 @@ TEST(Fingerprint, ChangesWithEveryTexelAndParameter) {
     bumped.objects[0].shape =
         test::shapeOf(4, 4, 1, 0.1f, [](int x, int y) { return x == 3 && y == 3 ? 0.50001f : 0.5f; });
     EXPECT_NE(fingerprint(bumped), before);
+}
+
+TEST(Fingerprint, ChangesWithTheTrianglesOfAMesh) {
+    scene::Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.indices = {0, 1, 2};
+    const auto of = [](const scene::Mesh& mesh) {
+        scene::MeshShape shape;
+        shape.source = "mesh.glb";
+        shape.mesh = std::make_shared<scene::Mesh>(mesh);
+        scene::Scene scene;
+        scene.objects.resize(1);
+        scene.objects[0].shape = shape;
+        return fingerprint(scene);
+    };
+    const std::string before = of(mesh);
+    EXPECT_EQ(of(mesh), before);
+    mesh.positions[1].x += 1e-6f;
+    EXPECT_NE(of(mesh), before);
 }
 
 } // namespace

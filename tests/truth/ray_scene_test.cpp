@@ -194,7 +194,7 @@ TEST(RayScene, AFieldIsABlockThatEndsAtItsBottom) {
 }
 
 TEST(RayScene, ATriangleIsMetInItsPlane) {
-    scene::Mesh mesh;
+    Triangles mesh;
     mesh.positions = {{0, 0, 1}, {1, 0, 2}, {0, 1, 3}};
     mesh.indices = {0, 1, 2};
     const RayScene scene = sceneOf({mesh});
@@ -209,7 +209,7 @@ TEST(RayScene, ATriangleIsMetInItsPlane) {
 }
 
 TEST(RayScene, OfManyShapesTheNearestIsMetAndTheOneLeftIsNot) {
-    scene::Mesh floor;
+    Triangles floor;
     floor.positions = {{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
     floor.indices = {0, 1, 2};
     const RayScene scene = sceneOf({floor, Sphere{{0, 0, 1}, 0.5}, Torus{{0, 0, 3}, {1, 0, 0}, 1, 0.25}});

@@ -3,6 +3,7 @@
 
 #include "base/File.h"
 #include "base/Image.h"
+#include "scene/Mesh.h"
 
 #include <cmath>
 #include <span>
@@ -28,6 +29,29 @@ inline constexpr const char* kMapScene = R"({"lucent": 1, "title": "Map", "size"
  "technique": {"relief": {"environmentLights": 48}},
  "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
 
+/// Glass and a moving mesh over a floor under all kinds of lights, with 2 m of height shown; nothing of it is
+/// a relief, and all of it has few triangles.
+inline constexpr const char* kGlassScene = R"({"lucent": 1, "title": "Glass", "size": [512, 512],
+ "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 2},
+ "lights": [{"type": "spot", "position": [0.5, 0.5, 0]},
+            {"type": "area", "corner": [-0.5, 0.5, 0]},
+            {"type": "distant", "direction": [0, -1, -1]}],
+ "environment": {"source": "sky"},
+ "objects": [{"name": "block", "shape": {"type": "box", "size": [0.3, 0.4, 0.5]}, "material": {"transmission": 1}},
+             {"name": "tent", "shape": {"type": "mesh", "source": "tent.mesh", "part": "cloth"}, "material": {},
+              "wave": {"amplitude": [0.05, 0, 0]}},
+             {"name": "floor", "shape": {"type": "plane"}, "transform": {"translate": [0, -0.4, 0]}}]})";
+
+/// Two triangles of two materials, 2 m wide, 1 m high and flat in z.
+inline scene::Mesh tentMesh() {
+    scene::Mesh mesh{.positions = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}},
+                     .indices = {0, 1, 2, 1, 3, 2}};
+    scene::Material glass;
+    glass.transmission = 1;
+    mesh.parts = {{"cloth", 0, 3, {}}, {"pane", 3, 3, glass}};
+    return mesh;
+}
+
 /// 16 x 16 texels, one channel. @param value  of column and row
 template <class Value>
 Bytes smallMap(Value value) {
@@ -49,6 +73,7 @@ inline ReadFile sceneFiles(std::string scene) {
         const auto text = std::as_bytes(std::span(scene));
         if (path == "scene.json") return Bytes(text.begin(), text.end());
         if (path == "wave.pfm") return waveMap();
+        if (path == "tent.mesh") return scene::encodeMesh(tentMesh());
         if (path == "holes.pfm") return smallMap([](int x, int y) { return x < 8 && y % 2 ? 0.f : 1.f; });
         return Error{path + ": is not there"};
     };

@@ -39,16 +39,18 @@ TEST(Lens, OnPlaneIsTheInverseOfProject) {
     camera.eye = {0.7f, -0.4f, 1.5f};
     const Lens lens(camera, {300, 200});
     const vec3 point(0.2f, 0.1f, 0.3f);
-    const auto back = lens.onPlane(*lens.project(point), point.z);
-    ASSERT_TRUE(back.has_value());
-    expectNear(*back, point, 1e-5f);
+    for (const vec3 normal : {vec3(0, 0, 1), lens.forward()}) {
+        const auto back = lens.onPlane(*lens.project(point), point, normal);
+        ASSERT_TRUE(back.has_value());
+        expectNear(*back, point, 1e-5f);
+    }
 }
 
 TEST(Lens, APlaneSeenFromItsEdgeHasNoPlaceForThePointer) {
     Camera camera;
     camera.eye = {0, -2, 0};
     camera.up = {0, 0, 1};
-    EXPECT_FALSE(Lens(camera, {100, 100}).onPlane({50, 50}, 0.5f).has_value());
+    EXPECT_FALSE(Lens(camera, {100, 100}).onPlane({50, 50}, {0, 0, 0.5f}, {0, 0, 1}).has_value());
 }
 
 TEST(Framed, ANarrowViewShowsTheWholeWidthOfTheScene) {
@@ -65,9 +67,28 @@ TEST(MovedLight, TheLightStaysUnderThePointerAtItsHeight) {
     const Lens lens(perspective(), {200, 200});
     const vec3 light(0.1f, 0.2f, 0.5f);
     const vec2 from = *lens.project(light), to = from + vec2(20, -10);
-    const vec3 moved = movedLight(lens, light, from, to);
-    EXPECT_EQ(moved.z, light.z);
+    const vec3 moved = movedLight(lens, light, {0, 0, 1}, from, to);
+    EXPECT_NEAR(moved.z, light.z, 1e-6f);
     EXPECT_LT(glm::distance(*lens.project(moved), to), 1e-3f);
+}
+
+TEST(MovedLight, OverAFloorItStaysUnderThePointerAtItsDistanceFromThePicture) {
+    Camera camera = perspective();
+    camera.eye = {0, 3, 0.01f}; // from above: along z no plane can be hit
+    const Lens lens(camera, {200, 200});
+    const vec3 light(0.1f, 1, 0.02f);
+    const vec2 from = *lens.project(light), to = from + vec2(20, -10);
+    EXPECT_EQ(movedLight(lens, light, {0, 0, 1}, from, to), light);
+    const vec3 moved = movedLight(lens, light, lens.forward(), from, to);
+    EXPECT_LT(glm::distance(*lens.project(moved), to), 1e-3f);
+    EXPECT_NEAR(glm::dot(moved - light, lens.forward()), 0, 1e-6f);
+}
+
+TEST(PlaceOf, ASpotStandsSomewhereAnAreaLightBeginsAtItsCornerADistantLightIsNowhere) {
+    EXPECT_EQ(*placeOf(scene::SpotLight{.position = {1, 2, 3}}), vec3(1, 2, 3));
+    EXPECT_EQ(*placeOf(scene::AreaLight{.corner = {4, 5, 6}}), vec3(4, 5, 6));
+    EXPECT_EQ(placeOf(scene::DistantLight{}), nullptr);
+    EXPECT_EQ(colorOf(scene::SpotLight{.color = {0.1f, 0.2f, 0.3f}}), vec3(0.1f, 0.2f, 0.3f));
 }
 
 TEST(TurnedLight, TheSourceGoesWithThePointer) {

@@ -209,5 +209,38 @@ TEST_F(PanelTest, TheWheelScrollsThePanelAndLeavesTheSceneAlone) {
     EXPECT_EQ(viewer->revision(), revision);
 }
 
+TEST_F(PanelTest, AWaveDraggedFlatKeepsItsSliders) {
+    load(kGlassScene);
+    const std::string path = "objects.tent.wave.amplitude";
+    widget(path);
+    ASSERT_TRUE(viewer->set(path, "0 0 0").ok());
+    settle();
+    widget(path);
+    widget("objects.tent.wave.period");
+    widget("view.time");
+}
+
+TEST_F(PanelTest, WhatPlaysHasASwitchAndATime) {
+    load(kGlassScene);
+    const vec2 play = inside(widget("playing"), 0.5f, 0.5f);
+    move(play);
+    down(play);
+    up(play);
+    EXPECT_EQ(viewer->get("playing"), "true");
+}
+
+TEST_F(PanelTest, OnlyTechniquesThatTheSceneNeedsHaveControls) {
+    const auto hasMethod = [&] {
+        for (const nlohmann::json& control : nlohmann::json::parse(viewer->controls()))
+            if (control["path"] == "technique.relief.method") return control["group"] != "";
+        return false;
+    };
+    load(kLampScene);
+    EXPECT_TRUE(hasMethod());
+    load(kGlassScene);
+    EXPECT_FALSE(hasMethod());
+    EXPECT_TRUE(viewer->set("technique.relief.method", "march").ok()); // a scene file may still say it
+}
+
 } // namespace
 } // namespace lucent::viewer

@@ -235,5 +235,132 @@ TEST_F(Picture, ASlowEnvironmentIsLookedAtQuicklyFirst) {
     EXPECT_GT(stats()["lights"].get<int>(), 20); // the quick look takes no more
 }
 
+// --- scenes without a relief
+
+TEST_F(Picture, WithoutAReliefADragOrbitsAndTheWheelZooms) {
+    load(kGlassScene);
+    const std::string spot = viewer->get("lights.0.position"), map = viewer->get("environment.rotation");
+    drag({200, 300}, {300, 300});
+    // 100 of 400 pixels: a quarter of half a turn to the left of the eye, which stood at (0, 0, 2).
+    EXPECT_LT(glm::distance(vector("camera.eye"), vec3(-std::sqrt(2.f), 0, std::sqrt(2.f))), 0.02f);
+    EXPECT_TRUE(viewer->wheel({200, 300}, -100, {}));
+    EXPECT_NEAR(number("camera.height"), 2 / std::exp(0.15f), 2e-3f);
+    EXPECT_EQ(viewer->get("lights.0.position"), spot);
+    EXPECT_EQ(viewer->get("environment.rotation"), map);
+    EXPECT_TRUE(viewer->key("0", {}));
+    EXPECT_TRUE(viewer->key("ArrowRight", {}));
+    EXPECT_NE(vector("camera.eye"), vec3(0, 0, 2));
+}
+
+TEST_F(Picture, WithoutAReliefShiftAndDragTurnTheEnvironmentAndAltRollsIt) {
+    load(kGlassScene);
+    drag({200, 300}, {240, 300}, kShift);
+    EXPECT_LT(glm::distance(vector("environment.rotation"), vec3(0, 18, 0)), 0.2f); // 40 / 400 of 180 degrees
+    drag({200, 300}, {240, 300}, {.alt = true});
+    EXPECT_LT(glm::distance(vector("environment.rotation"), vec3(0, 18, -18)), 0.2f);
+    EXPECT_EQ(vector("camera.eye"), vec3(0, 0, 2));
+}
+
+TEST_F(Picture, SpotsAndAreaLightsAreDraggedByTheirDots) {
+    load(kGlassScene);
+    // 0.005 m a pixel around the middle of the picture, which is 464 pixels wide.
+    drag({232 + 100, 100}, {232 + 60, 120});
+    EXPECT_LT(glm::distance(vector("lights.0.position"), vec3(0.3f, 0.4f, 0)), 1e-3f);
+    drag({232 - 100, 100}, {232 - 80, 120});
+    EXPECT_LT(glm::distance(vector("lights.1.corner"), vec3(-0.4f, 0.4f, 0)), 1e-3f);
+    EXPECT_EQ(vector("camera.eye"), vec3(0, 0, 2));
+}
+
+// --- time
+
+class Playing : public Page {
+protected:
+    void SetUp() override {
+        Page::SetUp();
+        if (context) open({120, 80}); // many pictures, each as small as can be
+    }
+    /// Draws for `seconds`, a frame every 20 ms.
+    void watch(double seconds) {
+        for (const double end = time + seconds; time < end;)
+            viewer->draw(time += 0.02);
+    }
+};
+
+TEST_F(Playing, TimeRunsWhileItPlaysAndStandsStillElse) {
+    load(kGlassScene);
+    watch(0.2);
+    EXPECT_EQ(number("view.time"), 0);
+    EXPECT_TRUE(viewer->key(" ", {}));
+    EXPECT_EQ(viewer->get("playing"), "true");
+    watch(1);
+    // What passed since the last picture began is not in it yet: at most what one step may take.
+    const float reached = number("view.time");
+    EXPECT_GT(reached, 1 - 0.25f);
+    EXPECT_LE(reached, 1 + 1e-4f);
+    EXPECT_FALSE(viewer->undo()); // time is no step
+    EXPECT_TRUE(viewer->set("playing", "false").ok());
+    settle();
+    const int drawn = viewer->drawCount();
+    watch(0.5);
+    EXPECT_EQ(number("view.time"), reached);
+    EXPECT_EQ(viewer->drawCount(), drawn);
+}
+
+TEST_F(Playing, AfterAPauseTimeGoesOnWhereItWas) {
+    load(kGlassScene);
+    ASSERT_TRUE(viewer->set("playing", "true").ok());
+    watch(0.1);
+    const float before = number("view.time");
+    time += 3600; // off the screen for an hour
+    watch(0.1);
+    EXPECT_LT(number("view.time") - before, 0.5f);
+}
+
+TEST_F(Playing, AMovingPictureIsComplete) {
+    load(kGlassScene);
+    ASSERT_TRUE(viewer->set("playing", "true").ok());
+    bool complete = false;
+    for (int i = 0; i < 200 && !complete; ++i) {
+        viewer->draw(time += 0.02);
+        complete = stats()["complete"].get<bool>();
+    }
+    EXPECT_TRUE(complete);
+}
+
+TEST_F(Playing, WhetherItPlaysIsNotInALink) {
+    load(kGlassScene);
+    ASSERT_TRUE(viewer->set("playing", "true").ok());
+    EXPECT_EQ(viewer->changes(), "{}\n");
+}
+
+TEST_F(Playing, AStillSceneHasNothingToPlay) {
+    load(kLampScene);
+    EXPECT_FALSE(viewer->key(" ", {}));
+    EXPECT_FALSE(viewer->set("playing", "true").ok());
+    EXPECT_EQ(viewer->get("playing"), "false");
+}
+
+// --- models
+
+TEST_F(Picture, AMeshDroppedOnTheViewerBecomesAScene) {
+    load(kLampScene);
+    ASSERT_TRUE(viewer->openMesh("tent.glb", scene::encodeMesh(tentMesh())).ok());
+    settle();
+    EXPECT_EQ(viewer->title(), "tent.glb");
+    EXPECT_EQ(viewer->get("objects.mesh/pane.material.transmission"), "1");
+    const Status broken = viewer->openMesh("half.glb", Bytes(20, std::byte(7)));
+    ASSERT_FALSE(broken.ok());
+    EXPECT_EQ(broken.error().message,
+              "half.glb: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM2");
+    EXPECT_EQ(viewer->title(), "tent.glb");
+}
+
+TEST_F(Picture, HeightsDroppedOnASceneWithoutAReliefBecomeASceneOfTheirOwn) {
+    load(kGlassScene);
+    ASSERT_TRUE(viewer->openImage("wave.pfm", wave(), false).ok());
+    EXPECT_EQ(viewer->title(), "wave");
+    ASSERT_EQ(viewer->scene()->objects.size(), 1u);
+}
+
 } // namespace
 } // namespace lucent::viewer

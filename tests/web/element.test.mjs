@@ -1,7 +1,7 @@
 /** <lucent-viewer> as a page uses it: attributes, properties, events, files, sizes and places. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { greyPng } from './scenes.mjs';
+import { glassTriangle, greyPng } from './scenes.mjs';
 import {
   brightness,
   complete,
@@ -147,12 +147,16 @@ test('pixels are never finer than two a CSS pixel', async () => {
 });
 
 // Drops a file at a place of the viewer, as a person does: first over it, then let go.
-async function drop(page, name, bytes, share) {
+const drop = (page, name, bytes, share) => dropAll(page, { [name]: bytes }, share);
+
+// The same for files that are dropped together, by name.
+async function dropAll(page, files, share) {
   await page.evaluate(
-    ([fileName, text, part]) => {
+    ([contents, part]) => {
       const viewer = document.querySelector('lucent-viewer');
       const transfer = new DataTransfer();
-      transfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], fileName));
+      for (const [name, text] of contents)
+        transfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], name));
       const box = viewer.getBoundingClientRect();
       const place = {
         clientX: box.left + part * box.width,
@@ -168,7 +172,7 @@ async function drop(page, name, bytes, share) {
       ]);
       viewer.dispatchEvent(new DragEvent('drop', place));
     },
-    [name, Buffer.from(bytes).toString('base64'), share],
+    [Object.entries(files).map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')]), share],
   );
   return page.evaluate(() => window.zones);
 }
@@ -179,7 +183,7 @@ test('a height map dropped on the left half takes the place of the relief', asyn
   let zones;
   await eventOf(page, 'load', async () => (zones = await drop(page, 'slope.png', slope, 0.25)));
   assert.deepEqual(zones, [
-    ['Height map', 'aimed'],
+    ['Height map or model', 'aimed'],
     ['Environment', ''],
   ]);
   await complete(page);
@@ -203,6 +207,33 @@ test('a picture dropped on the right half becomes the environment', async () => 
   await complete(page);
   assert.equal(await valueOf(page, 'environment.enabled'), true);
   assert.ok(difference(before, await pictureOf(page)).share > 0.2);
+  await page.leave();
+});
+
+test('a dropped model becomes a scene with its own materials, and a damaged one keeps it', async () => {
+  const page = await open();
+  const { model, data } = glassTriangle();
+  await eventOf(page, 'load', () => dropAll(page, { 'pane.bin': data, 'pane.gltf': model }, 0.25));
+  await complete(page);
+  const title = () => page.evaluate(() => document.querySelector('lucent-viewer').sceneTitle);
+  assert.equal(await title(), 'pane.gltf');
+  assert.equal(await valueOf(page, 'objects.mesh/glass.material.transmission'), 1);
+  assert.equal(await valueOf(page, 'camera.type'), 'perspective');
+  const before = await pictureOf(page);
+  const alone = await eventOf(page, 'error', () => drop(page, 'pane.gltf', model, 0.25));
+  assert.match(alone.message, /^pane\.gltf: .*pane\.bin.*;/);
+  const damaged = await eventOf(page, 'error', () => drop(page, 'half.glb', Buffer.from('glTF'), 0.75));
+  assert.match(damaged.message, /^half\.glb: .*;/);
+  assert.equal(await title(), 'pane.gltf');
+  assert.deepEqual(difference(before, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
+  await page.leave();
+});
+
+test('a dropped OBJ without its materials is a scene all the same', async () => {
+  const page = await open();
+  const text = 'mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paper\nf 1 2 3\n';
+  await eventOf(page, 'load', () => drop(page, 'sheet.obj', Buffer.from(text), 0.25));
+  assert.deepEqual(await valueOf(page, 'camera.target'), [0.5, 0.5, 0]);
   await page.leave();
 });
 

@@ -131,6 +131,24 @@ test('in an environment a drag turns the map and the picture with it', async () 
   await page.leave();
 });
 
+test('without a relief a drag orbits the camera and the wheel zooms, once the picture was clicked', async () => {
+  const page = await open(kViewer.replace('dome', 'banner'));
+  await page.mouse.move(200, 280);
+  await page.mouse.wheel(0, 100);
+  await page.waitForFunction(() => scrollY === 100);
+  assert.equal(await valueOf(page, 'camera.height'), 2);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.mouse.down();
+  await page.mouse.move(350, 280, { steps: 4 }); // half of the shorter side: 90 degrees about y
+  await page.mouse.up();
+  const [x, y, z] = await valueOf(page, 'camera.eye');
+  assert.ok(Math.hypot(x + 2, y, z) < 0.05, `eye ${x} ${y} ${z}`);
+  await page.mouse.wheel(0, -100);
+  await page.waitForFunction(() => document.querySelector('lucent-viewer').get('camera.height') < 2);
+  assert.equal(await scrollOf(page), 0);
+  await page.leave();
+});
+
 test('a slider of the panel follows a real pointer', async () => {
   const page = await open(kPanelViewer, { width: 900, height: 900, viewport: { width: 1000, height: 960 } });
   const path = 'objects.relief.material.specularity';

@@ -33,6 +33,17 @@ const scene = (title, heights, changes = {}) => ({
 });
 
 const dome = scene('A dome', 'dome.pfm');
+/** A panel that a wave moves, with no relief anywhere. */
+const banner = {
+  lucent: 1,
+  title: 'A banner',
+  size: [200, 200],
+  camera: { type: 'orthographic', eye: [0, 0, 2], height: 2 },
+  lights: [{ type: 'distant', direction: [0, 0, -1] }],
+  objects: [
+    { name: 'banner', shape: { type: 'box', size: [0.5, 1, 0.1] }, wave: { amplitude: [0.4, 0, 0], wavelength: 100 } },
+  ],
+};
 const broken = structuredClone(dome);
 broken.objects[0].shape.heightScale = 'tall';
 
@@ -40,6 +51,7 @@ export const kScenes = {
   ...kHardScenes,
   'dome.json': JSON.stringify(dome),
   'dome.pfm': pfm((x, y) => Math.max(0, 1 - x * x - y * y)),
+  'banner.json': JSON.stringify(banner),
   'ridge.json': JSON.stringify(scene('A ridge', 'ridge.pfm')),
   'ridge.pfm': pfm((x) => 1 - Math.abs(x)),
   'sky.json': JSON.stringify(
@@ -59,6 +71,30 @@ export const kScenes = {
     },
   ]),
 };
+
+/** A triangle of glass as "pane.gltf" and the "pane.bin" that it names. */
+export function glassTriangle() {
+  const data = Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]).buffer);
+  const model = JSON.stringify({
+    asset: { version: '2.0' },
+    extensionsUsed: ['KHR_materials_transmission'],
+    buffers: [{ uri: 'pane.bin', byteLength: data.length }],
+    bufferViews: [{ buffer: 0, byteLength: data.length }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 0] }],
+    materials: [
+      {
+        name: 'glass',
+        pbrMetallicRoughness: { metallicFactor: 0 },
+        extensions: { KHR_materials_transmission: { transmissionFactor: 1 } },
+      },
+    ],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, material: 0 }] }],
+    nodes: [{ mesh: 0 }],
+    scenes: [{ nodes: [0] }],
+    scene: 0,
+  });
+  return { model: Buffer.from(model), data };
+}
 
 /** An 8-bit grey PNG. @param value  of column x and row y, [0, 255] */
 export function greyPng(width, height, value) {

@@ -2,31 +2,23 @@
 
 #include "base/Log.h"
 #include "scene/Json.h"
+#include "scene/readers/GltfMaterial.h"
+#include "scene/readers/GltfNumbers.h"
+#include "scene/readers/TinyGltf.h"
 
-#include <fstream> // tinygltf names its types even where it opens no files
-
-#define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NOEXCEPTION
-#define TINYGLTF_NO_FS
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_EXTERNAL_IMAGE
-#include <tiny_gltf.h>
-
-#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <map>
 #include <optional>
+#include <set>
 
 namespace lucent::scene {
 namespace {
 
 using glm::dmat4;
-
-constexpr int kMaxNodeDepth = 128; // deeper means that nodes hold each other
 
 // What tinygltf needs to reach the files beside the scene.
 struct Files {
@@ -59,256 +51,554 @@ bool skipImage(tinygltf::Image*, const int, std::string*, std::string*, int, int
     return true;
 }
 
-// Element of a list that a file points into; null when it points outside.
-template <class T>
-const T* element(const std::vector<T>& list, int index) {
-    return index >= 0 && std::size_t(index) < list.size() ? &list[std::size_t(index)] : nullptr;
-}
-
-// `count` elements of a buffer view, each `stride` bytes apart.
-struct View {
-    const unsigned char* data = nullptr;
-    std::size_t stride = 0;
-    const unsigned char* at(std::size_t i) const { return data + i * stride; }
-};
-
-// One number of a component type, scaled when it is normalised (glTF 2.0, 3.6.2.2).
-double readComponent(const unsigned char* data, int type, bool normalized) {
-    const auto read = [&]<class T>(T value) {
-        std::memcpy(&value, data, sizeof value);
-        return normalized ? std::max(double(value) / double(std::numeric_limits<T>::max()), -1.0)
-                          : double(value);
-    };
-    switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return read(std::int8_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return read(std::uint8_t());
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return read(std::int16_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return read(std::uint16_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return read(std::uint32_t());
-    default:
-        break;
+dmat4 parentFromNode(const tinygltf::Node& node) {
+    if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
+    dmat4 matrix(1);
+    if (node.translation.size() == 3)
+        matrix = glm::translate(matrix, glm::make_vec3(node.translation.data()));
+    if (node.rotation.size() == 4) { // x, y, z, w in the file
+        const auto& r = node.rotation;
+        matrix = matrix * glm::mat4_cast(glm::dquat(r[3], r[0], r[1], r[2]));
     }
-    float value;
-    std::memcpy(&value, data, sizeof value);
-    return value;
+    if (node.scale.size() == 3) matrix = glm::scale(matrix, glm::make_vec3(node.scale.data()));
+    return matrix;
 }
 
+// A matrix as scale, turn and move; nothing when it slants or flattens.
+std::optional<Node> decompose(const dmat4& matrix) {
+    glm::dmat3 axes(matrix);
+    dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
+    if (glm::determinant(axes) < 0) scale.x = -scale.x;
+    for (int i = 0; i < 3; ++i) {
+        if (scale[i] == 0) return {};
+        axes[i] /= scale[i];
+    }
+    constexpr double kRight = 1e-4; // matrices are stored with about 6 digits
+    for (int i = 0; i < 3; ++i)
+        if (std::abs(glm::dot(axes[i], axes[(i + 1) % 3])) > kRight) return {};
+    return Node{-1, vec3(matrix[3]), glm::quat(glm::normalize(glm::quat_cast(axes))), vec3(scale)};
+}
+
+std::vector<vec3> toVectors(const std::vector<double>& numbers) {
+    std::vector<vec3> vectors;
+    vectors.reserve(numbers.size() / 3);
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+        vectors.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    return vectors;
+}
+
+template <class T>
+void append(std::vector<T>& list, const std::vector<T>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+}
+
+std::string listed(const std::set<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+/// Puts a file together in three steps: the tree of nodes, what of it moves, and the triangles. Of a file in
+/// which nothing moves all triangles stand in the pose of rest, and there is no rig.
 class GltfReader {
 public:
     GltfReader(const tinygltf::Model& model, const std::string& name) : model_(model), name_(name) {}
 
     Result<Mesh> read() {
-        for (const std::string& extension : model_.extensionsRequired)
-            if (extension != "KHR_mesh_quantization" && extension.find("material") == extension.npos &&
-                extension.find("texture") == extension.npos && extension != "KHR_lights_punctual") {
-                fail("needs the extension " + extension + ", which is not read; must do without");
-                return error_;
-            }
-        for (const int root : rootNodes())
-            if (!addNode(root, dmat4(1), 0)) return error_;
-        if (mesh_.indices.empty()) fail("holds no triangles; must hold at least one");
-        if (!error_.message.empty()) return error_;
+        if (!(checkExtensions() && readTree() && findUse() && readAnimation() && addMeshes() && finishRig()))
+            return error_;
+        if (mesh_.positions.empty() || !finishParts())
+            return Error{name_ + ": holds no triangles; must hold at least one"};
+        if (!unread_.empty()) warnOnce(name_ + ": not read: " + listed(unread_));
         return std::move(mesh_);
     }
 
 private:
+    // Of the file's nodes, in its order.
+    struct Place {
+        int parent = -1;
+        int inRig = -1; ///< place in Rig::nodes; -1: no root leads here
+        dmat4 rootFromNode{1};
+        bool inScene = false;
+        bool isUsed = false; ///< it, or a node below, carries triangles
+        int firstTarget = 0; ///< of its morph targets in Rig::targets
+        std::size_t targets = 0;
+        int firstJoint = -1; ///< where its triangles have it as their only joint
+    };
+
     bool fail(const std::string& what) {
         error_ = {name_ + ": " + what};
         return false;
     }
+    template <class T>
+    bool pass(const Result<T>& result) {
+        if (!result) error_ = result.error();
+        return bool(result);
+    }
+    Place& at(int node) { return places_[std::size_t(node)]; }
+    const tinygltf::Node& node(int index) const { return model_.nodes[std::size_t(index)]; }
 
-    std::vector<int> rootNodes() const {
-        if (const auto* scene = element(model_.scenes, std::max(model_.defaultScene, 0))) return scene->nodes;
-        std::vector<bool> isChild(model_.nodes.size());
-        for (const tinygltf::Node& node : model_.nodes)
-            for (const int child : node.children)
-                if (element(model_.nodes, child)) isChild[std::size_t(child)] = true;
-        std::vector<int> roots;
-        for (std::size_t i = 0; i < isChild.size(); ++i)
-            if (!isChild[i]) roots.push_back(int(i));
-        return roots;
+    bool checkExtensions() {
+        for (const std::string& extension : model_.extensionsRequired)
+            if (extension != "KHR_mesh_quantization" && extension.find("material") == extension.npos &&
+                extension.find("texture") == extension.npos && extension != "KHR_lights_punctual")
+                return fail("needs the extension " + extension + ", which is not read; must do without");
+        const auto known = knownGltfExtensions();
+        for (const std::string& extension : model_.extensionsUsed)
+            if (std::find(known.begin(), known.end(), extension) == known.end()) unread_.insert(extension);
+        if (!model_.cameras.empty()) unread_.insert("cameras");
+        return true;
     }
 
-    static dmat4 parentFromNode(const tinygltf::Node& node) {
-        if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
-        dmat4 matrix(1);
-        if (node.translation.size() == 3)
-            matrix = glm::translate(matrix, glm::make_vec3(node.translation.data()));
-        if (node.rotation.size() == 4) { // x, y, z, w in the file
-            const auto& r = node.rotation;
-            matrix = matrix * glm::mat4_cast(glm::dquat(r[3], r[0], r[1], r[2]));
+    // Parents come before their children; places_ of both say how they stand.
+    bool readTree() {
+        places_.resize(model_.nodes.size());
+        for (std::size_t i = 0; i < model_.nodes.size(); ++i)
+            for (const int child : model_.nodes[i].children) {
+                if (!element(model_.nodes, child))
+                    return fail("points to node " + std::to_string(child) + ", which does not exist");
+                if (at(child).parent >= 0)
+                    return fail("has node " + std::to_string(child) + " below two others; must form a tree");
+                at(child).parent = int(i);
+            }
+        std::vector<int> waiting;
+        for (int i = int(places_.size()) - 1; i >= 0; --i)
+            if (at(i).parent < 0) waiting.push_back(i);
+        while (!waiting.empty()) {
+            const int index = waiting.back();
+            waiting.pop_back();
+            Place& place = at(index);
+            place.inRig = int(order_.size());
+            order_.push_back(index);
+            place.rootFromNode = parentFromNode(node(index));
+            if (place.parent >= 0) place.rootFromNode = at(place.parent).rootFromNode * place.rootFromNode;
+            waiting.insert(waiting.end(), node(index).children.rbegin(), node(index).children.rend());
         }
-        if (node.scale.size() == 3) matrix = glm::scale(matrix, glm::make_vec3(node.scale.data()));
-        return matrix;
+        if (order_.size() != places_.size()) return fail("has nodes that hold each other; must form a tree");
+        return true;
     }
 
-    bool addNode(int index, const dmat4& parent, int depth) {
-        const tinygltf::Node* node = element(model_.nodes, index);
-        if (!node) return fail("points to node " + std::to_string(index) + ", which does not exist");
-        if (depth > kMaxNodeDepth) return fail("has nodes that hold each other; must form a tree");
-        const dmat4 worldFromNode = parent * parentFromNode(*node);
-        if (node->skin >= 0) warnOnce(name_ + ": skins are not read; the mesh stands in its rest pose");
-        if (node->mesh >= 0) {
-            const tinygltf::Mesh* mesh = element(model_.meshes, node->mesh);
-            if (!mesh) return fail("points to mesh " + std::to_string(node->mesh) + ", which does not exist");
-            for (const tinygltf::Primitive& primitive : mesh->primitives)
-                if (!addPrimitive(primitive, worldFromNode)) return false;
+    // What the default scene shows, or all when there is none, and the nodes on which its place depends.
+    bool findUse() {
+        const auto* scene = element(model_.scenes, std::max(model_.defaultScene, 0));
+        for (const int root : scene ? scene->nodes : std::vector<int>()) {
+            if (!element(model_.nodes, root))
+                return fail("points to node " + std::to_string(root) + ", which does not exist");
+            at(root).inScene = true;
         }
-        return std::all_of(node->children.begin(), node->children.end(),
-                           [&](int child) { return addNode(child, worldFromNode, depth + 1); });
+        for (const int index : order_) {
+            Place& place = at(index);
+            place.inScene = place.inScene || !scene || (place.parent >= 0 && at(place.parent).inScene);
+            if (!place.inScene || node(index).mesh < 0) continue;
+            if (!element(model_.meshes, node(index).mesh))
+                return fail("points to mesh " + std::to_string(node(index).mesh) + ", which does not exist");
+            markUsed(index);
+            if (node(index).skin < 0) continue;
+            const tinygltf::Skin* skin = element(model_.skins, node(index).skin);
+            if (!skin || skin->joints.empty())
+                return fail("points to skin " + std::to_string(node(index).skin) +
+                            ", which does not exist or has no joints");
+            for (const int joint : skin->joints) {
+                if (!element(model_.nodes, joint))
+                    return fail("points to node " + std::to_string(joint) + ", which does not exist");
+                markUsed(joint);
+            }
+        }
+        return true;
     }
 
-    bool addPrimitive(const tinygltf::Primitive& primitive, const dmat4& worldFromNode) {
+    void markUsed(int index) {
+        for (; index >= 0 && !at(index).isUsed; index = at(index).parent)
+            at(index).isUsed = true;
+    }
+
+    // The channels of the first animation that move something; their nodes still count in the file's list.
+    bool readAnimation() {
+        std::set<std::string> others;
+        for (std::size_t i = 1; i < model_.animations.size(); ++i)
+            others.insert(model_.animations[i].name.empty() ? std::to_string(i)
+                                                            : "\"" + model_.animations[i].name + "\"");
+        if (!others.empty()) unread_.insert("animations behind the first (" + listed(others) + ")");
+        if (model_.animations.empty()) return true;
+        const tinygltf::Animation& animation = model_.animations.front();
+        for (const tinygltf::AnimationChannel& from : animation.channels) {
+            if (from.target_node < 0 || from.target_path == "pointer") {
+                unread_.insert("animations of properties");
+                continue;
+            }
+            if (!element(model_.nodes, from.target_node))
+                return fail("points to node " + std::to_string(from.target_node) + ", which does not exist");
+            const tinygltf::AnimationSampler* sampler = element(animation.samplers, from.sampler);
+            if (!sampler)
+                return fail("points to sampler " + std::to_string(from.sampler) + ", which does not exist");
+            if (at(from.target_node).isUsed && !addChannel(from, *sampler)) return false;
+        }
+        if (!mesh_.rig.channels.empty() && mesh_.rig.duration == 0) {
+            mesh_.rig.channels.clear();
+            unread_.insert("an animation that takes no time");
+        }
+        return true;
+    }
+
+    bool addChannel(const tinygltf::AnimationChannel& from, const tinygltf::AnimationSampler& sampler) {
+        using Path = Channel::Path;
+        using Interpolation = Channel::Interpolation;
+        static const std::map<std::string, Path> kPaths = {{"translation", Path::Translation},
+                                                           {"rotation", Path::Rotation},
+                                                           {"scale", Path::Scale},
+                                                           {"weights", Path::Weights}};
+        static const std::map<std::string, Interpolation> kInterpolations = {
+            {"", Interpolation::Linear},
+            {"LINEAR", Interpolation::Linear},
+            {"STEP", Interpolation::Step},
+            {"CUBICSPLINE", Interpolation::CubicSpline}};
+        const auto path = kPaths.find(from.target_path);
+        const auto interpolation = kInterpolations.find(sampler.interpolation);
+        if (path == kPaths.end() || interpolation == kInterpolations.end())
+            return fail("animates \"" + from.target_path + "\" by \"" + sampler.interpolation +
+                        "\"; must be translation, rotation, scale or weights by LINEAR, STEP or CUBICSPLINE");
+        Channel channel;
+        channel.node = from.target_node;
+        channel.path = path->second;
+        channel.interpolation = interpolation->second;
+        const Result<std::vector<double>> times =
+            readNumbers(model_, sampler.input, TINYGLTF_TYPE_SCALAR, "times of an animation", name_);
+        if (!pass(times)) return false;
+        channel.times.assign(times->begin(), times->end());
+        const int type = channel.path == Path::Rotation  ? TINYGLTF_TYPE_VEC4
+                         : channel.path == Path::Weights ? TINYGLTF_TYPE_SCALAR
+                                                         : TINYGLTF_TYPE_VEC3;
+        const Result<std::vector<double>> values =
+            readNumbers(model_, sampler.output, type, "values of an animation", name_);
+        if (!pass(values)) return false;
+        channel.values.assign(values->begin(), values->end());
+        if (channel.times.empty()) return fail("has an animation without times; must have one or more");
+        mesh_.rig.duration =
+            std::max(mesh_.rig.duration, *std::max_element(channel.times.begin(), channel.times.end()));
+        mesh_.rig.channels.push_back(std::move(channel));
+        return true;
+    }
+
+    bool moves() const { return !mesh_.rig.channels.empty(); }
+
+    bool addMeshes() {
+        for (const int index : order_) {
+            if (!at(index).inScene || node(index).mesh < 0) continue;
+            const tinygltf::Mesh& mesh = model_.meshes[std::size_t(node(index).mesh)];
+            if (!addTargets(index, mesh)) return false;
+            for (const tinygltf::Primitive& primitive : mesh.primitives)
+                if (!addPrimitive(primitive, index)) return false;
+        }
+        if (!moves()) return true;
+        for (MorphTarget& target : mesh_.rig.targets) { // vertices behind the last that a target moves
+            target.positions.resize(mesh_.positions.size(), vec3(0));
+            target.normals.resize(mesh_.positions.size(), vec3(0));
+        }
+        return true;
+    }
+
+    // Room for the targets of one node's mesh, at the weights of rest.
+    bool addTargets(int index, const tinygltf::Mesh& mesh) {
+        const std::size_t count = mesh.primitives.empty() ? 0 : mesh.primitives.front().targets.size();
+        for (const tinygltf::Primitive& primitive : mesh.primitives)
+            if (primitive.targets.size() != count)
+                return fail("has a mesh whose primitives have " + std::to_string(count) + " and " +
+                            std::to_string(primitive.targets.size()) + " morph targets; must be the same");
+        const std::vector<double>& weights = node(index).weights.empty() ? mesh.weights : node(index).weights;
+        at(index).firstTarget = int(mesh_.rig.targets.size());
+        at(index).targets = count;
+        for (std::size_t i = 0; i < count; ++i) {
+            mesh_.rig.targets.emplace_back();
+            mesh_.rig.weights.push_back(i < weights.size() ? float(weights[i]) : 0.0f);
+        }
+        return true;
+    }
+
+    bool addPrimitive(const tinygltf::Primitive& primitive, int index) {
         const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
         if (mode < TINYGLTF_MODE_TRIANGLES) {
-            warnOnce(name_ + ": points and lines are left out; only triangles have a depth");
+            unread_.insert("points and lines");
             return true;
         }
-        if (!primitive.targets.empty())
-            warnOnce(name_ + ": morph targets are left out; the mesh keeps its rest shape");
-        const auto attribute = primitive.attributes.find("POSITION");
-        if (attribute == primitive.attributes.end()) return true; // legal, and draws nothing
-        const tinygltf::Accessor* positions = element(model_.accessors, attribute->second);
-        if (!positions || positions->type != TINYGLTF_TYPE_VEC3)
-            return fail("has positions that are not three numbers each; must be VEC3");
-        const std::optional<std::vector<double>> values = readAccessor(*positions, 3);
-        if (!values) return false;
+        if (!primitive.attributes.contains("POSITION")) return true; // legal, and draws nothing
+        if (primitive.material >= 0 && !element(model_.materials, primitive.material))
+            return fail("points to material " + std::to_string(primitive.material) +
+                        ", which does not exist");
+        for (const auto& [attribute, accessor] : primitive.attributes)
+            if (attribute.starts_with("COLOR_")) unread_.insert("colours of vertices");
+        Mesh piece;
+        if (!(readPositions(primitive, piece) && readTriangles(primitive, mode, piece) &&
+              readNormals(primitive, piece) && readTargets(primitive, piece) &&
+              readJoints(primitive, index, piece)))
+            return false;
+        const mat4& first = rest_[piece.joints.empty() ? 0 : piece.joints.front()[0]];
+        if (glm::determinant(first) < 0) // a mirror turns counter-clockwise round
+            for (std::size_t i = 0; i + 2 < piece.indices.size(); i += 3)
+                std::swap(piece.indices[i + 1], piece.indices[i + 2]);
+        addPiece(std::move(piece), index, primitive.material);
+        return true;
+    }
 
-        const auto first = std::uint32_t(mesh_.positions.size());
-        for (std::size_t i = 0; i + 2 < values->size(); i += 3)
-            mesh_.positions.emplace_back(worldFromNode *
-                                         glm::dvec4((*values)[i], (*values)[i + 1], (*values)[i + 2], 1));
+    bool readPositions(const tinygltf::Primitive& primitive, Mesh& piece) {
+        const Result<std::vector<double>> positions =
+            readNumbers(model_, primitive.attributes.at("POSITION"), TINYGLTF_TYPE_VEC3, "positions", name_);
+        if (pass(positions)) piece.positions = toVectors(*positions);
+        return bool(positions);
+    }
+
+    bool readTriangles(const tinygltf::Primitive& primitive, int mode, Mesh& piece) {
         std::vector<std::uint32_t> corners;
-        if (!readCorners(primitive, positions->count, corners)) return false;
-        for (const std::uint32_t corner : corners)
-            if (corner >= positions->count)
-                return fail("has index " + std::to_string(corner) + " behind its " +
-                            std::to_string(positions->count) + " positions; must be smaller");
-        addTriangles(mode, corners, first, glm::determinant(worldFromNode) < 0);
-        return true;
-    }
-
-    bool readCorners(const tinygltf::Primitive& primitive, std::size_t positions,
-                     std::vector<std::uint32_t>& corners) {
-        if (primitive.indices < 0) {
-            for (std::size_t i = 0; i < positions; ++i)
+        if (primitive.indices >= 0) {
+            Result<std::vector<std::uint32_t>> indices =
+                readIndices(model_, primitive.indices, TINYGLTF_TYPE_SCALAR, "indices", name_);
+            if (!pass(indices)) return false;
+            corners = std::move(*indices);
+        } else {
+            for (std::size_t i = 0; i < piece.positions.size(); ++i)
                 corners.push_back(std::uint32_t(i));
-            return true;
         }
-        const tinygltf::Accessor* accessor = element(model_.accessors, primitive.indices);
-        if (!accessor || accessor->type != TINYGLTF_TYPE_SCALAR ||
-            accessor->componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
-            return fail("has indices that are no whole numbers; must be SCALAR of an unsigned type");
-        const std::optional<std::vector<double>> values = readAccessor(*accessor, 1);
-        if (!values) return false;
-        for (const double value : *values)
-            corners.push_back(value < 0 ? ~0u : std::uint32_t(value));
-        return true;
-    }
-
-    void addTriangles(int mode, const std::vector<std::uint32_t>& c, std::uint32_t first, bool mirrored) {
-        const auto add = [&](std::size_t a, std::size_t b, std::size_t d) {
-            if (mirrored) std::swap(b, d); // a mirror turns counter-clockwise round
-            for (const std::size_t corner : {a, b, d})
-                mesh_.indices.push_back(first + c[corner]);
+        for (const std::uint32_t corner : corners)
+            if (corner >= piece.positions.size())
+                return fail("has index " + std::to_string(corner) + " behind its " +
+                            std::to_string(piece.positions.size()) + " positions; must be smaller");
+        const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+            piece.indices.insert(piece.indices.end(), {corners[a], corners[b], corners[c]});
         };
         if (mode == TINYGLTF_MODE_TRIANGLES)
-            for (std::size_t i = 0; i + 2 < c.size(); i += 3)
+            for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
                 add(i, i + 1, i + 2);
         else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
-            for (std::size_t i = 0; i + 2 < c.size(); ++i)
+            for (std::size_t i = 0; i + 2 < corners.size(); ++i)
                 add(i, i + 1 + i % 2, i + 2 - i % 2);
         else
-            for (std::size_t i = 1; i + 1 < c.size(); ++i)
+            for (std::size_t i = 1; i + 1 < corners.size(); ++i)
                 add(0, i, i + 1);
+        return true;
     }
 
-    // `count` elements of `bytes` each, checked to lie inside their buffer.
-    std::optional<View> view(int index, std::size_t offset, std::size_t count, std::size_t bytes,
-                             bool packed) {
-        const tinygltf::BufferView* part = element(model_.bufferViews, index);
-        const tinygltf::Buffer* buffer = part ? element(model_.buffers, part->buffer) : nullptr;
-        if (!buffer) {
-            fail("points to a buffer that does not exist");
-            return {};
-        }
-        const std::size_t stride = packed || part->byteStride == 0 ? bytes : part->byteStride;
-        const std::size_t size = buffer->data.size();
-        const bool inside =
-            part->byteOffset <= size && offset <= size - part->byteOffset &&
-            (count == 0 || (bytes <= size - part->byteOffset - offset &&
-                            (count - 1) <= (size - part->byteOffset - offset - bytes) / stride));
-        if (!inside) {
-            fail("has a buffer of " + std::to_string(size) +
-                 " bytes that is too short for what points into it");
-            return {};
-        }
-        return View{buffer->data.data() + part->byteOffset + offset, stride};
+    // The file's normals; those of the triangles around where it has none, or one without a direction.
+    bool readNormals(const tinygltf::Primitive& primitive, Mesh& piece) {
+        piece.normals = areaWeightedNormals(piece.positions, piece.indices);
+        const auto attribute = primitive.attributes.find("NORMAL");
+        if (attribute == primitive.attributes.end()) return true;
+        const Result<std::vector<double>> numbers =
+            readNumbers(model_, attribute->second, TINYGLTF_TYPE_VEC3, "normals", name_);
+        if (!pass(numbers)) return false;
+        const std::vector<vec3> normals = toVectors(*numbers);
+        if (normals.size() != piece.positions.size())
+            return fail("has " + std::to_string(normals.size()) + " normals for " +
+                        std::to_string(piece.positions.size()) + " positions; must be as many");
+        for (std::size_t i = 0; i < normals.size(); ++i)
+            if (const float length = glm::length(normals[i]); length != 0)
+                piece.normals[i] =
+                    normals[i] / length; // what is no number stays one, and is refused at the end
+        return true;
     }
 
-    // All numbers of an accessor, sparse ones put in their places.
-    std::optional<std::vector<double>> readAccessor(const tinygltf::Accessor& accessor, int width) {
-        const int componentBytes = tinygltf::GetComponentSizeInBytes(std::uint32_t(accessor.componentType));
-        if (componentBytes <= 0 || accessor.componentType == TINYGLTF_COMPONENT_TYPE_DOUBLE) {
-            fail("has numbers of unknown type " + std::to_string(accessor.componentType));
-            return {};
-        }
-        const std::size_t bytes = std::size_t(componentBytes) * std::size_t(width);
-        const auto component = [&](const unsigned char* from, int c) {
-            return readComponent(from + c * componentBytes, accessor.componentType, accessor.normalized);
+    // Displacements of a file; normals that it leaves open follow from the displaced triangles.
+    bool readTargets(const tinygltf::Primitive& primitive, Mesh& piece) {
+        const bool ownNormals = primitive.attributes.contains("NORMAL");
+        const std::size_t count = piece.positions.size();
+        const auto read = [&](const std::map<std::string, int>& target, const char* attribute,
+                              std::vector<vec3>& to) {
+            to.assign(count, vec3(0));
+            const auto found = target.find(attribute);
+            if (found == target.end()) return true;
+            const Result<std::vector<double>> numbers =
+                readNumbers(model_, found->second, TINYGLTF_TYPE_VEC3, "morph targets", name_);
+            if (!pass(numbers)) return false;
+            to = toVectors(*numbers);
+            return to.size() == count || fail("has a morph target of " + std::to_string(to.size()) +
+                                              " vertices for " + std::to_string(count) + "; must be as many");
         };
-        std::vector<double> values;
-        if (accessor.bufferView >= 0) {
-            const std::optional<View> dense =
-                view(accessor.bufferView, accessor.byteOffset, accessor.count, bytes, false);
-            if (!dense) return {};
-            values.reserve(accessor.count * std::size_t(width));
-            for (std::size_t i = 0; i < accessor.count; ++i)
-                for (int c = 0; c < width; ++c)
-                    values.push_back(component(dense->at(i), c));
-        } else if (accessor.count <= kMaxUnstored) {
-            values.resize(accessor.count * std::size_t(width)); // zeros unless sparse values follow
-        } else {
-            fail("has an accessor of " + std::to_string(accessor.count) + " elements without data");
-            return {};
+        for (const std::map<std::string, int>& from : primitive.targets) {
+            MorphTarget& target = piece.rig.targets.emplace_back();
+            if (!read(from, "POSITION", target.positions) || !read(from, "NORMAL", target.normals))
+                return false;
+            if (ownNormals) continue;
+            std::vector<vec3> moved = piece.positions;
+            for (std::size_t i = 0; i < count; ++i)
+                moved[i] += target.positions[i];
+            target.normals = areaWeightedNormals(moved, piece.indices);
+            for (std::size_t i = 0; i < count; ++i)
+                target.normals[i] -= piece.normals[i];
         }
-        if (!accessor.sparse.isSparse) return values;
-
-        const auto& sparse = accessor.sparse;
-        const int indexBytes = tinygltf::GetComponentSizeInBytes(std::uint32_t(sparse.indices.componentType));
-        const std::size_t count = std::size_t(std::max(sparse.count, 0));
-        if (indexBytes <= 0) {
-            fail("has sparse indices of an unknown type");
-            return {};
-        }
-        const auto places = view(sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset), count,
-                                 std::size_t(indexBytes), true);
-        const auto news =
-            view(sparse.values.bufferView, std::size_t(sparse.values.byteOffset), count, bytes, true);
-        if (!places || !news) return {};
-        for (std::size_t i = 0; i < count; ++i) {
-            const double place = readComponent(places->at(i), sparse.indices.componentType, false);
-            if (!(place >= 0 && place < double(accessor.count))) {
-                fail("has a sparse index outside its accessor");
-                return {};
-            }
-            for (int c = 0; c < width; ++c)
-                values[std::size_t(place) * std::size_t(width) + std::size_t(c)] = component(news->at(i), c);
-        }
-        return values;
+        return true;
     }
 
-    static constexpr std::size_t kMaxUnstored = std::size_t(1)
-                                                << 26; // a number in the file must not eat memory
+    // Joints of a skin; without one the node itself moves all vertices.
+    bool readJoints(const tinygltf::Primitive& primitive, int index, Mesh& piece) {
+        const std::size_t count = piece.positions.size();
+        const auto joints = primitive.attributes.find("JOINTS_0"),
+                   weights = primitive.attributes.find("WEIGHTS_0");
+        if (node(index).skin < 0 || joints == primitive.attributes.end() ||
+            weights == primitive.attributes.end()) {
+            if (at(index).firstJoint < 0) {
+                at(index).firstJoint = int(rest_.size());
+                if (!addJoint(index, dmat4(1))) return false;
+            }
+            const auto only = std::uint16_t(at(index).firstJoint);
+            piece.joints.assign(count, {only, only, only, only});
+            piece.jointWeights.assign(count, vec4(1, 0, 0, 0));
+            return true;
+        }
+        if (primitive.attributes.contains("JOINTS_1")) unread_.insert("more than four joints of a vertex");
+        const Result<std::vector<std::uint32_t>> places =
+            readIndices(model_, joints->second, TINYGLTF_TYPE_VEC4, "joints", name_);
+        if (!pass(places)) return false;
+        const Result<std::vector<double>> parts =
+            readNumbers(model_, weights->second, TINYGLTF_TYPE_VEC4, "weights of joints", name_);
+        if (!pass(parts)) return false;
+        if (places->size() != 4 * count || parts->size() != 4 * count)
+            return fail("has " + std::to_string(places->size() / 4) + " joints and " +
+                        std::to_string(parts->size() / 4) + " weights for " + std::to_string(count) +
+                        " positions; must be as many");
+        int first = 0;
+        if (!addSkin(node(index).skin, first)) return false;
+        const std::size_t bones = model_.skins[std::size_t(node(index).skin)].joints.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            auto& four = piece.joints.emplace_back();
+            vec4 share;
+            for (std::size_t j = 0; j < 4; ++j) {
+                const std::uint32_t place = (*places)[4 * i + j];
+                share[int(j)] = float((*parts)[4 * i + j]);
+                if (!(share[int(j)] >= 0))
+                    return fail("has a negative weight of a joint at vertex " + std::to_string(i) +
+                                "; must be 0 or more");
+                if (place >= bones && share[int(j)] > 0)
+                    return fail("has joint " + std::to_string(place) + " behind the " +
+                                std::to_string(bones) + " of its skin; must be smaller");
+                // One that weighs nothing may be any number.
+                four[j] = std::uint16_t(std::size_t(first) + std::min<std::size_t>(place, bones - 1));
+            }
+            const float sum = share.x + share.y + share.z + share.w;
+            if (sum == 0) unread_.insert("vertices without weights of joints, which the first joint moves");
+            piece.jointWeights.push_back(sum > 0 ? share / sum : vec4(1, 0, 0, 0));
+        }
+        return true;
+    }
+
+    bool addJoint(int index, const dmat4& jointFromMesh) {
+        if (rest_.size() > std::numeric_limits<std::uint16_t>::max())
+            return fail("has more than 65536 joints; must have fewer");
+        mesh_.rig.joints.push_back(at(index).inRig);
+        mesh_.rig.jointFromMesh.emplace_back(jointFromMesh);
+        rest_.emplace_back(at(index).rootFromNode * jointFromMesh);
+        return true;
+    }
+
+    // Joints of a skin, which several nodes may share.
+    bool addSkin(int index, int& first) {
+        const auto [known, isNew] = firstOfSkin_.emplace(index, int(rest_.size()));
+        first = known->second;
+        if (!isNew) return true;
+        const tinygltf::Skin& skin = model_.skins[std::size_t(index)];
+        std::vector<double> matrices;
+        if (skin.inverseBindMatrices >= 0) {
+            Result<std::vector<double>> numbers = readNumbers(
+                model_, skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4, "inverse bind matrices", name_);
+            if (!pass(numbers)) return false;
+            matrices = std::move(*numbers);
+            if (matrices.size() < 16 * skin.joints.size())
+                return fail("has " + std::to_string(matrices.size() / 16) + " inverse bind matrices for " +
+                            std::to_string(skin.joints.size()) + " joints; must be as many");
+        }
+        for (std::size_t j = 0; j < skin.joints.size(); ++j)
+            if (!addJoint(skin.joints[j], matrices.empty() ? dmat4(1) : glm::make_mat4(&matrices[16 * j])))
+                return false;
+        return true;
+    }
+
+    // What moves keeps its joints and targets; what does not is put where they hold it.
+    void addPiece(Mesh piece, int index, int material) {
+        const auto firstTarget = std::size_t(at(index).firstTarget);
+        if (!moves()) {
+            const auto weights = mesh_.rig.weights.begin() + std::ptrdiff_t(firstTarget);
+            const Pose pose{rest_, {weights, weights + std::ptrdiff_t(piece.rig.targets.size())}};
+            piece = posed(piece, pose);
+        }
+        const std::size_t first = mesh_.positions.size();
+        std::vector<std::uint32_t>& indices = indicesOf_[material < 0 ? kNoMaterial : material];
+        for (const std::uint32_t corner : piece.indices)
+            indices.push_back(std::uint32_t(first) + corner);
+        for (std::size_t t = 0; t < piece.rig.targets.size(); ++t) {
+            MorphTarget& target = mesh_.rig.targets[firstTarget + t];
+            target.positions.resize(first, vec3(0));
+            target.normals.resize(first, vec3(0));
+            append(target.positions, piece.rig.targets[t].positions);
+            append(target.normals, piece.rig.targets[t].normals);
+        }
+        append(mesh_.positions, piece.positions);
+        append(mesh_.normals, piece.normals);
+        append(mesh_.joints, piece.joints);
+        append(mesh_.jointWeights, piece.jointWeights);
+    }
+
+    bool finishRig() {
+        Rig& rig = mesh_.rig;
+        if (!moves()) {
+            rig = {};
+            return true;
+        }
+        for (const int index : order_) {
+            const std::optional<Node> own = decompose(parentFromNode(node(index)));
+            if (!own && node(index).matrix.size() == 16 && at(index).isUsed)
+                return fail("node " + std::to_string(index) +
+                            " has a matrix that slants or flattens; must scale, turn and move");
+            Node& to = rig.nodes.emplace_back(own.value_or(Node{}));
+            to.parent = at(index).parent < 0 ? -1 : at(at(index).parent).inRig;
+            if (node(index).matrix.size() == 16) continue; // else as the file says it: a scale may be 0
+            const tinygltf::Node& from = node(index);
+            if (from.translation.size() == 3) to.translate = glm::make_vec3(from.translation.data());
+            if (from.rotation.size() == 4)
+                to.rotate = glm::quat(float(from.rotation[3]), float(from.rotation[0]),
+                                      float(from.rotation[1]), float(from.rotation[2]));
+            if (from.scale.size() == 3) to.scale = glm::make_vec3(from.scale.data());
+        }
+        for (Channel& channel : rig.channels) {
+            const Place& place = at(channel.node);
+            channel.firstTarget = place.firstTarget;
+            channel.node = place.inRig;
+            if (channel.path == Channel::Path::Weights && channel.width() != place.targets)
+                return fail("animates " + std::to_string(channel.width()) +
+                            " morph targets of a node that has " + std::to_string(place.targets) +
+                            "; must be as many");
+        }
+        return true;
+    }
+
+    // Triangles in the order of their materials; false when there are none.
+    bool finishParts() {
+        const bool named = indicesOf_.size() > 1 || !indicesOf_.contains(kNoMaterial);
+        std::set<std::string> names;
+        for (const auto& [index, indices] : indicesOf_) {
+            if (indices.empty()) continue;
+            const tinygltf::Material* material = element(model_.materials, index);
+            std::string name = material ? material->name : "default";
+            if (name.empty()) name = "material " + std::to_string(index);
+            while (!names.insert(name).second)
+                name += "'";
+            if (named)
+                mesh_.parts.push_back({name, std::uint32_t(mesh_.indices.size()),
+                                       std::uint32_t(indices.size()),
+                                       materialOf(material ? *material : tinygltf::Material(), unread_)});
+            append(mesh_.indices, indices);
+        }
+        return !mesh_.indices.empty();
+    }
+
+    static constexpr int kNoMaterial = std::numeric_limits<int>::max(); // comes last
 
     const tinygltf::Model& model_;
     const std::string& name_;
     Mesh mesh_;
+    std::vector<Place> places_;
+    std::vector<int> order_; // of nodes, parents first
+    std::vector<mat4> rest_; // of joints, as Pose has them
+    std::map<int, int> firstOfSkin_;
+    std::map<int, std::vector<std::uint32_t>> indicesOf_; // by material
+    std::set<std::string> unread_;
     Error error_;
 };
 

@@ -8,10 +8,16 @@ namespace lucent::scene {
 
 bool isGltf(const std::string& name, std::span<const std::byte> bytes);
 
-/// Every triangle of the default scene (of all root nodes when there is none), node transforms applied.
+/// Every triangle of the default scene (of all nodes when there is none) with its normals and materials, and
+/// how it moves.
 ///
-/// Lists, strips and fans; all index widths; sparse and quantised positions. Points, lines, skins and morph
-/// targets are left out, each named once on stderr.
+/// - Lists, strips and fans; all index widths; sparse and quantised numbers.
+/// - Where the first animation moves something, every vertex keeps its joints, be it those of a skin or the
+/// node
+///   that carries it, and its morph targets. Else all stand where nodes, skins and weights put them at rest.
+/// - What is not read (points, lines, textures, roughness, cameras, lights, further animations, ...) is named
+/// once
+///   on stderr.
 ///
 /// @param read  gives external buffers, by paths beside `name`
 /// @return      Error "NAME: what was found; what was expected"

@@ -2,11 +2,12 @@
 
 #include "scene/readers/Exr.h"
 #include "scene/readers/Gltf.h"
+#include "scene/readers/Obj.h"
 
 namespace lucent::scene {
 
 bool isForeign(const std::string& name, std::span<const std::byte> bytes) {
-    return isExr(bytes) || isGltf(name, bytes);
+    return isExr(bytes) || isGltf(name, bytes) || isObj(name);
 }
 
 Result<Bytes> toPlain(const std::string& name, Bytes bytes, const ReadFile& read) {
@@ -15,8 +16,8 @@ Result<Bytes> toPlain(const std::string& name, Bytes bytes, const ReadFile& read
         if (!image) return image.error();
         return encodeImage(*image, ".pfm");
     }
-    if (!isGltf(name, bytes)) return bytes;
-    const Result<Mesh> mesh = readGltf(name, bytes, read);
+    if (!isForeign(name, bytes)) return bytes;
+    const Result<Mesh> mesh = isObj(name) ? readObj(name, bytes, read) : readGltf(name, bytes, read);
     if (!mesh) return mesh.error();
     return encodeMesh(*mesh);
 }

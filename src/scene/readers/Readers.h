@@ -1,6 +1,6 @@
 #pragma once
 /// Readers of foreign files, kept apart so that a page fetches them only when a scene needs one: they turn
-/// glTF and EXR into the plain forms (LUCENTM1, PFM) that the loader reads.
+/// glTF, OBJ and EXR into the plain forms (LUCENTM2, PFM) that the loader reads.
 
 #include "base/File.h"
 #include "base/Image.h"
@@ -11,10 +11,9 @@ namespace lucent::scene {
 /// True for bytes that toPlain() would turn into another form.
 bool isForeign(const std::string& name, std::span<const std::byte> bytes);
 
-/// glTF 2.0 (.gltf, .glb: every triangle, node transforms applied) becomes a mesh file, EXR becomes PFM,
-/// everything else stays as it is.
+/// glTF 2.0 (.gltf, .glb) and OBJ become a mesh file, EXR becomes PFM, everything else stays as it is.
 ///
-/// @param read  gives the external buffers of a .gltf
+/// @param read  gives the external buffers of a .gltf, the material files of an .obj
 /// @return      Error "NAME: what was found; what was expected"
 Result<Bytes> toPlain(const std::string& name, Bytes bytes, const ReadFile& read);
 

@@ -1,0 +1,102 @@
+// caustics/lookup.frag: light of the caustic map on what each pixel shows of opaque objects.
+//
+// in    uMap     [light.unit] flux on each texel
+//       uShadow  depths of the receivers, seen from the light
+//       uBefore  USE_BEFORE: the sum so far
+// out   oSum.rgb [W/m²]
+// model flux of the texels around over the area that a texel covers on the surface; as a mean over the pixel, of at
+//       least as many places as texels lie in it, since a focus may be smaller than a pixel
+// not   light on the side that is turned away from the lamp
+#include "views/view.glsl"
+layout(std140) uniform LookupBlock {
+    View view; // of the camera
+    View faces[6];
+    int faceCount;
+    float unit; // [W] that the map counts as 1
+    int padding0, padding1;
+} light;
+#include "lib/octahedral.glsl"
+#include "views/surface_pixel.glsl"
+#include "views/shadow.glsl"
+uniform sampler2D uMap;
+#ifdef USE_BEFORE
+uniform sampler2D uBefore;
+#endif
+layout(location = 0) out vec4 oSum;
+
+// Where a place lies on the map, in texels.
+vec2 mapAt(vec3 place) {
+    int number = faceOf(place);
+    View face = light.faces[number];
+    vec3 seen = inView(face, place - face.eye.xyz);
+    return pixelOf(face, seen) + float(number) * 1e6;
+}
+
+vec3 fluxOnArea(vec3 place, vec3 normal) {
+    int number = faceOf(place);
+    View face = light.faces[number];
+    vec3 v = place - face.eye.xyz;
+    vec3 seen = inView(face, v);
+    bool perspective = face.eye.w > 0.5;
+    if (perspective && seen.z <= 0.0) return vec3(0.0);
+    vec2 pixel = pixelOf(face, seen);
+    if (any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, face.size))) return vec3(0.0);
+    vec3 along = perspective ? normalize(v) : face.forward.xyz;
+    float cosine = -dot(normal, along);
+    if (cosine <= 0.0) return vec3(0.0);
+
+    float width = max(length(face.right.xyz), length(face.up.xyz)) * (perspective ? seen.z : 1.0);
+    float margin = width * (0.5 + kSteepMargin * sqrt(1.0 - cosine * cosine) / max(cosine, 1e-6));
+    ivec2 corner = ivec2(number % 3, number / 3) * ivec2(face.size);
+    vec2 low = floor(pixel - 0.5);
+    vec2 f = pixel - 0.5 - low;
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        vec2 step_ = vec2(i & 1, i >> 1);
+        vec2 at = clamp(low + step_, vec2(0.0), face.size - 1.0);
+        float nearest = texelFetch(uShadow, corner + ivec2(at), 0).r;
+        if (abs(nearest - planeDepth(face, at + 0.5, v, normal)) > margin) continue; // another surface
+        vec2 share = mix(1.0 - f, f, step_);
+        weights += share.x * share.y;
+        sum += share.x * share.y * texelFetch(uMap, corner + ivec2(at), 0).rgb;
+    }
+    if (weights == 0.0) return vec3(0.0);
+    float area = length(face.right.xyz) * length(face.up.xyz);
+    if (perspective) area *= seen.z * seen.z * dot(along, face.forward.xyz);
+    return sum / weights * light.unit * cosine / area;
+}
+
+// Point of the surface's tangent plane beside the middle of the pixel, in pixels.
+vec3 besides(vec3 place, vec3 normal, vec2 offset) {
+    View view = light.view;
+    vec2 pixel = gl_FragCoord.xy + offset;
+    vec3 across = placeFrom(view, pixel, 1.0) - (view.eye.w > 0.5 ? vec3(0.0) : view.forward.xyz);
+    vec3 origin = view.eye.w > 0.5 ? vec3(0.0) : across;
+    vec3 ray = view.eye.w > 0.5 ? across : view.forward.xyz;
+    float slope = dot(normal, ray);
+    if (slope >= -1e-3 * length(ray)) return place;
+    return view.eye.xyz + origin + dot(normal, place - view.eye.xyz - origin) / slope * ray;
+}
+
+const float kMostTaps = 16.0; // along a side of a pixel
+
+void main() {
+#ifdef USE_BEFORE
+    oSum = texelFetch(uBefore, ivec2(gl_FragCoord.xy), 0);
+#else
+    oSum = vec4(0.0);
+#endif
+    SurfacePixel pixel = readSurface();
+    if (pixel.face != kMeshFace) return;
+    vec3 normal = fromOctahedral(pixel.g);
+    vec3 place = light.view.eye.xyz + placeFrom(light.view, gl_FragCoord.xy, pixel.z);
+    vec2 u = mapAt(besides(place, normal, vec2(0.5, 0.0))) - mapAt(besides(place, normal, vec2(-0.5, 0.0)));
+    vec2 v = mapAt(besides(place, normal, vec2(0.0, 0.5))) - mapAt(besides(place, normal, vec2(0.0, -0.5)));
+    vec2 taps = clamp(ceil(vec2(length(u), length(v)) - 0.01), 1.0, kMostTaps);
+    vec3 sum = vec3(0.0);
+    for (float y = 0.5; y < taps.y; ++y)
+        for (float x = 0.5; x < taps.x; ++x)
+            sum += fluxOnArea(besides(place, normal, vec2(x, y) / taps - 0.5), normal);
+    oSum.rgb += sum / (taps.x * taps.y);
+}

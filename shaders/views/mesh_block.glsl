@@ -1,0 +1,9 @@
+#include "views/view.glsl"
+layout(std140) uniform MeshBlock {
+    mat4 clipFromWorld;
+    mat4 worldFromObject;
+    mat4 normalFromObject; // inverse transpose, rotation part
+    View view;
+    int object;  // in the scene
+    int padding0, padding1, padding2;
+} mesh;

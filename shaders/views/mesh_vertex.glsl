@@ -1,0 +1,18 @@
+// views/mesh_vertex.glsl: the vertices of one object. A vertex is a texel of two images; gl_VertexID is its number.
+//
+// out   vNormal [1]  world, interpolated; not unit
+//       vDepth  [m]  along the view's forward
+#include "views/mesh_block.glsl"
+uniform sampler2D uPositions; // object space
+uniform sampler2D uNormals;
+out vec3 vNormal;
+out float vDepth;
+
+void main() {
+    int width = textureSize(uPositions, 0).x;
+    ivec2 texel = ivec2(gl_VertexID % width, gl_VertexID / width);
+    vec4 world = mesh.worldFromObject * vec4(texelFetch(uPositions, texel, 0).xyz, 1.0);
+    vNormal = mat3(mesh.normalFromObject) * texelFetch(uNormals, texel, 0).xyz;
+    vDepth = dot(world.xyz - mesh.view.eye.xyz, mesh.view.forward.xyz);
+    gl_Position = mesh.clipFromWorld * world;
+}

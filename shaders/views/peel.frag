@@ -1,0 +1,26 @@
+// views/peel.frag: the nearest surface behind the layer before (depth peeling, Everitt 2001).
+//
+// in    uBefore  depth and code of the layer before; PEEL_FIRST: none
+// out   oLayer   views/layer_texel.glsl
+//       oDone    its depth and code, for the next layer: an array that is drawn into cannot be read
+// model surfaces in one place are told apart by their codes, so that touching objects keep both faces
+#include "views/mesh_block.glsl"
+#include "views/layer_texel.glsl"
+in vec3 vNormal;
+in float vDepth;
+#ifndef PEEL_FIRST
+uniform sampler2D uBefore;
+#endif
+layout(location = 0) out vec4 oLayer;
+layout(location = 1) out vec2 oDone;
+
+void main() {
+    vec4 texel = layerTexel(vDepth, vNormal, mesh.object, gl_FrontFacing);
+#ifndef PEEL_FIRST
+    vec2 before = texelFetch(uBefore, ivec2(gl_FragCoord.xy), 0).xy;
+    if (before.y == 0.0 || vDepth < before.x || (vDepth == before.x && texel.w <= before.y)) discard;
+#endif
+    oLayer = texel;
+    oDone = texel.xw;
+    gl_FragDepth = bufferDepth(mesh.view, vDepth);
+}

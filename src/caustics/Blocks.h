@@ -1,0 +1,148 @@
+#pragma once
+/// The uniform blocks of shaders/caustics.
+
+#include "views/Glass.h"
+#include "views/ShadowMap.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace lucent::caustics {
+
+/// Mirrors struct Lamp of shaders/caustics/lamp.glsl.
+struct LampBlock {
+    vec4 color{0}, axis{0};
+    vec2 cone{0}, grid{0};
+};
+
+inline std::vector<graph::BlockLayout::Member> viewAndLampMembers(std::size_t view, std::size_t lamp) {
+    auto list = views::viewMembers(view);
+    list.insert(list.end(), {{"lamp.color", lamp + offsetof(LampBlock, color)},
+                             {"lamp.axis", lamp + offsetof(LampBlock, axis)},
+                             {"lamp.cone", lamp + offsetof(LampBlock, cone)},
+                             {"lamp.grid", lamp + offsetof(LampBlock, grid)}});
+    return list;
+}
+
+struct PhotonBlock {
+    views::ViewBlock view;
+    LampBlock lamp;
+    views::GlassBlock glass[views::kMostGlass + 1];
+    int count = 0, channel = 0;
+    int padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = viewAndLampMembers(offsetof(PhotonBlock, view), offsetof(PhotonBlock, lamp));
+            const auto glass = views::glassMembers(offsetof(PhotonBlock, glass));
+            list.insert(list.end(), glass.begin(), glass.end());
+            list.insert(list.end(), {{"count", offsetof(PhotonBlock, count)},
+                                     {"channel", offsetof(PhotonBlock, channel)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"PhotonBlock", sizeof(PhotonBlock), members};
+        return layout;
+    }
+};
+
+struct MirrorBlock {
+    static constexpr std::size_t kMost = 32;
+
+    views::ViewBlock view;
+    LampBlock lamp;
+    vec4 mirrors[kMost] = {};
+    int count = 0;
+    int padding[3] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = viewAndLampMembers(offsetof(MirrorBlock, view), offsetof(MirrorBlock, lamp));
+            list.insert(list.end(), {{"mirrors", offsetof(MirrorBlock, mirrors)},
+                                     {"count", offsetof(MirrorBlock, count)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"MirrorBlock", sizeof(MirrorBlock), members};
+        return layout;
+    }
+};
+
+struct ShareBlock {
+    views::ViewBlock view;
+    vec2 grid, padding{0};
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = views::viewMembers(offsetof(ShareBlock, view));
+            list.push_back({"grid", offsetof(ShareBlock, grid)});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"ShareBlock", sizeof(ShareBlock), members};
+        return layout;
+    }
+};
+
+/// The views of a light as the blocks below hold them.
+struct Faces {
+    views::ViewBlock list[views::ShadowViews::kMost];
+
+    explicit Faces(const views::ShadowViews& views) {
+        for (std::size_t i = 0; i < views.faces.size(); ++i)
+            list[i] = views::viewBlock(views.faces[i], ivec2(views.size));
+    }
+};
+
+struct LandBlock {
+    Faces faces;
+    vec4 low, high;
+    int faceCount, steps;
+    int padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {{"faces[0].eye", offsetof(LandBlock, faces)},
+                                                             {"low", offsetof(LandBlock, low)},
+                                                             {"high", offsetof(LandBlock, high)},
+                                                             {"faceCount", offsetof(LandBlock, faceCount)},
+                                                             {"steps", offsetof(LandBlock, steps)}};
+        static const graph::BlockLayout layout{"LandBlock", sizeof(LandBlock), members};
+        return layout;
+    }
+};
+
+struct DepositBlock {
+    Faces faces;
+    ivec2 grid;
+    int faceCount, face;
+    float unit, size;
+    int padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {
+            {"faces[0].eye", offsetof(DepositBlock, faces)},  {"grid", offsetof(DepositBlock, grid)},
+            {"faceCount", offsetof(DepositBlock, faceCount)}, {"face", offsetof(DepositBlock, face)},
+            {"unit", offsetof(DepositBlock, unit)},           {"size", offsetof(DepositBlock, size)}};
+        static const graph::BlockLayout layout{"DepositBlock", sizeof(DepositBlock), members};
+        return layout;
+    }
+};
+
+struct LookupBlock {
+    views::ViewBlock view;
+    Faces faces;
+    int faceCount;
+    float unit;
+    int padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = views::viewMembers(offsetof(LookupBlock, view));
+            list.insert(list.end(), {{"faces[0].eye", offsetof(LookupBlock, faces)},
+                                     {"faceCount", offsetof(LookupBlock, faceCount)},
+                                     {"unit", offsetof(LookupBlock, unit)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"LookupBlock", sizeof(LookupBlock), members};
+        return layout;
+    }
+};
+
+} // namespace lucent::caustics

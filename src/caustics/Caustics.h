@@ -1,0 +1,100 @@
+#pragma once
+/// Light that refractive objects and mirrors throw onto opaque surfaces (image-space dissertation 2007, ch.
+/// 5): rays of a light are traced through layered images of its own view, carried on to the receivers that it
+/// sees, and add up in a caustic map, where the pixels of the camera look their irradiance up. Nothing is
+/// precomputed.
+
+#include "views/Lamps.h"
+#include "views/Layers.h"
+#include "views/ShadowMap.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lucent::caustics {
+
+enum class Intersect : int { Hybrid, FixedPoint, Newton, Secant };
+enum class Deposit : int { Beam, Splat };
+
+struct Settings {
+    Intersect intersect = Intersect::Hybrid;
+    Deposit deposit = Deposit::Beam;
+    int grid = 128;        ///< rays a side
+    int mapSize = 512;     ///< texels a side of the caustic map
+    int steps = 32;        ///< looks at the receivers' image for a ray, at most
+    int lightSamples = 16; ///< points that stand for a lamp with a size
+};
+
+struct Inputs {
+    const scene::Scene& scene;
+    const views::Eye& eye;                       ///< the camera's
+    const std::vector<views::PosedMesh>& glass;  ///< refractive objects, hidden or not
+    const std::vector<views::PosedMesh>& solids; ///< opaque objects and mirrors, hidden or not
+    graph::TextureId surface;                    ///< views.surface
+    ivec2 size;                                  ///< of the camera's picture
+};
+
+/// What is drawn for each light; made once for as long as lights and objects stay where they are.
+struct Plan {
+    struct View {
+        views::Eye eye;
+        int layers = 0; ///< surfaces of refractive objects behind each other
+    };
+    struct Light {
+        views::LampPoint lamp;
+        std::vector<View> glass;         ///< that show what refracts
+        std::vector<views::Eye> mirrors; ///< that show what mirrors
+        views::ShadowViews receivers;    ///< in which the caustic map lies
+    };
+    std::vector<Light> lights;
+};
+
+/// What became of light that met something refractive or mirroring, W of each colour. Every entry is summed
+/// on its own; the first is the sum of the others but for what the caustic map rounds.
+struct Energy {
+    dvec3 met{0};
+    dvec3 received{0};  ///< in the caustic maps
+    dvec3 absorbed{0};  ///< by media, by objects that let only a share in, by mirrors
+    dvec3 reflected{0}; ///< at interfaces, and not followed
+    dvec3 missed{0};    ///< met no receiver that the light's view shows
+    dvec3 lost{0};      ///< given up inside
+    dvec3 astray{0};    ///< of `received`: laid down where no surface is, two texels or more beside one
+    double looks = 0;   ///< at the receivers' image, mean over the rays that left glass
+};
+
+/// Not drawn: light that glass or mirrors reflect on (but for total reflection inside), light by way of a
+/// mirror and glass or of two mirrors, what falls on places that the lamp does not see past other receivers
+/// (in their shadows, on sides turned away from it), and what lamps inside of glass send out of it. Mirrors
+/// hide glass from a lamp, but stop no light behind it. Height fields neither receive nor hide anything.
+class Caustics {
+public:
+    static const ParamTable& params();
+    /// Why the scene needs this technique; nothing when it does not.
+    static std::optional<std::string> need(const scene::Scene& scene);
+
+    explicit Caustics(gl::Context& context) : context_(context) {}
+
+    /// Chooses the views of each light and counts their layers, which reads pictures back.
+    ///
+    /// @param eye  the camera's: what it does not show receives nothing
+    Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
+                      const views::DrawnMeshes& meshes, const Settings& settings) const;
+
+    /// Adds the passes that give each pixel of opaque objects the irradiance of caustics.
+    ///
+    /// @return  RGBA32F, W/m², of `in.size`; none where the plan has no light. Error (Fault::Machine) for
+    ///          more than views::kMostGlass refractive objects or images larger than the GPU's textures
+    Result<graph::TextureId> record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
+                                    const Settings& settings) const;
+
+    /// Runs the same passes and sums what they carry. Reads pictures back.
+    Result<Energy> measure(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
+                           const views::DrawnMeshes& meshes, const Plan& plan,
+                           const Settings& settings) const;
+
+private:
+    gl::Context& context_;
+};
+
+} // namespace lucent::caustics

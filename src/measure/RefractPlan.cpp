@@ -1,0 +1,232 @@
+#include "measure/RefractPlan.h"
+
+#include "frame/Renderer.h"
+#include "scene/Environment.h"
+#include "scene/Mesh.h"
+#include "truth/Glass.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace lucent::measure {
+
+namespace {
+
+constexpr std::string_view kLayerLimit = "maxLayers"; // the knob that keeps fewer layers than there are
+constexpr float kIor = 1.5f;
+
+// --- methods and knobs
+
+bool hasKnob(std::string_view technique, std::string_view knob) {
+    for (const ParamTable* table : frame::techniques())
+        if (table->name == technique)
+            return std::any_of(table->params.begin(), table->params.end(),
+                               [&](const Param& param) { return param.id == knob; });
+    return false;
+}
+
+// All layers that there are, and, where a scene can ask for fewer, so many.
+std::vector<Setting> refractSettings() {
+    std::vector<Setting> settings{{"peel"}};
+    if (hasKnob("refract", kLayerLimit))
+        for (const char* layers : {"2", "4", "8", "16", "32"})
+            settings.push_back({"peel", {{std::string(kLayerLimit), layers}}});
+    return settings;
+}
+
+// --- scenes
+
+scene::Scene emptyScene(int size) {
+    scene::Scene scene;
+    scene.size = ivec2(size);
+    scene.camera.type = scene::Camera::Type::Perspective;
+    scene.camera.eye = {0, 0.6f, 3};
+    scene.camera.target = {0, 0, 0};
+    scene.camera.fov = 45;
+    scene.view.show = scene::Aov::Direction;
+    scene.environment.emplace();
+    scene.environment->source = "rainbow";
+    scene.environment->map = std::make_shared<const Image>(scene::proceduralEnvironment("rainbow"));
+    for (const ParamTable* table : frame::techniques())
+        scene.technique.emplace(std::string(table->name), Settings(*table));
+    return scene;
+}
+
+void addGlass(scene::Scene& scene, const std::string& name, scene::Shape shape, float ior = kIor,
+              vec3 rotate = vec3(0)) {
+    scene::Object object;
+    object.name = name;
+    object.shape = std::move(shape);
+    object.material.transmission = 1;
+    object.material.ior = ior;
+    object.transform.rotate = rotate;
+    scene.objects.push_back(std::move(object));
+}
+
+// Shapes whose exact surface is known. The inner ball of "nested" is of thinner glass than what is around it.
+scene::Scene sphereScene(int size) {
+    scene::Scene scene = emptyScene(size);
+    addGlass(scene, "ball", scene::Sphere{1});
+    return scene;
+}
+scene::Scene torusScene(int size) {
+    scene::Scene scene = emptyScene(size);
+    addGlass(scene, "ring", scene::Torus{0.8f, 0.35f}, kIor, {50, 0, 20});
+    return scene;
+}
+scene::Scene boxScene(int size) {
+    scene::Scene scene = emptyScene(size);
+    addGlass(scene, "block", scene::Box{vec3(1.2f)}, kIor, {25, 35, 0});
+    return scene;
+}
+scene::Scene nestedScene(int size) {
+    scene::Scene scene = emptyScene(size);
+    addGlass(scene, "ball", scene::Sphere{1});
+    addGlass(scene, "core", scene::Sphere{0.5f}, 1.2f);
+    return scene;
+}
+
+// --- what is timed
+
+void showColor(scene::Scene& scene) { scene.view.show = scene::Aov::Color; }
+void showLayers(scene::Scene& scene) { scene.view.show = scene::Aov::Layers; }
+void showNothing(scene::Scene& scene) {
+    showColor(scene);
+    scene.objects.clear();
+}
+
+// The picture that counts the layers draws the same ones and follows no ray: the finished frame falls apart
+// in two stages by it, and counting, which is little, goes to the layers.
+const Timed kFrame{showColor, showNothing};
+const Timed kLayersStage{showLayers, showNothing};
+const Timed kTraceStage{showColor, showLayers};
+
+Case refractCase(const std::string& name, scene::Scene scene) {
+    const double rays = double(scene.size.x) * scene.size.y;
+    return {.technique = "refract",
+            .name = name,
+            .scene = {[scene = std::move(scene)]() -> Result<scene::Scene> { return scene; }, rays},
+            .settings = refractSettings(),
+            .toPhysics = {},
+            .toLayers = showLayers,
+            .timed = kFrame};
+}
+
+double triangles(const BenchMesh& mesh) { return double(mesh.mesh->indices.size()) / 3; }
+
+std::vector<BenchMesh> spheres() {
+    std::vector<BenchMesh> meshes;
+    for (const int segments : {32, 64, 128, 256, 512, 934}) // 934: as many triangles as the dragon has
+        meshes.push_back({"sphere", std::make_shared<const scene::Mesh>(meshOf(scene::Sphere{1}, segments))});
+    return meshes;
+}
+
+constexpr const char* kTraceName = "peel, trace stage";
+constexpr const char* kLayersName = "peel, layers stage";
+
+std::vector<Series> refractSeries(std::vector<BenchMesh> meshes, bool quick) {
+    if (meshes.empty()) meshes = spheres();
+    const auto tooMany = [](const BenchMesh& mesh) { return triangles(mesh) > 100'000; };
+    if (quick) meshes.erase(std::remove_if(meshes.begin(), meshes.end(), tooMany), meshes.end());
+    std::sort(meshes.begin(), meshes.end(),
+              [](const BenchMesh& a, const BenchMesh& b) { return triangles(a) < triangles(b); });
+    const int size = quick ? 128 : 256;
+    const auto series = [&](const char* name, const Timed& timed) {
+        Series one{
+            .technique = "refract", .over = "triangles", .setting = {name}, .points = {}, .timed = timed};
+        for (const BenchMesh& mesh : meshes)
+            one.points.push_back({triangles(mesh),
+                                  {[mesh, size]() -> Result<scene::Scene> { return glassScene(mesh, size); },
+                                   double(size) * size + triangles(mesh)}});
+        return one;
+    };
+    return {series(kTraceName, kTraceStage), series(kLayersName, kLayersStage)};
+}
+
+// --- promises
+
+using Figure = double (*)(const AngleErrors&);
+
+// Of the picture with all layers.
+RatioRule angle(const std::string& scene, const std::string& what, Figure figure,
+                std::optional<double> target) {
+    return [=](const BenchReport& report) -> std::optional<Ratio> {
+        for (const Measurement& m : report.measurements)
+            if (m.technique == "refract" && m.scene == scene && m.knobs.empty() && m.error && m.error->angles)
+                return Ratio{scene + ": " + what, figure(*m.error->angles), target, false};
+        return std::nullopt;
+    };
+}
+
+void addAngles(Plan& plan, const std::string& scene) {
+    const bool isMesh = scene == "bunny";
+    const auto add = [&](const char* what, Figure figure, std::optional<double> target) {
+        plan.ratios.push_back(angle(scene, what, figure, target));
+    };
+    add(
+        "median of degrees off", [](const AngleErrors& a) { return a.all.median; }, isMesh ? 0.3 : 0.1);
+    add(
+        "95 % of degrees off", [](const AngleErrors& a) { return a.all.p95; }, isMesh ? 3 : 2);
+    add("99 % of degrees off", [](const AngleErrors& a) { return a.all.p99; }, {});
+    add("share of rays that are lost", [](const AngleErrors& a) { return a.all.lost; }, {});
+    add("median of degrees off, away from silhouettes", [](const AngleErrors& a) { return a.inside.median; },
+        {});
+    add("95 % of degrees off, away from silhouettes", [](const AngleErrors& a) { return a.inside.p95; }, {});
+}
+
+// Time with the most triangles over that with the fewest.
+RatioRule growth(const std::string& stage, std::optional<double> target) {
+    return [=](const BenchReport& report) -> std::optional<Ratio> {
+        for (const ScalingSeries& series : report.scaling) {
+            if (series.method != stage || series.points.size() < 2) continue;
+            const dvec2 few = series.points.front(), many = series.points.back();
+            return Ratio{stage + " at " + std::to_string(long(many.x)) + " triangles over that at " +
+                             std::to_string(long(few.x)),
+                         many.y / few.y, target, false};
+        }
+        return std::nullopt;
+    };
+}
+
+} // namespace
+
+scene::Scene glassScene(const BenchMesh& mesh, int size) {
+    vec3 low(mesh.mesh->positions.front()), high(low);
+    for (const vec3& position : mesh.mesh->positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    const vec3 extent = high - low;
+    scene::Scene scene = emptyScene(size);
+    addGlass(scene, mesh.name, scene::MeshShape{.source = mesh.name, .part = {}, .mesh = mesh.mesh});
+    scene::Transform& transform = scene.objects[0].transform;
+    transform.scale = 2 / std::max({extent.x, extent.y, extent.z});
+    transform.translate = -transform.scale * 0.5f * (low + high);
+    return scene;
+}
+
+Result<truth::Picture> solveRefraction(const scene::Scene& scene, const truth::Tile& rows, int threads) {
+    const auto estimator = truth::GlassEstimator::create(scene, scene.size, scene.view.show, {});
+    if (!estimator) return estimator.error();
+    const std::atomic<bool> never{false};
+    return render(*estimator, scene.size, rows, {.threads = threads}, never);
+}
+
+Plan refractPlan(const std::vector<BenchMesh>& meshes, const std::vector<BenchMesh>& simpler, bool quick) {
+    Plan plan;
+    plan.quick = quick;
+    plan.repeats = quick ? Repeats{3, 15, 150} : Repeats{5, 31, 1000};
+    const int size = quick ? 128 : 256;
+    plan.cases = {refractCase("sphere", sphereScene(size)), refractCase("torus", torusScene(size)),
+                  refractCase("box", boxScene(size)), refractCase("nested", nestedScene(size))};
+    for (const BenchMesh& mesh : meshes)
+        plan.cases.push_back(refractCase(mesh.name, glassScene(mesh, size)));
+    for (const Case& one : plan.cases)
+        addAngles(plan, one.name);
+    plan.series = refractSeries(simpler, quick);
+    plan.ratios.push_back(growth(kTraceName, 1.3));
+    plan.ratios.push_back(growth(kLayersName, {}));
+    return plan;
+}
+
+} // namespace lucent::measure

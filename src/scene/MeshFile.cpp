@@ -1,0 +1,351 @@
+#include "scene/Mesh.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <string_view>
+#include <type_traits>
+
+namespace lucent::scene {
+namespace {
+
+constexpr std::string_view kMagic = "LUCENTM2";
+static_assert(std::endian::native == std::endian::little, "mesh files are written as they lie in memory");
+static_assert(sizeof(vec2) == 8 && sizeof(vec3) == 12 && sizeof(vec4) == 16 && sizeof(mat4) == 64);
+static_assert(sizeof(Node) == 44, "parent, translate, rotate as x y z w, scale: nothing between them");
+
+/// Puts values behind each other.
+class Writer {
+public:
+    template <class T>
+    void value(const T& v, const char*) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        append(&v, sizeof v);
+    }
+    template <class List>
+    void list(const List& values, const char* what) {
+        value(std::uint32_t(values.size()), what);
+        append(values.data(), values.size() * sizeof values[0]);
+    }
+    template <class T, class Fields>
+    void items(const std::vector<T>& values, const char* what, const Fields& fields) {
+        value(std::uint32_t(values.size()), what);
+        for (const T& v : values)
+            fields(v);
+    }
+    Bytes take() { return std::move(bytes_); }
+
+private:
+    void append(const void* data, std::size_t size) {
+        const auto* begin = static_cast<const std::byte*>(data);
+        bytes_.insert(bytes_.end(), begin, begin + size);
+    }
+    Bytes bytes_;
+};
+
+/// Takes them apart again. Behind the first thing that the file is too short for, nothing is read any more.
+class Reader {
+public:
+    explicit Reader(std::span<const std::byte> rest) : rest_(rest) {}
+
+    template <class T>
+    void value(T& v, const char* what) {
+        if (has(1, sizeof v, what)) take(&v, sizeof v);
+    }
+    template <class List>
+    void list(List& values, const char* what) {
+        std::uint32_t count = 0;
+        value(count, what);
+        if (!has(count, sizeof values[0], what)) return;
+        values.resize(count);
+        take(values.data(), count * sizeof values[0]);
+    }
+    template <class T, class Fields>
+    void items(std::vector<T>& values, const char* what, const Fields& fields) {
+        std::uint32_t count = 0;
+        value(count, what);
+        for (std::uint32_t i = 0; i < count && missing_.empty(); ++i)
+            fields(values.emplace_back());
+    }
+
+    /// What the file ends in, in words; empty when everything was there.
+    const std::string& missing() const { return missing_; }
+    std::size_t left() const { return rest_.size(); }
+
+private:
+    bool has(std::uint64_t count, std::size_t size, const char* what) {
+        if (missing_.empty() && count * size > rest_.size())
+            missing_ = "the mesh file ends in its " + std::string(what) + ", of which " +
+                       std::to_string(rest_.size()) + " bytes are there; must have " +
+                       std::to_string(count * size);
+        return missing_.empty();
+    }
+    void take(void* to, std::size_t size) {
+        if (size > 0) std::memcpy(to, rest_.data(), size);
+        rest_ = rest_.subspan(size);
+    }
+    std::span<const std::byte> rest_;
+    std::string missing_;
+};
+
+// What the file holds, in its order; Files is a Writer or a Reader.
+template <class File, class Values>
+void materialFields(File& file, Values& m) {
+    file.value(m.base, "materials");
+    file.value(m.diffuse, "materials");
+    file.value(m.specular, "materials");
+    file.value(m.specularity, "materials");
+    file.value(m.forwardScatter, "materials");
+    file.value(m.depth, "materials");
+    file.value(m.specularFalloff, "materials");
+    file.value(m.scatterFalloff, "materials");
+    file.value(m.transmission, "materials");
+    file.value(m.ior, "materials");
+    file.value(m.attenuationColor, "materials");
+    file.value(m.attenuationDistance, "materials");
+    file.value(m.dispersion, "materials");
+    std::uint8_t fresnel = m.fresnel;
+    file.value(fresnel, "materials");
+    if constexpr (!std::is_const_v<Values>) m.fresnel = fresnel != 0;
+    file.value(m.reflectance, "materials");
+}
+
+template <class File, class AnyMesh>
+void meshFields(File& file, AnyMesh& mesh) {
+    file.list(mesh.positions, "positions");
+    file.list(mesh.indices, "indices");
+    file.list(mesh.normals, "normals");
+    file.list(mesh.joints, "joints");
+    file.list(mesh.jointWeights, "weights of joints");
+    auto& rig = mesh.rig;
+    file.list(rig.nodes, "nodes");
+    file.list(rig.joints, "list of joints");
+    file.list(rig.jointFromMesh, "matrices of joints");
+    file.items(rig.targets, "morph targets", [&](auto& target) {
+        file.list(target.positions, "morph targets");
+        file.list(target.normals, "morph targets");
+    });
+    file.list(rig.weights, "weights of morph targets");
+    file.items(rig.channels, "channels", [&](auto& channel) {
+        file.value(channel.node, "channels");
+        file.value(channel.firstTarget, "channels");
+        file.value(channel.path, "channels");
+        file.value(channel.interpolation, "channels");
+        file.list(channel.times, "times");
+        file.list(channel.values, "values over time");
+    });
+    file.value(rig.duration, "duration");
+    file.items(mesh.parts, "parts", [&](auto& part) {
+        file.list(part.material, "names of materials");
+        file.value(part.firstIndex, "parts");
+        file.value(part.indexCount, "parts");
+        materialFields(file, part.values);
+    });
+}
+
+bool isFinite(float x) { return std::isfinite(x); }
+template <int N>
+bool isFinite(const glm::vec<N, float>& v) {
+    for (int i = 0; i < N; ++i)
+        if (!std::isfinite(v[i])) return false;
+    return true;
+}
+bool isFinite(const glm::quat& q) { return isFinite(vec4(q.x, q.y, q.z, q.w)); }
+bool isFinite(const mat4& m) { return isFinite(m[0]) && isFinite(m[1]) && isFinite(m[2]) && isFinite(m[3]); }
+
+// Normals and weights of joints are stored rounded, often to 8 or 16 bits.
+constexpr float kUnitTolerance = 1e-2f;
+
+/// What keeps a mesh from being used; the first thing that is wrong stays.
+class Checker {
+public:
+    explicit Checker(const Mesh& mesh) : mesh_(mesh), rig_(mesh.rig) {}
+
+    /// Empty for a sound mesh, else "what was found; what was expected".
+    std::string check() {
+        triangles();
+        vertices();
+        bones();
+        morphs();
+        for (std::size_t i = 0; i < rig_.channels.size(); ++i)
+            channel(rig_.channels[i], "channel " + std::to_string(i));
+        if (!(rig_.duration >= 0 && isFinite(rig_.duration)))
+            wrong("lasts " + std::to_string(rig_.duration) + " s; must be 0 or more");
+        parts();
+        return wrong_;
+    }
+
+private:
+    void wrong(const std::string& what) {
+        if (wrong_.empty()) wrong_ = what;
+    }
+    template <class List>
+    void finite(const List& values, const std::string& what) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (!isFinite(values[i]))
+                return wrong(what + " " + std::to_string(i) + " is not finite; must be");
+    }
+    // Lists of which there is one entry for each of another.
+    void sameLength(std::size_t found, const std::string& what, std::size_t expected) {
+        if (found != expected)
+            wrong("has " + std::to_string(found) + " " + what + "; must have " + std::to_string(expected));
+    }
+    void below(std::int64_t index, std::size_t end, const std::string& what, const std::string& list) {
+        if (index < 0 || index >= std::int64_t(end))
+            wrong(what + " " + std::to_string(index) + " points outside the " + std::to_string(end) + " " +
+                  list + "; must be smaller");
+    }
+
+    void triangles() {
+        const std::size_t count = mesh_.indices.size();
+        if (count == 0 || count % 3)
+            wrong("has " + std::to_string(count) + " indices; must be three a triangle, at least one");
+        for (const std::uint32_t index : mesh_.indices)
+            if (index >= mesh_.positions.size())
+                return below(index, mesh_.positions.size(), "index", "positions");
+    }
+
+    void vertices() {
+        const std::size_t count = mesh_.positions.size();
+        finite(mesh_.positions, "position");
+        if (!mesh_.normals.empty()) sameLength(mesh_.normals.size(), "normals", count);
+        for (std::size_t i = 0; i < mesh_.normals.size(); ++i) {
+            const float length = glm::length(mesh_.normals[i]);
+            if (!(std::abs(length - 1) <= kUnitTolerance))
+                return wrong("normal " + std::to_string(i) + " has length " + std::to_string(length) +
+                             "; must be 1");
+        }
+        if (!mesh_.joints.empty()) sameLength(mesh_.joints.size(), "joints of positions", count);
+        sameLength(mesh_.jointWeights.size(), "weights of joints", mesh_.joints.size());
+        for (const auto& four : mesh_.joints)
+            for (const std::uint16_t joint : four)
+                if (joint >= rig_.joints.size()) return below(joint, rig_.joints.size(), "joint", "joints");
+        for (std::size_t i = 0; i < mesh_.jointWeights.size(); ++i) {
+            const vec4 w = mesh_.jointWeights[i];
+            const float sum = w.x + w.y + w.z + w.w;
+            if (!(std::abs(sum - 1) <= kUnitTolerance && glm::all(glm::greaterThanEqual(w, vec4(0)))))
+                return wrong("weights of joints " + std::to_string(i) + " are negative or sum to " +
+                             std::to_string(sum) + "; must be 0 or more and sum to 1");
+        }
+    }
+
+    void bones() {
+        for (std::size_t i = 0; i < rig_.nodes.size(); ++i) {
+            const Node& node = rig_.nodes[i];
+            if (node.parent < -1 || node.parent >= std::int64_t(i))
+                wrong("node " + std::to_string(i) + " has parent " + std::to_string(node.parent) +
+                      "; must be a node before it, or -1");
+            if (!isFinite(node.translate) || !isFinite(node.rotate) || !isFinite(node.scale))
+                wrong("node " + std::to_string(i) + " is not finite; must be");
+        }
+        for (const int joint : rig_.joints)
+            below(joint, rig_.nodes.size(), "joint of node", "nodes");
+        sameLength(rig_.jointFromMesh.size(), "matrices of joints", rig_.joints.size());
+        finite(rig_.jointFromMesh, "matrix of joint");
+    }
+
+    void morphs() {
+        sameLength(rig_.weights.size(), "weights of morph targets", rig_.targets.size());
+        finite(rig_.weights, "weight of morph target");
+        for (std::size_t i = 0; i < rig_.targets.size(); ++i) {
+            const MorphTarget& target = rig_.targets[i];
+            const std::string name = "morph target " + std::to_string(i) + ": ";
+            const std::size_t count = mesh_.positions.size();
+            if (target.positions.size() != count ||
+                (!target.normals.empty() && target.normals.size() != count))
+                wrong(name + "has " + std::to_string(target.positions.size()) + " positions and " +
+                      std::to_string(target.normals.size()) + " normals; must have " + std::to_string(count) +
+                      " positions, and as many normals or none");
+            finite(target.positions, name + "position");
+            finite(target.normals, name + "normal");
+        }
+    }
+
+    void channel(const Channel& c, const std::string& name) {
+        const bool cubic = c.interpolation == Channel::Interpolation::CubicSpline;
+        if (int(c.path) < 0 || c.path > Channel::Path::Weights || int(c.interpolation) < 0 ||
+            c.interpolation > Channel::Interpolation::CubicSpline)
+            return wrong(name + " has path " + std::to_string(int(c.path)) + " and interpolation " +
+                         std::to_string(int(c.interpolation)) + "; must be 0 to 3 and 0 to 2");
+        if (c.times.empty()) return wrong(name + " has no times; must have at least one");
+        finite(c.times, name + ": time");
+        finite(c.values, name + ": value");
+        for (std::size_t i = 1; i < c.times.size(); ++i)
+            if (c.times[i] <= c.times[i - 1])
+                return wrong(name + ": time " + std::to_string(i) + " is not behind the one before; must be");
+        const std::size_t keys = c.times.size() * (cubic ? 3 : 1), width = c.width();
+        if (width == 0 || c.values.size() != keys * width)
+            return wrong(name + " has " + std::to_string(c.values.size()) + " values at " +
+                         std::to_string(c.times.size()) + " times; must be " +
+                         (c.path == Channel::Path::Weights ? "a multiple of " + std::to_string(keys)
+                                                           : std::to_string(keys * width)));
+        if (c.path != Channel::Path::Weights)
+            return below(c.node, rig_.nodes.size(), name + ": node", "nodes");
+        below(c.firstTarget, rig_.targets.size(), name + ": morph target", "morph targets");
+        below(c.firstTarget + std::int64_t(width) - 1, rig_.targets.size(), name + ": morph target",
+              "morph targets");
+    }
+
+    void parts() {
+        std::set<std::string_view> names;
+        std::uint64_t end = 0;
+        for (const Mesh::Part& part : mesh_.parts) {
+            const std::string name = "part \"" + part.material + "\"";
+            if (part.material.empty() || !names.insert(part.material).second)
+                wrong(name + " has the name of another or none; must have one of its own");
+            if (part.firstIndex != end || part.indexCount == 0 || part.indexCount % 3)
+                wrong(name + " begins at index " + std::to_string(part.firstIndex) + " and has " +
+                      std::to_string(part.indexCount) + "; must begin at " + std::to_string(end) +
+                      " and have three a triangle");
+            end = std::uint64_t(part.firstIndex) + part.indexCount;
+            const Material& m = part.values;
+            const bool sound = isFinite(m.base) && isFinite(m.diffuse) && isFinite(m.specular) &&
+                               isFinite(m.specularity) && isFinite(m.forwardScatter) && isFinite(m.depth) &&
+                               isFinite(m.specularFalloff) && isFinite(m.scatterFalloff) &&
+                               isFinite(m.transmission) && isFinite(m.ior) && isFinite(m.attenuationColor) &&
+                               isFinite(m.attenuationDistance) && isFinite(m.dispersion) &&
+                               isFinite(m.reflectance);
+            if (!sound || !(m.ior > 0))
+                wrong(name + " has a value that is not finite or an ior of 0 or less; must not");
+        }
+        if (!mesh_.parts.empty() && end != mesh_.indices.size())
+            wrong("its parts end at index " + std::to_string(end) + "; must end at " +
+                  std::to_string(mesh_.indices.size()));
+    }
+
+    const Mesh& mesh_;
+    const Rig& rig_;
+    std::string wrong_;
+};
+
+} // namespace
+
+bool isMesh(std::span<const std::byte> bytes) {
+    return bytes.size() >= kMagic.size() && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
+}
+
+Bytes encodeMesh(const Mesh& mesh) {
+    Writer file;
+    for (const char letter : kMagic)
+        file.value(letter, "");
+    meshFields(file, mesh);
+    return file.take();
+}
+
+Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& name) {
+    if (!isMesh(bytes))
+        return Error{name + ": is no mesh file; must be glTF 2.0, OBJ or start with " + std::string(kMagic)};
+    Reader file(bytes.subspan(kMagic.size()));
+    Mesh mesh;
+    meshFields(file, mesh);
+    if (!file.missing().empty()) return Error{name + ": " + file.missing()};
+    if (file.left() > 0)
+        return Error{name + ": " + std::to_string(file.left()) + " bytes follow the mesh; must be none"};
+    if (const std::string wrong = Checker(mesh).check(); !wrong.empty()) return Error{name + ": " + wrong};
+    return mesh;
+}
+
+} // namespace lucent::scene

@@ -1,0 +1,116 @@
+#include "scene/readers/GltfMaterial.h"
+
+#include <algorithm>
+
+namespace lucent::scene {
+namespace {
+
+constexpr std::string_view kTransmission = "KHR_materials_transmission", kIor = "KHR_materials_ior",
+                           kVolume = "KHR_materials_volume", kDispersion = "KHR_materials_dispersion",
+                           kStrength = "KHR_materials_emissive_strength";
+constexpr std::string_view kKnown[] = {kTransmission, kIor,      kVolume,
+                                       kDispersion,   kStrength, "KHR_mesh_quantization"};
+
+vec3 rgb(const std::vector<double>& values, vec3 otherwise) {
+    return values.size() < 3 ? otherwise : vec3(values[0], values[1], values[2]);
+}
+
+class MaterialReader {
+public:
+    MaterialReader(const tinygltf::Material& gltf, std::set<std::string>& unread)
+        : gltf_(gltf), unread_(unread) {}
+
+    Material read() {
+        const tinygltf::PbrMetallicRoughness& pbr = gltf_.pbrMetallicRoughness;
+        const vec3 color = rgb(pbr.baseColorFactor, vec3(1));
+        Material m;
+        m.diffuse = color;
+        m.ior = number(kIor, "ior", 1.5f);
+        m.transmission = number(kTransmission, "transmissionFactor", 0) * float(1 - pbr.metallicFactor);
+        m.dispersion = number(kDispersion, "dispersion", 0);
+        readEmission(m);
+
+        const bool smoothMetal = pbr.metallicFactor == 1 && pbr.roughnessFactor == 0;
+        if (m.ior == 0) {
+            m.reflectance = vec3(1);
+        } else if (smoothMetal) {
+            m.reflectance = color;
+        } else {
+            nameWhen(pbr.metallicFactor > 0 && !saysNothing(), "metallicFactor");
+            nameWhen(m.isRefractive() ? pbr.roughnessFactor > 0 : pbr.roughnessFactor < 1, "roughnessFactor");
+        }
+        if (m.isMirror()) { // reflects everything: nothing gets inside
+            m.ior = Material{}.ior;
+            m.transmission = 0;
+        }
+        if (m.isRefractive()) {
+            nameWhen(color != vec3(1), "baseColorFactor of what light passes through");
+            readVolume(m);
+        }
+        nameTextures();
+        nameWhen(gltf_.alphaMode != "OPAQUE", "alphaMode " + gltf_.alphaMode);
+        return m;
+    }
+
+private:
+    void nameWhen(bool found, const std::string& property) {
+        if (found) unread_.insert(property);
+    }
+
+    // A file without a word about its surface gets glTF's defaults, a rough metal.
+    bool saysNothing() const {
+        return gltf_.pbrMetallicRoughness.metallicFactor == 1 &&
+               gltf_.pbrMetallicRoughness.roughnessFactor == 1 && gltf_.extensions.empty();
+    }
+
+    const tinygltf::Value* property(std::string_view extension, const char* key) const {
+        const auto found = gltf_.extensions.find(std::string(extension));
+        return found != gltf_.extensions.end() && found->second.Has(key) ? &found->second.Get(key) : nullptr;
+    }
+
+    float number(std::string_view extension, const char* key, float otherwise) const {
+        const tinygltf::Value* value = property(extension, key);
+        return value && value->IsNumber() ? float(value->GetNumberAsDouble()) : otherwise;
+    }
+
+    void readEmission(Material& m) {
+        if (gltf_.emissiveTexture.index < 0)
+            m.base = rgb(gltf_.emissiveFactor, vec3(0)) * number(kStrength, "emissiveStrength", 1);
+    }
+
+    // The thickness itself, and its texture, are of use to rasterisers alone: here light takes its true way.
+    void readVolume(Material& m) {
+        if (!(number(kVolume, "thicknessFactor", 0) > 0)) {
+            m.ior = 1;
+            m.dispersion = 0;
+            unread_.insert("the reflection of thin walls (KHR_materials_volume.thicknessFactor 0)");
+            return;
+        }
+        m.attenuationDistance = number(kVolume, "attenuationDistance", 0); // not said: infinite, our 0
+        const tinygltf::Value* color = property(kVolume, "attenuationColor");
+        for (std::size_t c = 0; color && c < std::min<std::size_t>(color->ArrayLen(), 3); ++c)
+            m.attenuationColor[int(c)] = float(color->Get(int(c)).GetNumberAsDouble());
+    }
+
+    void nameTextures() {
+        nameWhen(gltf_.pbrMetallicRoughness.baseColorTexture.index >= 0, "baseColorTexture");
+        nameWhen(gltf_.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0, "metallicRoughnessTexture");
+        nameWhen(gltf_.normalTexture.index >= 0, "normalTexture");
+        nameWhen(gltf_.occlusionTexture.index >= 0, "occlusionTexture");
+        nameWhen(gltf_.emissiveTexture.index >= 0, "emissiveTexture");
+        nameWhen(property(kTransmission, "transmissionTexture"), "transmissionTexture");
+    }
+
+    const tinygltf::Material& gltf_;
+    std::set<std::string>& unread_;
+};
+
+} // namespace
+
+std::span<const std::string_view> knownGltfExtensions() { return kKnown; }
+
+Material materialOf(const tinygltf::Material& gltf, std::set<std::string>& unread) {
+    return MaterialReader(gltf, unread).read();
+}
+
+} // namespace lucent::scene

@@ -1,0 +1,30 @@
+#pragma once
+/// What a glTF material says in our words.
+
+#include "scene/Scene.h"
+#include "scene/readers/TinyGltf.h"
+
+#include <set>
+#include <string>
+
+namespace lucent::scene {
+
+/// Names of extensions that readers understand wholly or in part.
+std::span<const std::string_view> knownGltfExtensions();
+
+/// Base colour, emission and the KHR extensions for transmission, ior, volume, dispersion, emissive strength.
+///
+/// - Only what is not metal lets light through: the transmission is transmissionFactor (1 - metallicFactor).
+/// - An `ior` of 0 stands for an infinite one, whose Fresnel reflectance is 1 at every angle: a mirror.
+/// - A smooth metal (metallicFactor 1, roughnessFactor 0) is a mirror of its colour; that a metal grows paler
+///   towards grazing angles is left out.
+/// - A transmissive material with thicknessFactor 0 is thin-walled: glTF lets light pass unbent, without way
+///   through a medium. It becomes a medium of ior 1 without absorption; its reflection is left out and named
+///   on stderr.
+/// - A colour beside a texture that is not read counts alone; emission beside one, which such a texture
+///   mostly blackens, counts nothing.
+///
+/// @param unread  takes the names of properties that were found and not read
+Material materialOf(const tinygltf::Material& gltf, std::set<std::string>& unread);
+
+} // namespace lucent::scene

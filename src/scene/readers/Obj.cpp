@@ -1,0 +1,375 @@
+#include "scene/readers/Obj.h"
+
+#include "base/Log.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <unordered_map>
+
+namespace lucent::scene {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(kBlanks);
+    if (begin == text.npos) return {};
+    return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+// Takes the first word off a line.
+std::string_view nextWord(std::string_view& line) {
+    line = trimmed(line);
+    const std::string_view word = line.substr(0, std::min(line.find_first_of(kBlanks), line.size()));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+/// Gives a text line by line: comments left out, lines that end in a backslash joined.
+class Lines {
+public:
+    explicit Lines(std::span<const std::byte> bytes)
+        : rest_(reinterpret_cast<const char*>(bytes.data()), bytes.size()) {}
+
+    /// False at the end; the line stays valid until the next call.
+    bool next(std::string_view& line) {
+        joined_.clear();
+        while (!rest_.empty()) {
+            line = takeLine();
+            const bool goesOn = line.ends_with('\\');
+            if (goesOn) line.remove_suffix(1);
+            if (goesOn || !joined_.empty()) {
+                joined_.append(line).append(" ");
+                line = joined_;
+            }
+            if (!goesOn) return true;
+        }
+        line = joined_;
+        return !joined_.empty();
+    }
+    int number() const { return number_; }
+
+private:
+    std::string_view takeLine() {
+        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+        const std::string_view line = rest_.substr(0, end);
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        ++number_;
+        return trimmed(line.substr(0, line.find('#')));
+    }
+    std::string_view rest_;
+    std::string joined_;
+    int number_ = 0;
+};
+
+std::optional<float> toNumber(std::string_view word) {
+    char text[64]; // strtod wants an end; no number is longer
+    if (word.empty() || word.size() >= sizeof text) return {};
+    text[word.copy(text, sizeof text - 1)] = 0;
+    char* end = nullptr;
+    const float number = std::strtof(text, &end);
+    return end == text + word.size() ? std::optional(number) : std::nullopt;
+}
+
+/// Reads values of lines and remembers what was wrong with the first bad one.
+class LineReader {
+public:
+    LineReader(const std::string& name, std::span<const std::byte> bytes) : name_(name), lines_(bytes) {}
+
+    bool next(std::string_view& keyword, std::string_view& rest) {
+        while (error_.empty() && lines_.next(rest))
+            if (keyword = nextWord(rest); !keyword.empty()) return true;
+        return false;
+    }
+    void fail(const std::string& what) {
+        if (error_.empty()) error_ = name_ + ":" + std::to_string(lines_.number()) + ": " + what;
+    }
+    vec3 vector(std::string_view keyword, std::string_view& rest) {
+        vec3 v(0);
+        for (int i = 0; i < 3; ++i)
+            v[i] = number(keyword, rest);
+        return v;
+    }
+    float number(std::string_view keyword, std::string_view& rest) {
+        const std::string_view word = nextWord(rest);
+        const std::optional<float> value = toNumber(word);
+        if (!value) fail(std::string(keyword) + " has \"" + std::string(word) + "\"; must be a number");
+        return value.value_or(0);
+    }
+    const std::string& error() const { return error_; }
+
+private:
+    const std::string& name_;
+    Lines lines_;
+    std::string error_;
+};
+
+using Materials = std::map<std::string, Material, std::less<>>;
+using Names = std::set<std::string>;
+
+// What Wavefront's material format says that means the same here.
+Status readMaterials(const std::string& name, std::span<const std::byte> bytes, Materials& materials,
+                     Names& unread) {
+    LineReader lines(name, bytes);
+    Material* material = nullptr;
+    std::string_view keyword, rest;
+    while (lines.next(keyword, rest)) {
+        if (keyword == "newmtl") {
+            material = &materials[std::string(trimmed(rest))];
+            material->ior = 1; // the format's default
+        } else if (!material) {
+            lines.fail(std::string(keyword) + " comes before a material; must follow newmtl");
+        } else if (keyword == "Kd") {
+            material->diffuse = lines.vector(keyword, rest);
+        } else if (keyword == "Ke") {
+            material->base = lines.vector(keyword, rest);
+        } else if (keyword == "Ni") {
+            material->ior = lines.number(keyword, rest);
+            if (!(material->ior > 0))
+                lines.fail("Ni is " + std::to_string(material->ior) + "; must be above 0");
+        } else if (keyword == "d" || keyword == "Tr") { // how solid it is, or how clear
+            const float part = lines.number(keyword, rest);
+            if (!(part >= 0 && part <= 1))
+                lines.fail(std::string(keyword) + " is " + std::to_string(part) + "; must be in [0, 1]");
+            material->transmission = keyword == "d" ? 1 - part : part;
+        } else if (keyword != "Ka" &&
+                   keyword != "illum") { // light of renderers past, and their choice of terms
+            unread.insert(std::string(keyword));
+        }
+    }
+    if (!lines.error().empty()) return Error{lines.error()};
+    return Done{};
+}
+
+// Triangles of a polygon, as places in its list of corners: ears are cut off as long as there are any, and
+// what is left, folded or without area, is cut from its first corner. Nothing is lost.
+std::vector<std::array<std::size_t, 3>> triangulate(const std::vector<dvec3>& corners) {
+    std::vector<std::array<std::size_t, 3>> triangles;
+    dvec3 normal(0);
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        normal += glm::cross(corners[i], corners[(i + 1) % corners.size()]);
+        left.push_back(i);
+    }
+    const auto turn = [&](std::size_t a, std::size_t b, std::size_t c) {
+        return glm::dot(glm::cross(corners[b] - corners[a], corners[c] - corners[a]), normal);
+    };
+    const auto isEar = [&](std::size_t at) {
+        const std::size_t a = left[(at + left.size() - 1) % left.size()], b = left[at],
+                          c = left[(at + 1) % left.size()];
+        return turn(a, b, c) > 0 && std::none_of(left.begin(), left.end(), [&](std::size_t p) {
+                   return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
+                          turn(c, a, p) >= 0;
+               });
+    };
+    while (left.size() > 3) {
+        std::size_t ear = 0;
+        while (ear < left.size() && !isEar(ear))
+            ++ear;
+        if (ear == left.size()) break;
+        triangles.push_back(
+            {left[(ear + left.size() - 1) % left.size()], left[ear], left[(ear + 1) % left.size()]});
+        left.erase(left.begin() + std::ptrdiff_t(ear));
+    }
+    for (std::size_t i = 1; i + 1 < left.size(); ++i)
+        triangles.push_back({left[0], left[i], left[i + 1]});
+    return triangles;
+}
+
+class ObjReader {
+public:
+    ObjReader(const std::string& name, std::span<const std::byte> bytes) : name_(name), lines_(name, bytes) {}
+
+    Result<Mesh> read(Materials materials, Names unread) {
+        unread_ = std::move(unread);
+        std::string_view keyword, rest;
+        while (lines_.next(keyword, rest))
+            readLine(keyword, rest);
+        if (!lines_.error().empty()) return Error{lines_.error()};
+        finishNormals();
+        finishParts(materials);
+        if (mesh_.indices.empty()) return Error{name_ + ": holds no faces; must hold at least one"};
+        std::string names;
+        for (const std::string& what : unread_)
+            names += (names.empty() ? "" : ", ") + what;
+        if (!names.empty()) warnOnce(name_ + ": not read: " + names);
+        return std::move(mesh_);
+    }
+
+private:
+    /// A vertex of ours: a position with a normal, -1 for none.
+    struct Corner {
+        std::int64_t position = -1, normal = -1;
+        bool operator==(const Corner&) const = default;
+    };
+    struct Hash {
+        std::size_t operator()(const Corner& c) const {
+            return std::size_t(c.position) * 1000003u ^ std::size_t(c.normal);
+        }
+    };
+
+    void readLine(std::string_view keyword, std::string_view rest) {
+        if (keyword == "v") {
+            positions_.push_back(lines_.vector(keyword, rest));
+            nextWord(rest); // a weight, of use to curves only
+            if (!trimmed(rest).empty()) unread_.insert("colours of vertices");
+        } else if (keyword == "vn") {
+            normals_.push_back(lines_.vector(keyword, rest));
+        } else if (keyword == "f") {
+            readFace(rest);
+        } else if (keyword == "usemtl") {
+            indices_ = &partNamed(trimmed(rest));
+            hasMaterials_ = true;
+        } else if (keyword == "s") {
+            hasSmoothing_ = true;
+        } else if (keyword == "p" || keyword == "l") {
+            unread_.insert("points and lines");
+        } else if (keyword != "vt" && keyword != "g" && keyword != "o" && keyword != "mtllib") {
+            unread_.insert(std::string(keyword));
+        }
+    }
+
+    std::vector<std::uint32_t>& partNamed(std::string_view name) {
+        if (name.empty()) name = "default";
+        for (auto& [known, indices] : parts_)
+            if (known == name) return indices;
+        return parts_.emplace_back(name, std::vector<std::uint32_t>()).second;
+    }
+
+    void readFace(std::string_view rest) {
+        face_.clear();
+        points_.clear();
+        for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
+            const std::size_t first = std::min(word.find('/'), word.size()),
+                              second = std::min(word.find('/', first + 1), word.size());
+            Corner corner{place(word.substr(0, first), positions_.size(), "position"), -1};
+            if (second < word.size())
+                corner.normal = place(word.substr(second + 1), normals_.size(), "normal");
+            if (!lines_.error().empty()) return;
+            face_.push_back(vertex(corner));
+            points_.emplace_back(positions_[std::size_t(corner.position)]);
+        }
+        if (face_.size() < 3)
+            return lines_.fail("f has " + std::to_string(face_.size()) + " corners; must have three or more");
+        if (!indices_) indices_ = &partNamed("");
+        for (const std::array<std::size_t, 3>& triangle : triangulate(points_))
+            for (const std::size_t corner : triangle)
+                indices_->push_back(face_[corner]);
+    }
+
+    // Places count from 1, or backwards from the end.
+    std::int64_t place(std::string_view word, std::size_t count, const char* what) {
+        std::int64_t number = 0;
+        const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
+        const std::int64_t index = number < 0 ? number + std::int64_t(count) : number - 1;
+        if (problem != std::errc() || end != word.data() + word.size() || number == 0 || index < 0 ||
+            index >= std::int64_t(count))
+            lines_.fail("f names " + std::string(what) + " \"" + std::string(word) +
+                        "\"; must be one of the " + std::to_string(count) + " before it");
+        return index;
+    }
+
+    std::uint32_t vertex(const Corner& corner) {
+        const auto [known, isNew] = vertices_.emplace(corner, std::uint32_t(mesh_.positions.size()));
+        if (isNew) {
+            mesh_.positions.push_back(positions_[std::size_t(corner.position)]);
+            mesh_.normals.push_back(corner.normal < 0 ? vec3(0) : normals_[std::size_t(corner.normal)]);
+        }
+        return known->second;
+    }
+
+    // Those that the file leaves out, or gives no direction, follow from the triangles.
+    void finishNormals() {
+        std::vector<std::uint32_t> all;
+        for (const auto& [name, indices] : parts_)
+            all.insert(all.end(), indices.begin(), indices.end());
+        const std::vector<vec3> found = areaWeightedNormals(mesh_.positions, all);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const float length = glm::length(mesh_.normals[i]);
+            mesh_.normals[i] = length == 0 ? found[i] : mesh_.normals[i] / length;
+            if (length == 0 && hasSmoothing_) unread_.insert("smoothing groups");
+        }
+    }
+
+    void finishParts(const Materials& materials) {
+        for (const auto& [name, indices] : parts_) {
+            if (indices.empty()) continue;
+            const auto material = materials.find(name);
+            if (hasMaterials_)
+                mesh_.parts.push_back({name, std::uint32_t(mesh_.indices.size()),
+                                       std::uint32_t(indices.size()),
+                                       material == materials.end() ? Material() : material->second});
+            mesh_.indices.insert(mesh_.indices.end(), indices.begin(), indices.end());
+        }
+    }
+
+    const std::string& name_;
+    LineReader lines_;
+    std::vector<vec3> positions_, normals_;
+    std::unordered_map<Corner, std::uint32_t, Hash> vertices_;
+    std::vector<std::pair<std::string, std::vector<std::uint32_t>>> parts_; // by material, as they come
+    std::vector<std::uint32_t>* indices_ = nullptr;                         // of the part that faces go to
+    std::vector<std::uint32_t> face_;
+    std::vector<dvec3> points_;
+    Names unread_;
+    bool hasSmoothing_ = false, hasMaterials_ = false;
+    Mesh mesh_;
+};
+
+} // namespace
+
+bool isObj(const std::string& name) { return name.ends_with(".obj") || name.ends_with(".OBJ"); }
+
+std::vector<std::string> materialFilesOf(std::span<const std::byte> bytes) {
+    std::vector<std::string> files;
+    Lines lines(bytes);
+    for (std::string_view line; lines.next(line);)
+        if (nextWord(line) == "mtllib") files.emplace_back(trimmed(line));
+    return files;
+}
+
+Result<Mesh> readObj(const std::string& name, std::span<const std::byte> bytes, const ReadFile& read) {
+    Materials materials;
+    Names unread;
+    for (const std::string& file : materialFilesOf(bytes)) {
+        const std::string path = resolvePath(name, file);
+        const Result<Bytes> text = read(path);
+        if (!text) {
+            unread.insert("materials (" + text.error().message + ")");
+            continue;
+        }
+        if (Status done = readMaterials(path, *text, materials, unread); !done) return done.error();
+    }
+    return ObjReader(name, bytes).read(std::move(materials), std::move(unread));
+}
+
+Bytes encodeObj(const Mesh& mesh) {
+    std::string text;
+    char line[128];
+    const auto vectors = [&](const char* format, const std::vector<vec3>& values) {
+        for (const vec3& v : values)
+            text.append(line, std::size_t(std::snprintf(line, sizeof line, format, double(v.x), double(v.y),
+                                                        double(v.z))));
+    };
+    vectors("v %.9g %.9g %.9g\n", mesh.positions);
+    vectors("vn %.9g %.9g %.9g\n", mesh.normals);
+    auto part = mesh.parts.begin();
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        if (part != mesh.parts.end() && part->firstIndex == i) text += "usemtl " + (part++)->material + "\n";
+        const std::uint32_t a = mesh.indices[i] + 1, b = mesh.indices[i + 1] + 1, c = mesh.indices[i + 2] + 1;
+        const int length = mesh.normals.empty() ? std::snprintf(line, sizeof line, "f %u %u %u\n", a, b, c)
+                                                : std::snprintf(line, sizeof line, "f %u//%u %u//%u %u//%u\n",
+                                                                a, a, b, b, c, c);
+        text.append(line, std::size_t(length));
+    }
+    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+    return Bytes(begin, begin + text.size());
+}
+
+} // namespace lucent::scene

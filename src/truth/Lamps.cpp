@@ -1,0 +1,204 @@
+#include "truth/Lamps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lucent::truth {
+
+namespace {
+constexpr double kTwoPi = 2 * std::numbers::pi;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+LightPath wayTo(const dvec3& place, const dvec3& from) {
+    const double distance = glm::distance(place, from);
+    return {distance > 0 ? (place - from) / distance : dvec3(0, 1, 0), distance};
+}
+
+/// Two unit vectors perpendicular to a unit vector and to each other.
+glm::dmat2x3 across(const dvec3& axis) {
+    const dvec3 aside = std::abs(axis.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+    const dvec3 first = glm::normalize(glm::cross(axis, aside));
+    return {first, glm::cross(axis, first)};
+}
+
+/// Directions from a point that meet a ball: a cone, or all of them from inside.
+struct BallCone {
+    dvec3 axis{0, 1, 0};
+    double gape = 2; ///< 1 - cosine of half the opening
+    BallCone(const dvec3& from, const Sphere& ball) {
+        const auto [direction, distance] = wayTo(ball.center, from);
+        if (distance <= ball.radius) return;
+        const double sine = ball.radius / distance;
+        axis = direction;
+        gape = sine * sine / (1 + std::sqrt((1 - sine) * (1 + sine)));
+    }
+    bool holds(const dvec3& direction) const {
+        const dvec3 apart = direction - axis; // its squared length is 2 (1 - cosine)
+        return gape >= 2 || 0.5 * glm::dot(apart, apart) <= gape;
+    }
+    double solidAngle() const { return kTwoPi * gape; }
+    dvec3 direction(dvec2 within) const {
+        const double down = within.x * gape, sine = std::sqrt(down * (2 - down));
+        const double angle = kTwoPi * within.y;
+        return glm::normalize((1 - down) * axis +
+                              across(axis) * (sine * dvec2(std::cos(angle), std::sin(angle))));
+    }
+};
+
+std::size_t anyOf(std::size_t count, Random& random) {
+    return std::min(std::size_t(random.next() * double(count)), count - 1);
+}
+} // namespace
+
+Lamp::Lamp(const scene::Light& light) {
+    if (const auto source = sourceOf(light)) source_ = *source;
+    if (const auto* spot = std::get_if<scene::SpotLight>(&light)) {
+        source_.place = dvec3(spot->position);
+        source_.inverseSquare = true;
+        source_.color = double(spot->intensity) * dvec3(spot->color);
+        const double inner = std::cos(double(spot->innerAngle) * kTwoPi / 360);
+        const double outer = std::cos(double(spot->outerAngle) * kTwoPi / 360);
+        const double scale = 1 / std::max(0.001, inner - outer);
+        cone_ = {glm::normalize(dvec3(spot->direction)), scale, -outer * scale};
+    }
+    if (const auto* area = std::get_if<scene::AreaLight>(&light)) {
+        const dvec3 u(area->edgeU), v(area->edgeV), normal = glm::cross(u, v);
+        panel_ = {dvec3(area->corner),
+                  u,
+                  v,
+                  glm::normalize(normal),
+                  glm::length(normal),
+                  double(area->radiance) * dvec3(area->color)};
+    }
+}
+
+double Lamp::inCone(const dvec3& direction) const {
+    if (!cone_) return 1;
+    const double share =
+        std::clamp(glm::dot(direction, cone_->axis) * cone_->scale + cone_->offset, 0.0, 1.0);
+    return share * share;
+}
+
+LampLight Lamp::light(const dvec3& place, dvec2 within) const {
+    if (panel_) {
+        const LightPath way =
+            wayTo(panel_->corner + within.x * panel_->edgeU + within.y * panel_->edgeV, place);
+        const double cosine = std::max(0.0, -glm::dot(way.direction, panel_->normal));
+        return {way, panel_->radiance * (panel_->area * cosine / (way.distance * way.distance))};
+    }
+    const LightSource point = source_.radius > 0 ? pointOnDisc(source_, place, placeInDisc(within)) : source_;
+    if (point.distant) return {{point.place, kInfinity}, point.color};
+    const LightPath way = wayTo(point.place, place);
+    const double fall = point.inverseSquare ? way.distance * way.distance : 1;
+    return {way, point.color * (inCone(-way.direction) / fall)};
+}
+
+Emission Lamp::emit(std::span<const Sphere> targets, Random& random) const {
+    if (source_.distant) return emitFromAfar(targets, random);
+    const dvec2 within = random.nextPair();
+    if (panel_) {
+        const dvec3 origin = panel_->corner + within.x * panel_->edgeU + within.y * panel_->edgeV;
+        Emission emission = emitFrom(origin, targets, random);
+        const double cosine = std::max(0.0, glm::dot(emission.direction, panel_->normal));
+        emission.flux *= panel_->radiance * (panel_->area * cosine);
+        return emission;
+    }
+    const std::size_t aim = anyOf(targets.size(), random);
+    const dvec3 origin = source_.radius > 0
+                             ? pointOnDisc(source_, targets[aim].center, placeInDisc(within)).place
+                             : source_.place;
+    Emission emission = emitFrom(origin, targets, random);
+    emission.flux *= source_.color * inCone(emission.direction);
+    emission.fades = source_.inverseSquare;
+    return emission;
+}
+
+/// `flux` is one over the density of directions.
+Emission Lamp::emitFrom(const dvec3& origin, std::span<const Sphere> targets, Random& random) const {
+    const dvec3 direction =
+        BallCone(origin, targets[anyOf(targets.size(), random)]).direction(random.nextPair());
+    double density = 0;
+    for (const Sphere& target : targets)
+        if (const BallCone cone(origin, target); cone.holds(direction)) density += 1 / cone.solidAngle();
+    density /= double(targets.size());
+    return {origin, direction, 0, dvec3(density > 0 ? 1 / density : 0)};
+}
+
+Emission Lamp::emitFromAfar(std::span<const Sphere> targets, Random& random) const {
+    const dvec2 within = random.nextPair();
+    const dvec3 back =
+        source_.radius > 0 ? pointOnDisc(source_, dvec3(0), placeInDisc(within)).place : source_.place;
+    const Sphere& aim = targets[anyOf(targets.size(), random)];
+    const dvec3 origin = aim.center + across(back) * (aim.radius * placeInDisc(random.nextPair()));
+    double density = 0;
+    for (const Sphere& target : targets)
+        if (glm::length(glm::cross(origin - target.center, back)) <= target.radius)
+            density += 2 / (kTwoPi * target.radius * target.radius);
+    density /= double(targets.size());
+    return {origin, -back, -kInfinity, density > 0 ? source_.color / density : dvec3(0)};
+}
+
+std::optional<dvec3> Lamp::place() const {
+    if (panel_) return panel_->corner + 0.5 * (panel_->edgeU + panel_->edgeV);
+    return source_.distant ? std::nullopt : std::optional(source_.place);
+}
+
+Illumination::Illumination(const scene::Scene& scene, const Optics& optics)
+    : optics_(&optics), lamps_(scene.lights.begin(), scene.lights.end()) {
+    if (const auto environment = shiningEnvironment(scene, false))
+        around_.emplace(Around{Sky(*environment), EnvironmentSampler(*environment, Choice::ByLight)});
+}
+
+bool Illumination::isSampled() const {
+    return around_ ||
+           std::any_of(lamps_.begin(), lamps_.end(), [](const Lamp& lamp) { return lamp.isSampled(); });
+}
+
+dvec3 Illumination::irradiance(const Hit& hit, const dvec3& viewer, Random& random) const {
+    const dvec3 normal = normalTowards(hit, viewer);
+    dvec3 sum{0};
+    for (const Lamp& lamp : lamps_) {
+        const auto [way, irradiance] =
+            lamp.light(hit.position, lamp.isSampled() ? random.nextPair() : dvec2(0));
+        const double cosine = glm::dot(normal, way.direction);
+        if (cosine > 0 && irradiance != dvec3(0) && reaches(hit, way)) sum += cosine * irradiance;
+    }
+    return around_ ? sum + irradianceOfSky(hit, normal, random) : sum;
+}
+
+bool Illumination::reaches(const Hit& hit, const LightPath& way) const {
+    const Leaving leaving = leavingFrom(*optics_, hit, way.direction);
+    return !optics_->rays().occluded({hit.position, way.direction, way.distance}, leaving);
+}
+
+/// One direction chosen by the environment's light and one by the cosine, each divided by the sum of both
+/// densities (the balance heuristic, Veach, Guibas 1995): neither a small sun nor an even sky is noisy.
+dvec3 Illumination::irradianceOfSky(const Hit& hit, const dvec3& normal, Random& random) const {
+    const dvec2 onDisc = placeInDisc(random.nextPair());
+    const double up = std::sqrt(std::max(0.0, 1 - glm::dot(onDisc, onDisc)));
+    const dvec3 directions[] = {around_->directions.choose(random.nextPair()).place,
+                                glm::normalize(across(normal) * onDisc + up * normal)};
+    dvec3 sum{0};
+    for (const dvec3& direction : directions) {
+        const double cosine = glm::dot(normal, direction);
+        if (!(cosine > 0) || !reaches(hit, {direction, kInfinity})) continue;
+        const double density = around_->directions.density(direction) + cosine / std::numbers::pi;
+        sum += around_->sky.radiance(direction) * (cosine / density);
+    }
+    return sum;
+}
+
+dvec3 normalTowards(const Hit& hit, const dvec3& viewer) {
+    const double side = glm::dot(hit.normal, viewer) < 0 ? -1 : 1;
+    const dvec3 smooth = side * hit.smoothNormal;
+    return glm::dot(smooth, viewer) < 0 ? side * hit.normal : smooth;
+}
+
+Leaving leavingFrom(const Optics& optics, const Hit& hit, const dvec3& direction) {
+    const auto* block = std::get_if<FieldBlock>(&optics.rays().shape(hit.shape));
+    if (!block) return {hit.shape, optics.rays().gap()};
+    const double horizontal = glm::length(dvec2(block->placement.directionFromWorld(direction)));
+    return {hit.shape, block->field->texel() * block->placement.scale / horizontal};
+}
+
+} // namespace lucent::truth

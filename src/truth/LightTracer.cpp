@@ -1,0 +1,339 @@
+#include "truth/LightTracer.h"
+
+#include "truth/Estimate.h"
+#include "truth/Glass.h"
+#include "truth/Lamps.h"
+#include "truth/SeenPlaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace lucent::truth {
+
+namespace {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t kPhotonStream = ~std::uint64_t(0); ///< a number that no pixel has
+
+/// Something opaque that a pixel's middle shows with nothing before it.
+struct Seen {
+    Hit hit;
+    dvec3 viewer; ///< unit, to where it is seen from
+};
+std::optional<Seen> seenAt(const Optics& optics, const Eye& eye, ivec2 pixel) {
+    const Beam beam = beamFrom(eye, dvec2(pixel) + 0.5, {});
+    const auto hit = optics.rays().intersect({beam.origin, beam.direction, kInfinity, beam.begin, false});
+    if (!hit || !optics.isOpaque(hit->shape)) return {};
+    return Seen{*hit, -beam.direction};
+}
+
+/// Light that comes straight from the lamps and the environment.
+class DirectLight : public Estimator {
+public:
+    DirectLight(const Optics& optics, const Illumination& illumination, const Eye& eye, ivec2 size,
+                int samples, std::uint64_t seed)
+        : optics_(optics), illumination_(illumination), eye_(eye), size_(size),
+          samples_(illumination.isSampled() ? samples : 1), seed_(seed) {}
+
+    Pixel solve(ivec2 pixel) const override {
+        const auto seen = seenAt(optics_, eye_, pixel);
+        if (!seen) return {};
+        const auto index = std::uint64_t(pixel.y) * std::uint64_t(size_.x) + std::uint64_t(pixel.x);
+        Estimate estimate;
+        for (int i = 0; i < samples_; ++i) {
+            Random random(seed_, index, std::uint64_t(i));
+            estimate.add(illumination_.irradiance(seen->hit, seen->viewer, random));
+        }
+        return {estimate.mean(), estimate.varianceOfMean(), 1};
+    }
+
+private:
+    const Optics& optics_;
+    const Illumination& illumination_;
+    const Eye& eye_;
+    ivec2 size_;
+    int samples_;
+    std::uint64_t seed_;
+};
+
+/// What some of the rays have brought: sums, and sums of squares.
+struct Brought {
+    std::vector<dvec3> sums, squares;
+    dvec3 strongest{0}; ///< W of a ray, of each colour
+    EnergyBook energy;
+    explicit Brought(ivec2 size)
+        : sums(std::size_t(size.x) * std::size_t(size.y), dvec3(0)), squares(sums.size(), dvec3(0)) {}
+    void add(const Brought& other) {
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            sums[i] += other.sums[i];
+            squares[i] += other.squares[i];
+        }
+        strongest = glm::max(strongest, other.strongest);
+        energy.add(other.energy, 1);
+    }
+};
+
+class Tracer {
+public:
+    Tracer(const Optics& optics, const Illumination& illumination, const Eye& eye, ivec2 size,
+           const LightOptions& options, const SeenPlaces* indirectly)
+        : optics_(optics), indirectly_(indirectly), lamps_(illumination.lamps()), eye_(eye), size_(size),
+          options_(options), limits_(options.branching == Branching::Tree ? kPhysics : Limits{.mirrors = 1}) {
+        for (const int number : optics.optical())
+            targets_.push_back(optics.rays().around(number));
+        for (const Lamp& lamp : lamps_)
+            media_.push_back(lamp.place() ? optics.mediaAt(*lamp.place(), true) : Media{});
+    }
+
+    bool hasWork() const { return !targets_.empty() && !lamps_.empty(); }
+
+    /// For each pixel what a watt that reaches it adds to it; 0 where none can.
+    std::vector<dvec3> worthOfAWatt() const {
+        std::vector<dvec3> worth(std::size_t(size_.x) * std::size_t(size_.y), dvec3(0));
+        for (std::size_t pixel = 0; pixel < worth.size(); ++pixel) {
+            const ivec2 place(int(pixel) % size_.x, int(pixel) / size_.x);
+            if (const auto seen = seenAt(optics_, eye_, place))
+                worth[pixel] =
+                    valueOf(seen->hit, dvec3(1 / eye_.areaOfPixel(seen->hit.position, seen->hit.normal)));
+        }
+        if (indirectly_)
+            for (const SeenPlace& place : indirectly_->all())
+                worth[place.pixel] += place.weight * radianceBy(place.hit, dvec3(1 / areaOf(place)));
+        return worth;
+    }
+
+    void trace(std::int64_t number, Brought& brought) const {
+        Random random(options_.seed, kPhotonStream, std::uint64_t(number));
+        const auto count = double(lamps_.size());
+        const std::size_t lamp = std::min(std::size_t(random.next() * count), lamps_.size() - 1);
+        Emission emission = lamps_[lamp].emit(targets_, random);
+        emission.flux *= count;
+        if (emission.flux == dvec3(0)) return;
+        const Beam beam{.origin = emission.origin,
+                        .direction = emission.direction,
+                        .media = media_[lamp],
+                        .begin = emission.begin,
+                        .meetsHidden = true};
+        if (!optics_.disperses()) {
+            bring(beam, emission, dvec3(1), 1, random, brought);
+            return;
+        }
+        for (int channel = 0; channel < 3; ++channel) {
+            dvec3 only(0);
+            only[channel] = 1;
+            bring(beam, emission, only, channel, random, brought);
+        }
+    }
+
+private:
+    void bring(const Beam& beam, const Emission& emission, const dvec3& colors, int channel, Random& random,
+               Brought& brought) const {
+        const Arrival arrival = follow(optics_, beam, channel, options_.branching, limits_, random);
+        const double growth = emission.fades ? 1 : arrival.firstDistance * arrival.firstDistance;
+        const dvec3 flux = growth * colors * emission.flux;
+        brought.strongest = glm::max(brought.strongest, flux);
+        if (arrival.surfaces == 0) return; // not by way of anything
+        EnergyBook& energy = brought.energy;
+        energy.met += flux;
+        energy.absorbed += flux * arrival.absorbed;
+        energy.reflected += flux * arrival.reflected;
+        switch (arrival.at) {
+        case Arrival::At::Sky:
+            energy.escaped += flux * arrival.weight;
+            break;
+        case Arrival::At::Lost:
+            energy.lost += flux * arrival.weight;
+            break;
+        case Arrival::At::Opaque:
+            energy.received += flux * arrival.weight;
+            deposit(arrival.hit, arrival.direction, flux * arrival.weight, brought);
+            if (indirectly_)
+                depositThroughGlass(arrival.hit, arrival.direction, flux * arrival.weight, brought);
+            break;
+        }
+    }
+
+    void deposit(const Hit& hit, const dvec3& direction, const dvec3& flux, Brought& brought) const {
+        const auto place = eye_.placeOf(hit.position);
+        if (!place || !optics_.object(hit.shape).visible) return;
+        const dvec3 viewer = eye_.directionFrom(hit.position);
+        if (glm::dot(hit.normal, viewer) * glm::dot(hit.normal, direction) >= 0) return; // the other side
+        const Leaving leaving = leavingFrom(optics_, hit, viewer);
+        WorldRay sight{hit.position, viewer, eye_.distanceFrom(hit.position)};
+        sight.meetsHidden = false;
+        if (optics_.rays().occluded(sight, leaving)) return;
+        const ivec2 pixel(*place);
+        const dvec3 irradiance = flux / eye_.areaOfPixel(hit.position, hit.normal);
+        const std::size_t row = std::size_t(pixel.y) * std::size_t(size_.x);
+        add(valueOf(hit, irradiance), row + std::size_t(pixel.x), brought);
+    }
+
+    /// Spreads flux evenly over a disc around it.
+    void depositThroughGlass(const Hit& hit, const dvec3& direction, const dvec3& flux,
+                             Brought& brought) const {
+        indirectly_->near(hit, direction, [&](const SeenPlace& place) {
+            add(place.weight * radianceBy(place.hit, flux / areaOf(place)), place.pixel, brought);
+        });
+    }
+    static double areaOf(const SeenPlace& place) { return std::numbers::pi * place.radius * place.radius; }
+
+    dvec3 valueOf(const Hit& hit, const dvec3& irradiance) const {
+        return options_.aov == scene::Aov::Color ? radianceBy(hit, irradiance) : irradiance;
+    }
+
+    /// What light adds to a surface's own.
+    dvec3 radianceBy(const Hit& hit, const dvec3& irradiance) const {
+        return shownBy(optics_, hit, irradiance) - shownBy(optics_, hit, dvec3(0));
+    }
+    static void add(const dvec3& value, std::size_t pixel, Brought& brought) {
+        brought.sums[pixel] += value;
+        brought.squares[pixel] += value * value;
+    }
+
+    const Optics& optics_;
+    const SeenPlaces* indirectly_; ///< null: not asked for
+    const std::vector<Lamp>& lamps_;
+    const Eye& eye_;
+    ivec2 size_;
+    LightOptions options_;
+    Limits limits_;
+    std::vector<Sphere> targets_;
+    std::vector<Media> media_; ///< around each lamp
+};
+
+/// Rays are worked off in this many rows, each added up in order and then to the others in order, whatever
+/// the number of threads: sums of floating point numbers depend on their order.
+constexpr int kLanes = 16;
+
+/// The lanes' sum. Keeps those that are early until their turn, so that few pictures lie about at a time.
+class Sum {
+public:
+    explicit Sum(ivec2 size) : total_(size) {}
+    void add(int lane, Brought brought) {
+        const std::lock_guard lock(mutex_);
+        early_.emplace(lane, std::move(brought));
+        for (; !early_.empty() && early_.begin()->first == next_; ++next_) {
+            total_.add(early_.begin()->second);
+            early_.erase(early_.begin());
+        }
+    }
+    Brought take() { return std::move(total_); }
+
+private:
+    std::mutex mutex_;
+    std::map<int, Brought> early_;
+    int next_ = 0;
+    Brought total_;
+};
+
+struct Job {
+    const Tracer& tracer;
+    ivec2 size;
+    Tile part;
+    std::int64_t photons; ///< of the part
+    const std::atomic<bool>& cancel;
+    std::atomic<std::int64_t> done = 0;
+    std::atomic<int> nextLane = 0;
+};
+
+Brought traceLane(Job& job, int lane, const std::function<void()>& now) {
+    constexpr std::int64_t kChunk = 4096;
+    Brought brought(job.size);
+    for (std::int64_t from = lane * kChunk; from < job.photons && !job.cancel; from += kLanes * kChunk) {
+        const std::int64_t to = std::min(from + kChunk, job.photons);
+        for (std::int64_t i = from; i < to; ++i)
+            job.tracer.trace(job.part.index + i * job.part.count, brought);
+        job.done += to - from;
+        now();
+    }
+    return brought;
+}
+
+Brought traceAll(const Tracer& tracer, ivec2 size, const Tile& part, std::int64_t photons, const Work& work,
+                 const std::atomic<bool>& cancel) {
+    Sum sum(size);
+    if (!tracer.hasWork()) return sum.take();
+    Job job{tracer, size, part, photons, cancel};
+    const auto takeLanes = [&](const std::function<void()>& now) {
+        for (int lane; (lane = job.nextLane++) < kLanes;)
+            sum.add(lane, traceLane(job, lane, now));
+    };
+    const int threads =
+        work.threads > 0 ? work.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+    std::vector<std::thread> others; // the calling thread is one of them
+    for (int i = 1; i < std::min(threads, kLanes); ++i)
+        others.emplace_back([&] { takeLanes([] {}); });
+    takeLanes([&] { work.progress(double(job.done) / double(photons)); });
+    for (std::thread& other : others)
+        other.join();
+    return sum.take();
+}
+
+/// Adds the mean of `photons` rays and its error to a picture.
+///
+/// @param worth  for each pixel what a watt would add
+void addTo(Picture& picture, const Brought& brought, const std::vector<dvec3>& worth, double photons) {
+    for (std::size_t i = 0; i < brought.sums.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel) {
+            const double mean = brought.sums[i][channel] / photons;
+            const double bound = 3 / photons * brought.strongest[channel] * worth[i][channel];
+            const double spread = brought.squares[i][channel] == 0
+                                      ? bound * bound
+                                      : std::max(0.0, brought.squares[i][channel] / photons - mean * mean) /
+                                            std::max(1.0, photons - 1);
+            picture.values.pixels[4 * i + std::size_t(channel)] += float(mean);
+            float& error = picture.errors.pixels[3 * i + std::size_t(channel)];
+            error = float(std::sqrt(double(error) * double(error) + spread));
+        }
+}
+} // namespace
+
+Result<Picture> traceLight(const scene::Scene& scene, ivec2 size, const LightOptions& options,
+                           const Tile& part, const Work& work, const std::atomic<bool>& cancel) {
+    const bool color = options.aov == scene::Aov::Color;
+    if (!color && options.aov != scene::Aov::Irradiance)
+        return Error{"truth: AOV " + std::string(scene::aovNames()[std::size_t(options.aov)]) +
+                     " is not traced by light; must be irradiance or color"};
+    const Result<Optics> optics = Optics::create(scene);
+    if (!optics) return optics.error();
+    const Illumination illumination(scene, *optics);
+    const Eye eye(scene.camera, size);
+
+    // Every part has samples of its own: seeds of the command line have 32 bits.
+    const std::uint64_t seed = options.seed + (std::uint64_t(part.index) << 32);
+    std::unique_ptr<Estimator> straight;
+    if (color) {
+        auto glass = GlassEstimator::create(
+            scene, size, options.aov,
+            {.branching = options.branching, .samples = options.samples, .seed = seed});
+        if (!glass) return glass.error();
+        straight = std::make_unique<GlassEstimator>(std::move(*glass));
+    } else {
+        straight = std::make_unique<DirectLight>(*optics, illumination, eye, size, options.samples, seed);
+    }
+    // Straight light is a tenth of the bar: it takes less than the rays.
+    constexpr double kStraightShare = 0.1;
+    const auto stretch = [&](double from, double to) {
+        return Work{work.threads,
+                    [&work, from, to](double share) { work.progress(glm::mix(from, to, share)); }};
+    };
+    Result<Picture> picture = render(*straight, size, {}, stretch(0, kStraightShare), cancel);
+    if (!picture) return picture.error();
+
+    const std::int64_t photons = part.photons(options.photons);
+    std::optional<SeenPlaces> indirectly;
+    if (color) indirectly.emplace(*optics, eye, size, mediaAtEye(*optics, scene.camera));
+    const Tracer tracer(*optics, illumination, eye, size, options, indirectly ? &*indirectly : nullptr);
+    const Brought brought = traceAll(tracer, size, part, photons, stretch(kStraightShare, 1), cancel);
+    if (cancel) return Error{"truth: stopped before the picture was complete", Fault::Machine};
+    addTo(*picture, brought, tracer.worthOfAWatt(), double(photons));
+    picture->energy.emplace().add(brought.energy, 1 / double(photons));
+    work.progress(1);
+    return picture;
+}
+
+} // namespace lucent::truth

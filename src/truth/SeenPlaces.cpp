@@ -1,0 +1,61 @@
+#include "truth/SeenPlaces.h"
+
+#include "truth/Glass.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lucent::truth {
+
+SeenPlaces::SeenPlaces(const Optics& optics, const Eye& eye, ivec2 size, const Media& atEye) {
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const std::size_t pixel = std::size_t(y) * std::size_t(size.x) + std::size_t(x);
+            const Beam beam = beamFrom(eye, dvec2(x, y) + 0.5, atEye);
+            if (!optics.disperses()) {
+                add(optics, eye, pixel, beam, 1, dvec3(1));
+                continue;
+            }
+            for (int channel = 0; channel < 3; ++channel) {
+                dvec3 only(0);
+                only[channel] = 1;
+                add(optics, eye, pixel, beam, channel, only);
+            }
+        }
+    if (places_.empty()) return;
+    cell_ = std::max_element(places_.begin(), places_.end(), [](const SeenPlace& a, const SeenPlace& b) {
+                return a.radius < b.radius;
+            })->radius;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+        cells_[key(cellOf(places_[i].hit.position))].push_back(i);
+}
+
+void SeenPlaces::add(const Optics& optics, const Eye& eye, std::size_t pixel, const Beam& beam, int channel,
+                     const dvec3& colors) {
+    Random unused(0, 0, 0);
+    const auto addEnd = [&](const Arrival& arrival, double before) {
+        if (arrival.at != Arrival::At::Opaque || arrival.surfaces + (before > 0 ? 1 : 0) == 0) return;
+        const double away = before + arrival.length;
+        places_.push_back(
+            {arrival.hit, -arrival.direction, colors * arrival.weight, eye.pixelWidth(away), pixel});
+    };
+    const Arrival arrival = follow(optics, beam, channel, Branching::Chain, {}, unused);
+    addEnd(arrival, 0);
+    if (arrival.mirrored)
+        addEnd(follow(optics, *arrival.mirrored, channel, Branching::Chain, {}, unused),
+               arrival.firstDistance);
+}
+
+/// Cells that share a key cost time only: places are compared by themselves.
+std::uint64_t SeenPlaces::key(const glm::i64vec3& cell) {
+    return std::uint64_t(cell.x) * 0x9e3779b97f4a7c15u + std::uint64_t(cell.y) * 0xc2b2ae3d27d4eb4fu +
+           std::uint64_t(cell.z) * 0x165667b19e3779f9u;
+}
+
+bool SeenPlaces::reaches(const SeenPlace& place, const Hit& hit, const dvec3& direction) {
+    const dvec3 apart = hit.position - place.hit.position;
+    return place.hit.shape == hit.shape && glm::dot(apart, apart) <= place.radius * place.radius &&
+           glm::dot(hit.normal, direction) * glm::dot(place.hit.normal, place.viewer) < 0;
+}
+
+} // namespace lucent::truth

@@ -1,0 +1,29 @@
+#include "views/Glass.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace lucent::views {
+
+GlassBlock glassBlock(const scene::Material& material) {
+    return {vec4(iorsOf(material), material.fresnel), vec4(material.absorption(), material.transmission)};
+}
+
+std::vector<graph::BlockLayout::Member> glassMembers(std::size_t offset) {
+    return {{"glass[0].ior", offset + offsetof(GlassBlock, ior)},
+            {"glass[1].absorption", offset + sizeof(GlassBlock) + offsetof(GlassBlock, absorption)}};
+}
+
+vec3 iorsOf(const scene::Material& material) {
+    const auto inverseSquare = [](float micrometres) { return 1 / (micrometres * micrometres); };
+    const float c = inverseSquare(0.6563f), d = inverseSquare(0.5876f), f = inverseSquare(0.4861f);
+    const float b = (material.ior - 1) * material.dispersion / 20 / (f - c);
+    return vec3(material.ior) + b * vec3(c - d, 0, f - d);
+}
+
+bool disperses(const std::vector<PosedMesh>& glass) {
+    return std::any_of(glass.begin(), glass.end(),
+                       [](const PosedMesh& mesh) { return mesh.drawn.object->material.dispersion > 0; });
+}
+
+} // namespace lucent::views

@@ -1,0 +1,76 @@
+#pragma once
+/// Layered images of a view: all surfaces of refractive objects behind each other, nearest first.
+
+#include "gl/Query.h"
+#include "views/Meshes.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lucent::views {
+
+/// More are not drawn.
+inline constexpr int kMostLayers = 32;
+
+/// One view's layers, ready to be traced (shaders/views/layers.glsl).
+struct Layers {
+    graph::TextureId images; ///< RGBA32F array, shaders/views/layer_texel.glsl
+    std::array<graph::TextureId, 3>
+        blocks; ///< nearest and farthest depth in blocks of 4, 16, 64 pixels a side
+    int count = 0;
+};
+
+/// How many surfaces lie behind each other at most in any pixel, by drawing all of them once and reading the
+/// picture back. At most kMostLayers; more are named in a warning.
+Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
+                        const std::vector<DrawnMesh>& meshes, float time, ivec2 size);
+
+/// Asks whether layers hold anything; null: nobody asks.
+struct LayerQueries {
+    graph::Query* last = nullptr;
+    graph::Query* before = nullptr; ///< the layer in front of the last one
+};
+
+/// How many layers to draw, frame after frame, without waiting for the GPU: one more than there were, and
+/// queries on the last two, whose answers come in later frames. A layer that appears is drawn a frame late.
+class LayerCount {
+public:
+    explicit LayerCount(const gl::Device& device) : last_(device), before_(device) {}
+
+    /// Forgets the scene; what countLayers() finds is known next.
+    void reset() { known_ = 0; }
+    bool known() const { return known_ > 0; }
+    void start(int counted) { known_ = std::max(1, counted); }
+
+    /// Layers to draw, the spare one included.
+    int drawn() const { return std::min(known_ + 1, kMostLayers); }
+    /// For the frame that draws drawn() layers; empty while an answer is still on its way, so that frames
+    /// faster than answers do not put them off for ever.
+    LayerQueries ask();
+    /// Takes the answers that have come.
+    ///
+    /// @return  whether the last layer held something: the picture lacks surfaces and is to be drawn again
+    bool poll();
+    /// Whether answers are still on their way: poll() again after the next frame, drawn or not.
+    bool waits() const { return asked_ > 0; }
+
+private:
+    gl::Query last_, before_;
+    int known_ = 0; // surfaces behind each other
+    int asked_ = 0; // layers of the frame that was asked about; 0: none
+};
+
+/// Draws `count` layers, one a pass.
+///
+/// @param meshes  a texel's object is the place in this list
+/// @param solid   opaque surfaces (views::recordSolid), to be traced with the layers as one more; or
+/// none
+Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                            const std::vector<PosedMesh>& meshes, ivec2 size, int count,
+                            graph::TextureId solid, const LayerQueries& queries = {});
+
+/// What shaders/views/layers.glsl samples.
+void sampleLayers(graph::PassBuilder& pass, const Layers& layers);
+std::vector<graph::Binding> layerBindings(const graph::Resources& resources, const Layers& layers);
+
+} // namespace lucent::views

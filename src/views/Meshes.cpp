@@ -1,0 +1,240 @@
+#include "views/Meshes.h"
+
+#include "views/FieldTextures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+
+namespace lucent::views {
+
+using graph::Format;
+
+namespace {
+
+constexpr int kWavedCells = 128; // along an edge that a wave bends
+
+struct MeshBlock {
+    mat4 clipFromWorld, worldFromObject, normalFromObject;
+    ViewBlock view;
+    int object, padding0 = 0, padding1 = 0, padding2 = 0;
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = viewMembers(offsetof(MeshBlock, view));
+            list.insert(list.end(), {{"clipFromWorld", offsetof(MeshBlock, clipFromWorld)},
+                                     {"worldFromObject", offsetof(MeshBlock, worldFromObject)},
+                                     {"normalFromObject", offsetof(MeshBlock, normalFromObject)},
+                                     {"object", offsetof(MeshBlock, object)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"MeshBlock", sizeof(MeshBlock), members};
+        return layout;
+    }
+};
+
+bool isWaved(const scene::Object& object) { return object.wave.amplitude != vec3(0); }
+
+scene::Mesh generated(const scene::Shape& shape, bool waved) {
+    const int cells = waved ? kWavedCells : 1;
+    if (const auto* plane = std::get_if<scene::Plane>(&shape)) return scene::meshOf(*plane, cells);
+    if (const auto* box = std::get_if<scene::Box>(&shape)) return scene::meshOf(*box, cells);
+    if (const auto* sphere = std::get_if<scene::Sphere>(&shape)) return scene::meshOf(*sphere);
+    if (const auto* torus = std::get_if<scene::Torus>(&shape)) return scene::meshOf(*torus);
+    if (const auto* water = std::get_if<scene::Water>(&shape)) return waterGrid(*water);
+    return scene::meshOf(std::get<scene::Cylinder>(shape));
+}
+
+// The numbers that a generated mesh depends on.
+std::vector<float> numbersOf(const scene::Shape& shape, bool waved) {
+    std::vector<float> list{float(shape.index()), float(waved)};
+    const auto add = [&](auto... values) { (list.push_back(float(values)), ...); };
+    if (const auto* plane = std::get_if<scene::Plane>(&shape)) add(plane->size.x, plane->size.y);
+    if (const auto* box = std::get_if<scene::Box>(&shape)) add(box->size.x, box->size.y, box->size.z);
+    if (const auto* sphere = std::get_if<scene::Sphere>(&shape)) add(sphere->radius);
+    if (const auto* torus = std::get_if<scene::Torus>(&shape)) add(torus->major, torus->minor);
+    if (const auto* c = std::get_if<scene::Cylinder>(&shape)) add(c->radius, c->height, c->open);
+    if (const auto* water = std::get_if<scene::Water>(&shape))
+        add(water->size.x, water->size.y, water->cells);
+    return list;
+}
+
+Bounds boundsOfPoints(const std::vector<vec3>& points) {
+    Bounds bounds;
+    for (const vec3& point : points)
+        bounds.add(point);
+    return bounds;
+}
+
+template <class Value>
+std::vector<Value> perCorner(const std::vector<Value>& values, const std::vector<std::uint32_t>& corners) {
+    std::vector<Value> list;
+    if (values.empty()) return list;
+    for (const std::uint32_t corner : corners)
+        list.push_back(values[corner]);
+    return list;
+}
+
+// Each triangle with three vertices of its own, which share its normal.
+scene::Mesh flattened(const scene::Mesh& mesh) {
+    scene::Mesh flat{.positions = perCorner(mesh.positions, mesh.indices),
+                     .indices = std::vector<std::uint32_t>(mesh.indices.size()),
+                     .joints = perCorner(mesh.joints, mesh.indices),
+                     .jointWeights = perCorner(mesh.jointWeights, mesh.indices),
+                     .rig = mesh.rig};
+    std::iota(flat.indices.begin(), flat.indices.end(), 0u);
+    for (scene::MorphTarget& target : flat.rig.targets)
+        target = {perCorner(target.positions, mesh.indices), {}};
+    flat.normals = scene::areaWeightedNormals(flat.positions, flat.indices);
+    return flat;
+}
+
+// Made once for each of the last few meshes.
+std::shared_ptr<const scene::Mesh> flatMeshOf(const std::shared_ptr<const scene::Mesh>& mesh) {
+    struct Made {
+        std::weak_ptr<const scene::Mesh> from;
+        std::shared_ptr<const scene::Mesh> flat;
+    };
+    constexpr std::size_t kKept = 8;
+    static std::vector<Made> made;
+    std::erase_if(made, [](const Made& one) { return one.from.expired(); });
+    for (const Made& one : made)
+        if (one.from.lock() == mesh) return one.flat;
+    if (made.size() == kKept) made.erase(made.begin());
+    made.push_back({mesh, std::make_shared<const scene::Mesh>(flattened(*mesh))});
+    return made.back().flat;
+}
+
+bool isFlat(const scene::Object& object) {
+    const auto* file = std::get_if<scene::MeshShape>(&object.shape);
+    return file && file->flatNormals;
+}
+
+} // namespace
+
+std::shared_ptr<const scene::Mesh> meshOf(const scene::Object& object) {
+    if (const auto* file = std::get_if<scene::MeshShape>(&object.shape))
+        return file->flatNormals ? flatMeshOf(file->mesh) : file->mesh;
+    struct Made {
+        std::vector<float> numbers;
+        std::shared_ptr<const scene::Mesh> mesh;
+    };
+    constexpr std::size_t kKept = 32;
+    static std::vector<Made> made;
+    std::vector<float> numbers = numbersOf(object.shape, isWaved(object));
+    const auto found =
+        std::find_if(made.begin(), made.end(), [&](const Made& one) { return one.numbers == numbers; });
+    if (found != made.end()) return found->mesh;
+    if (made.size() == kKept) made.erase(made.begin());
+    made.push_back(
+        {std::move(numbers), std::make_shared<const scene::Mesh>(generated(object.shape, isWaved(object)))});
+    return made.back().mesh;
+}
+
+Bounds meshBounds(const std::shared_ptr<const scene::Mesh>& mesh) {
+    struct Known {
+        std::weak_ptr<const scene::Mesh> mesh;
+        Bounds bounds;
+    };
+    constexpr std::size_t kKept = 32;
+    constexpr int kTimes = 16;
+    static std::vector<Known> known;
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const Known& one) { return one.mesh.lock() == mesh; });
+    if (found != known.end()) return found->bounds;
+    Bounds bounds;
+    const int times = mesh->moves() ? kTimes : 1;
+    for (int i = 0; i < times; ++i) {
+        const scene::Pose pose = scene::poseAt(mesh->rig, mesh->rig.duration * float(i) / float(times));
+        const Bounds at = boundsOfPoints(scene::posed(*mesh, pose).positions);
+        bounds.add(at.low);
+        bounds.add(at.high);
+    }
+    if (times > 1) { // between those times it may swing out a little farther
+        const vec3 margin = 0.1f * (bounds.high - bounds.low);
+        bounds = {bounds.low - margin, bounds.high + margin};
+    }
+    if (known.size() == kKept) known.erase(known.begin());
+    known.push_back({mesh, bounds});
+    return bounds;
+}
+
+MeshTextures::MeshTextures(gl::Context& context, std::shared_ptr<const scene::Mesh> mesh)
+    : source_(std::move(mesh)), indices_(context.device(), source_->indices, "views.indices") {
+    gl::Device& device = context.device();
+    const auto take = [&](const scene::Mesh& bound) {
+        positions_ = vertexTexture(device, bound.positions, "views.positions");
+        normals_ = vertexTexture(device, bound.normals, "views.normals");
+    };
+    if (source_->moves()) {
+        take(*source_);
+        pose_.emplace(device, *source_);
+    } else {
+        take(scene::posed(*source_, scene::poseAt(source_->rig, 0)));
+    }
+}
+
+std::size_t MeshTextures::bytes() const {
+    return positions_.desc().bytes() + normals_.desc().bytes() + 4 * std::size_t(indices_.count()) +
+           (pose_ ? pose_->bytes() : 0);
+}
+
+Result<DrawnMeshes> drawnMeshes(const scene::Scene& scene, ImageCache& images, bool hiddenToo,
+                                const Waters* waters) {
+    DrawnMeshes drawn;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const scene::Object& object = scene.objects[i];
+        if (object.isField() || !(object.visible || hiddenToo)) continue;
+        Result<const MeshTextures*> mesh = images.mesh(meshOf(object));
+        if (!mesh) return mesh.error();
+        (object.material.isRefractive() ? drawn.glass : drawn.solid)
+            .push_back({&object, int(i), *mesh, waters ? waters->of(int(i)) : nullptr});
+    }
+    return drawn;
+}
+
+Result<std::vector<PosedMesh>> recordPose(graph::FrameGraph& graph, gl::Context& context,
+                                          const std::vector<DrawnMesh>& meshes, float time) {
+    const auto imagesOf = [&](const DrawnMesh& drawn) -> Result<VertexImages> {
+        const scene::Object& object = *drawn.object;
+        if (drawn.water) return recordWater(graph, context, *drawn.water, object.name);
+        const auto import = [&](const graph::Texture& texture) {
+            return graph.import(texture.handle(), texture.desc(), texture.label());
+        };
+        const VertexImages rest{import(drawn.mesh->positions()), import(drawn.mesh->normals())};
+        const PoseTextures* pose = drawn.mesh->pose();
+        if (!pose && !isWaved(object)) return rest;
+        if (pose) pose->take(context.device(), drawn.mesh->source().rig, time);
+        const graph::TextureDesc& desc = drawn.mesh->positions().desc();
+        const Result<VertexImages> moved = recordMotion(
+            graph, context, rest, desc, pose, isWaved(object) ? &object.wave : nullptr, time, object.name);
+        return moved && isFlat(object) ? recordFlat(graph, context, *moved, desc, object.name) : moved;
+    };
+    std::vector<PosedMesh> posed;
+    for (const DrawnMesh& drawn : meshes) {
+        Result<VertexImages> images = imagesOf(drawn);
+        if (!images) return images.error();
+        posed.push_back({drawn, images->positions, images->normals});
+    }
+    return posed;
+}
+
+void drawMesh(graph::Commands& commands, const gl::Program& program, const graph::Resources& resources,
+              const PosedMesh& mesh, const Eye& eye, ivec2 size, int number, graph::Draw draw) {
+    const mat4 worldFromObject = mesh.drawn.object->transform.worldFromObject();
+    draw.program = &program;
+    draw.indices = mesh.drawn.mesh->indices().handle();
+    draw.vertices = mesh.drawn.mesh->indices().count();
+    draw.block = MeshBlock{.clipFromWorld = eye.clipFromWorld,
+                           .worldFromObject = worldFromObject,
+                           .normalFromObject = mat4(rotationFromDegrees(mesh.drawn.object->transform.rotate)),
+                           .view = viewBlock(eye, size),
+                           .object = number};
+    draw.textures.push_back({"uPositions", resources[mesh.positions]});
+    draw.textures.push_back({"uNormals", resources[mesh.normals]});
+    commands.draw(draw);
+}
+
+} // namespace lucent::views

@@ -1,0 +1,215 @@
+#include "views/ShadowMap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace lucent::views {
+
+namespace {
+
+constexpr float kWidest =
+    1.7320508f;                   // tangent of 60 degrees: beyond it a plane view wastes most of its texels
+constexpr float kNearest = 1e-3f; // of the farthest depth
+constexpr float kNothing = 1e30f;
+
+bool isEmpty(const Bounds& bounds) { return glm::any(glm::lessThan(bounds.high, bounds.low)); }
+
+std::array<vec3, 8> cornersOf(const Bounds& bounds) {
+    std::array<vec3, 8> corners;
+    for (int i = 0; i < 8; ++i)
+        corners[std::size_t(i)] = {i & 1 ? bounds.high.x : bounds.low.x, i & 2 ? bounds.high.y : bounds.low.y,
+                                   i & 4 ? bounds.high.z : bounds.low.z};
+    return corners;
+}
+
+Bounds common(const Bounds& a, const Bounds& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
+
+// A little wider, so that the texels around what lies at the border are there too.
+float widened(float extent, int size) { return extent * float(size) / float(size - 4); }
+
+struct Frame {
+    vec3 right, up, forward;
+    explicit Frame(const vec3& along) : forward(along) {
+        const vec3 aside = std::abs(along.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0);
+        right = glm::normalize(glm::cross(along, aside));
+        up = glm::cross(right, along);
+    }
+    vec3 operator()(const vec3& v) const { return {dot(v, right), dot(v, up), dot(v, forward)}; }
+    // A box in these axes around a box in the world's.
+    Bounds around(const Bounds& bounds) const {
+        Bounds box;
+        for (const vec3& corner : cornersOf(bounds))
+            box.add((*this)(corner));
+        return box;
+    }
+};
+
+Eye eyeOf(const Frame& frame, const vec3& position, bool perspective, vec2 halfExtent, float nearest,
+          float farthest) {
+    Eye eye{.position = position,
+            .forward = frame.forward,
+            .perspective = perspective,
+            .right = frame.right,
+            .up = frame.up,
+            .halfExtent = halfExtent,
+            .nearest = nearest,
+            .farthest = farthest};
+    const mat4 viewFromWorld = glm::lookAt(position, position + frame.forward, frame.up);
+    const vec2 half = perspective ? nearest * halfExtent : halfExtent;
+    eye.clipFromWorld = (perspective ? glm::frustum(-half.x, half.x, -half.y, half.y, nearest, farthest)
+                                     : glm::ortho(-half.x, half.x, -half.y, half.y, nearest, farthest)) *
+                        viewFromWorld;
+    return eye;
+}
+
+// Parallel light: only lines that meet something that casts and something that receives matter, and depths
+// from the first that casts to the last that receives.
+std::optional<Eye> parallelEye(const vec3& toLight, const Bounds& casters, const Bounds& receivers,
+                               int size) {
+    const Frame frame(-toLight);
+    const Bounds before = frame.around(casters), behind = frame.around(receivers);
+    const Bounds both = common(before, behind);
+    if (both.low.x > both.high.x || both.low.y > both.high.y || before.low.z > behind.high.z)
+        return std::nullopt;
+    const float length = behind.high.z - before.low.z;
+    const float margin = 1e-3f * length + 1e-6f; // in depth
+    const vec2 middle = 0.5f * vec2(both.low + both.high);
+    const vec2 half = 0.501f * vec2(both.high - both.low) + 1e-6f * (1 + length); // what floats round
+    const vec3 position =
+        middle.x * frame.right + middle.y * frame.up + (before.low.z - margin) * frame.forward;
+    return eyeOf(frame, position, false, {widened(half.x, size), widened(half.y, size)}, 0,
+                 length + 2 * margin);
+}
+
+float farthestOf(const vec3& from, const Bounds& bounds) {
+    float most = 0;
+    for (const vec3& corner : cornersOf(bounds))
+        most = std::max(most, glm::distance(corner, from));
+    return 1.01f * most + 1e-6f;
+}
+
+// Half extents, for each metre of depth, of a view in which all corners of a box are; nothing when it is too
+// wide.
+std::optional<vec2> extentsOf(const Frame& frame, const vec3& from, const Bounds& bounds) {
+    vec2 extents(0);
+    for (const vec3& corner : cornersOf(bounds)) {
+        const vec3 v = frame(corner - from);
+        if (!(v.z > 0) || std::max(std::abs(v.x), std::abs(v.y)) > kWidest * v.z) return std::nullopt;
+        extents = glm::max(extents, glm::abs(vec2(v)) / v.z);
+    }
+    return extents + 1e-4f;
+}
+
+Eye pointEye(const Frame& frame, const vec3& position, vec2 extents, float farthest, int size) {
+    return eyeOf(frame, position, true, {widened(extents.x, size), widened(extents.y, size)},
+                 kNearest * farthest, farthest);
+}
+
+std::vector<Eye> pointEyes(const ShadowSource& source, const Bounds& receivers, int size) {
+    const vec3 position(source.place);
+    const float farthest = farthestOf(position, receivers);
+    const vec3 towards = receivers.center() - position;
+    if (glm::length(towards) > 0) {
+        const Frame frame(glm::normalize(towards));
+        const std::optional<vec2> extents = extentsOf(frame, position, receivers);
+        if (extents && std::max(extents->x, extents->y) <= source.tangent)
+            return {pointEye(frame, position, *extents, farthest, size)};
+    }
+    if (source.tangent <= kWidest)
+        return {pointEye(Frame(source.axis), position, vec2(source.tangent + 1e-4f), farthest, size)};
+    std::vector<Eye> faces;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {1.0f, -1.0f}) {
+            vec3 forward(0);
+            forward[axis] = side;
+            faces.push_back(pointEye(Frame(forward), position, vec2(1), farthest, size));
+        }
+    return faces;
+}
+
+// Whether a view may show something of a ball.
+bool mayShow(const Eye& eye, const Bounds& bounds) {
+    const vec3 v = bounds.center() - eye.position;
+    const float radius = bounds.radius(), depth = dot(v, eye.forward);
+    if (depth + radius < eye.nearest) return false;
+    const auto beside = [&](const vec3& axis, float half) {
+        const float reach =
+            eye.perspective ? depth * half + radius * std::sqrt(1 + half * half) : half + radius;
+        return std::abs(dot(v, axis)) > reach;
+    };
+    return !beside(eye.right, eye.halfExtent.x) && !beside(eye.up, eye.halfExtent.y);
+}
+
+} // namespace
+
+ivec2 ShadowViews::imageSize() const {
+    const int count = int(faces.size());
+    return size * ivec2(std::min(count, kColumns), (count + kColumns - 1) / kColumns);
+}
+
+ShadowViews shadowViews(const ShadowSource& source, const Bounds& casters, const Bounds& receivers,
+                        int size) {
+    ShadowViews views{.faces = {}, .size = size};
+    if (isEmpty(casters) || isEmpty(receivers)) return views;
+    if (source.place.w != 0)
+        views.faces = pointEyes(source, receivers, size);
+    else if (const std::optional<Eye> eye = parallelEye(vec3(source.place), casters, receivers, size))
+        views.faces = {*eye};
+    return views;
+}
+
+Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& context,
+                                      const ShadowViews& views, const std::vector<PosedMesh>& casters,
+                                      const Bounds& receivers) {
+    const ivec2 imageSize = views.imageSize();
+    const int most = context.caps().maxTextureSize;
+    if (std::max(imageSize.x, imageSize.y) > most)
+        return Error{"views: a shadow map of " + std::to_string(imageSize.x) + " x " +
+                         std::to_string(imageSize.y) + " texels; must be at most " + std::to_string(most) +
+                         " a side on this GPU",
+                     Fault::Machine};
+    Result<const gl::Program*> program = context.program("views/shadow");
+    if (!program) return program.error();
+    std::vector<Bounds> bounds;
+    for (const PosedMesh& caster : casters)
+        bounds.push_back(boundsOf(*caster.drawn.object));
+    graph::TextureId depths;
+    graph.addPass("views.shadow", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what stands in the way of one point of a light, in " +
+                    std::to_string(views.faces.size()) + " view(s)");
+        for (const PosedMesh& caster : casters) {
+            pass.sample(caster.positions);
+            pass.sample(caster.normals);
+        }
+        depths = pass.createColor("views.shadow", {.size = imageSize, .format = graph::Format::R32F});
+        pass.clear(depths, vec4(kNothing));
+        pass.clear(pass.createDepth("views.shadowDepth", imageSize, graph::Format::Depth32F), 1.0f);
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            for (std::size_t face = 0; face < views.faces.size(); ++face) {
+                const Eye& eye = views.faces[face];
+                if (!mayShow(eye, receivers)) continue;
+                for (std::size_t i = 0; i < casters.size(); ++i)
+                    if (mayShow(eye, bounds[i]))
+                        drawMesh(commands, *program, resources, casters[i], eye, ivec2(views.size), int(i),
+                                 {.region = ivec4(views.corner(int(face)), views.size, views.size),
+                                  .depthTest = graph::DepthTest::Less});
+            }
+        };
+    });
+    return depths;
+}
+
+Bounds seenBy(const Eye& eye, const Bounds& bounds) {
+    Bounds shown;
+    for (const float depth : {eye.nearest, eye.farthest})
+        for (const float x : {-1.0f, 1.0f})
+            for (const float y : {-1.0f, 1.0f}) {
+                const vec2 at = eye.halfExtent * vec2(x, y) * (eye.perspective ? depth : 1.0f);
+                shown.add(eye.position + at.x * eye.right + at.y * eye.up + depth * eye.forward);
+            }
+    return common(shown, bounds);
+}
+
+} // namespace lucent::views

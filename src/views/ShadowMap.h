@@ -1,0 +1,48 @@
+#pragma once
+/// What a light sees of the things that stand in its way: depths by which a place is lit or not
+/// (shaders/views/shadow.glsl).
+
+#include "views/Meshes.h"
+
+#include <limits>
+
+namespace lucent::views {
+
+/// One point of a light, or one direction.
+struct ShadowSource {
+    vec4 place{0, 1, 0, 0}; ///< world: the point, and 1; or the unit direction to the light, and 0
+    vec3 axis{0};           ///< unit: the middle of the cone into which a point shines
+    float tangent = std::numeric_limits<float>::infinity(); ///< of half the cone; infinite: all around
+};
+
+/// Square views from a light side by side in one image, three to a row.
+struct ShadowViews {
+    static constexpr int kMost = 6;
+    static constexpr int kColumns = 3;
+
+    std::vector<Eye> faces; ///< one, or the six faces of a cube; none: nothing can lie in shadow
+    int size = 0;           ///< pixels a side of each
+    ivec2 imageSize() const;
+    ivec2 corner(int face) const { return size * ivec2(face % kColumns, face / kColumns); }
+};
+
+/// Where to look from a light: as narrow as what casts shadows and what receives them allow. Parallel light
+/// and a point that has everything before it within 60 degrees need one view, other points six.
+///
+/// @param casters    box around all that casts shadows
+/// @param receivers  box around all on which they fall
+/// @param size       pixels a side of each view, at least 16
+ShadowViews shadowViews(const ShadowSource& source, const Bounds& casters, const Bounds& receivers, int size);
+
+/// Draws the depths of what casts shadows, R32F, 1e30 where there is nothing.
+///
+/// @param receivers  as in shadowViews(): views in which none of them can be are not drawn
+/// @return           Error (Fault::Machine) when the image is larger than this GPU's textures
+Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& context,
+                                      const ShadowViews& views, const std::vector<PosedMesh>& casters,
+                                      const Bounds& receivers);
+
+/// The part of a box that a view can show, as a box.
+Bounds seenBy(const Eye& eye, const Bounds& bounds);
+
+} // namespace lucent::views

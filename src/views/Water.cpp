@@ -1,0 +1,273 @@
+#include "views/Water.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+namespace lucent::views {
+
+using graph::Format;
+
+namespace {
+
+struct WaterBlock {
+    vec4 sine, drop;
+    vec2 size, cell;
+    float step, damping, speed, rest;
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {
+            {"sine", offsetof(WaterBlock, sine)},   {"drop", offsetof(WaterBlock, drop)},
+            {"size", offsetof(WaterBlock, size)},   {"cell", offsetof(WaterBlock, cell)},
+            {"step", offsetof(WaterBlock, step)},   {"damping", offsetof(WaterBlock, damping)},
+            {"speed", offsetof(WaterBlock, speed)}, {"rest", offsetof(WaterBlock, rest)}};
+        static const graph::BlockLayout layout{"WaterBlock", sizeof(WaterBlock), members};
+        return layout;
+    }
+};
+
+vec2 cellOf(const scene::Water& water) { return water.size / vec2(waterCells(water)); }
+
+// Steps a second: waves of the shortest length that the grid holds must turn by less than half a turn a step.
+// The nine points of shaders/views/water_step.frag bend them by at most speed^2 times the larger of these.
+int stepsPerSecond(const scene::Water& water) {
+    const dvec2 perCell = 1.0 / (dvec2(cellOf(water)) * dvec2(cellOf(water)));
+    const double most = std::max(8.0 / 3 * (perCell.x + perCell.y), 4 * std::max(perCell.x, perCell.y));
+    constexpr double kSafety = 1.05; // damping and rounding take none of it
+    const double needed = kSafety * double(water.speed) * std::sqrt(most) / 2;
+    return WaterSheet::kStepsPerSecond * std::max(1, int(std::ceil(needed / WaterSheet::kStepsPerSecond)));
+}
+
+// (wave vector, amplitude, angular frequency) as Optics.h has them; too much damping lets nothing travel.
+vec4 sineOf(const scene::Water& water) {
+    const float k = 2 * kPi / water.wavelength;
+    const float fastest = water.speed * k;
+    const float frequency = std::sqrt(std::max(0.0f, fastest * fastest - water.damping * water.damping / 4));
+    return {k * glm::normalize(water.direction), water.amplitude, frequency};
+}
+
+std::vector<float> numbersOf(const scene::Water& water) {
+    return {water.size.x,    water.size.y,     float(water.cells), water.speed,       water.damping,
+            water.amplitude, water.wavelength, water.direction.x,  water.direction.y, water.dropInterval};
+}
+
+// Of the drops that fall by themselves; chosen by eye.
+float rainRadius(const scene::Water& water) { return 0.04f * std::min(water.size.x, water.size.y); }
+float rainDepth(const scene::Water& water) { return 0.3f * rainRadius(water); }
+
+// The n-th of a sequence of places that fill a rectangle evenly (Roberts 2018: the plastic number's powers).
+WaterDrop rain(const scene::Water& water, double n) {
+    const dvec2 turns = n * dvec2(0.7548776662466927, 0.5698402909980532);
+    return {water.size * vec2(turns - glm::floor(turns) - 0.5), rainRadius(water), rainDepth(water)};
+}
+
+} // namespace
+
+ivec2 waterCells(const scene::Water& water) {
+    const float cell = std::max(water.size.x, water.size.y) / float(water.cells);
+    return glm::max(ivec2(glm::round(water.size / cell)), ivec2(1));
+}
+
+scene::Mesh waterGrid(const scene::Water& water) {
+    const ivec2 cells = waterCells(water);
+    const vec2 cell = cellOf(water);
+    scene::Mesh mesh;
+    const auto number = [&](int x, int z) { return std::uint32_t(z * (cells.x + 1) + x); };
+    for (int z = 0; z <= cells.y; ++z)
+        for (int x = 0; x <= cells.x; ++x)
+            mesh.positions.push_back(
+                {float(x) * cell.x - 0.5f * water.size.x, 0, float(z) * cell.y - 0.5f * water.size.y});
+    mesh.normals.assign(mesh.positions.size(), {0, 1, 0});
+    for (int z = 0; z < cells.y; ++z)
+        for (int x = 0; x < cells.x; ++x) {
+            const std::uint32_t a = number(x, z), b = number(x, z + 1), c = number(x + 1, z + 1),
+                                d = number(x + 1, z);
+            mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+        }
+    return mesh;
+}
+
+float waterReach(const scene::Water& water) {
+    return 4 * water.amplitude + (water.dropInterval > 0 ? 2 * rainDepth(water) : 0);
+}
+
+Result<std::unique_ptr<WaterSheet>> WaterSheet::create(gl::Context& context, const scene::Water& water) {
+    const ivec2 size = waterCells(water) + 1;
+    if (const int limit = context.caps().maxTextureSize; std::max(size.x, size.y) > limit)
+        return Error{"water of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                         " heights: too large for this GPU; must be at most " + std::to_string(limit) +
+                         " along a side",
+                     Fault::Machine};
+    std::unique_ptr<WaterSheet> sheet(new WaterSheet(context, water));
+    for (const auto& [program, name] : {std::pair{&sheet->start_, "views/water_start"},
+                                        {&sheet->step_, "views/water_step"},
+                                        {&sheet->drop_, "views/water_drop"}}) {
+        Result<const gl::Program*> made = context.program(name);
+        if (!made) return made.error();
+        *program = *made;
+    }
+    sheet->begin();
+    return sheet;
+}
+
+WaterSheet::WaterSheet(gl::Context& context, const scene::Water& water)
+    : context_(context), water_(water), cells_(waterCells(water)), seconds_(1.0 / stepsPerSecond(water)) {
+    const graph::TextureDesc desc{.size = cells_ + 1, .format = Format::RG32F};
+    now_ = graph::Texture(context.device(), desc, "views.water");
+    next_ = graph::Texture(context.device(), desc, "views.waterNext");
+}
+
+bool WaterSheet::shows(const scene::Water& water) const { return numbersOf(water) == numbersOf(water_); }
+
+graph::TextureDesc WaterSheet::imageDesc() const {
+    return {.size = now_.desc().size, .format = Format::RGBA32F};
+}
+
+graph::Block WaterSheet::block() const { return blockFor({}); }
+
+graph::Block WaterSheet::blockFor(const WaterDrop& drop) const {
+    const vec2 cell = cellOf(water_);
+    return WaterBlock{.sine = sineOf(water_),
+                      .drop =
+                          vec4(drop.place, std::max(drop.radius, 2 * std::max(cell.x, cell.y)), drop.depth),
+                      .size = water_.size,
+                      .cell = cell,
+                      .step = float(seconds_),
+                      .damping = water_.damping,
+                      .speed = water_.speed,
+                      .rest = rest_};
+}
+
+// Into the other image, which then is the state.
+void WaterSheet::draw(const gl::Program& program, const WaterDrop& drop) {
+    context_.device().runPass({.label = "views.water", .colors = {{.texture = next_.handle()}}},
+                              [&](graph::Commands& commands) {
+                                  graph::Draw call{.program = &program, .block = blockFor(drop)};
+                                  if (&program != start_) call.textures = {{"uState", now_.handle()}};
+                                  commands.draw(call);
+                              });
+    std::swap(now_, next_);
+    ++changes_;
+}
+
+void WaterSheet::begin() {
+    done_ = 0;
+    rest_ = 0;
+    draw(*start_, {});
+}
+
+// Drops fall between steps.
+void WaterSheet::step() {
+    draw(*step_, {});
+    ++done_;
+    if (water_.dropInterval > 0) {
+        const auto fallenAfter = [&](std::int64_t steps) {
+            return std::floor(double(steps) * seconds_ / double(water_.dropInterval));
+        };
+        const double fallen = fallenAfter(done_);
+        if (fallen > fallenAfter(done_ - 1)) draw(*drop_, rain(water_, fallen));
+    }
+    for (const Fallen& one : fallen_)
+        if (one.step == done_) draw(*drop_, one.drop);
+}
+
+bool WaterSheet::advance(float time, int most) {
+    constexpr double kRounding = 1e-5; // of a step: times come as floats
+    const double steps = double(time) / seconds_;
+    const auto wanted = std::int64_t(std::floor(steps + kRounding));
+    if (wanted < done_) {
+        std::erase_if(fallen_, [&](const Fallen& one) { return one.step > wanted; });
+        begin();
+        for (const Fallen& one : fallen_)
+            if (one.step == 0) draw(*drop_, one.drop);
+    }
+    for (int i = 0; i < most && done_ < wanted; ++i)
+        step();
+    const float rest = done_ < wanted ? 0 : float(std::max(0.0, (steps - double(wanted)) * seconds_));
+    if (rest != rest_) ++changes_;
+    rest_ = rest;
+    return done_ == wanted;
+}
+
+void WaterSheet::fall(const WaterDrop& drop) {
+    fallen_.push_back({done_, drop});
+    draw(*drop_, drop);
+}
+
+Result<bool> Waters::advance(const scene::Scene& scene) {
+    const auto waterOf = [&](int object) {
+        return object < int(scene.objects.size())
+                   ? std::get_if<scene::Water>(&scene.objects[std::size_t(object)].shape)
+                   : nullptr;
+    };
+    std::erase_if(sheets_, [&](const auto& entry) {
+        const scene::Water* water = waterOf(entry.first);
+        const bool gone = !water || !entry.second->shows(*water);
+        if (gone) dropped_ += entry.second->changes();
+        return gone;
+    });
+    bool there = true;
+    for (int i = 0; i < int(scene.objects.size()); ++i) {
+        const scene::Water* water = waterOf(i);
+        if (!water) continue;
+        std::unique_ptr<WaterSheet>& sheet = sheets_[i];
+        if (!sheet) {
+            Result<std::unique_ptr<WaterSheet>> made = WaterSheet::create(context_, *water);
+            if (!made) {
+                sheets_.erase(i);
+                return made.error();
+            }
+            sheet = std::move(*made);
+        }
+        there &= sheet->advance(scene.view.time, kStepsAtOnce);
+    }
+    return there;
+}
+
+void Waters::fall(int object, const WaterDrop& drop) {
+    const auto found = sheets_.find(object);
+    assert(found != sheets_.end());
+    found->second->fall(drop);
+}
+
+const WaterSheet* Waters::of(int object) const {
+    const auto found = sheets_.find(object);
+    return found == sheets_.end() ? nullptr : found->second.get();
+}
+
+std::uint64_t Waters::changes() const {
+    std::uint64_t sum = dropped_;
+    for (const auto& [object, sheet] : sheets_)
+        sum += sheet->changes();
+    return sum;
+}
+
+std::size_t Waters::bytes() const {
+    std::size_t sum = 0;
+    for (const auto& [object, sheet] : sheets_)
+        sum += sheet->bytes();
+    return sum;
+}
+
+Result<VertexImages> recordWater(graph::FrameGraph& graph, gl::Context& context, const WaterSheet& sheet,
+                                 const std::string& name) {
+    Result<const gl::Program*> program = context.program("views/water");
+    if (!program) return program.error();
+    const graph::TextureId state =
+        graph.import(sheet.state().handle(), sheet.state().desc(), sheet.state().label());
+    const graph::Block block = sheet.block();
+    VertexImages images;
+    graph.addPass("views.water", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("object \"" + name + "\" is water: vertices from its heights");
+        pass.sample(state);
+        images = {pass.createColor("views.waterPositions", sheet.imageDesc()),
+                  pass.createColor("views.waterNormals", sheet.imageDesc())};
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program, .block = block, .textures = {{"uState", resources[state]}}});
+        };
+    });
+    return images;
+}
+
+} // namespace lucent::views

@@ -1,0 +1,151 @@
+// Scenes that hold more than height fields: only the passes that a scene needs, and the techniques over each
+// other.
+#include "frame/Renderer.h"
+#include "tests/support/Fields.h"
+#include "tests/support/Gl.h"
+#include "truth/Glass.h"
+
+namespace lucent::frame {
+namespace {
+
+struct Composed : support::GlTest {
+    scene::Scene scene;
+
+    Composed() {
+        scene.size = {64, 48};
+        scene.camera.type = scene::Camera::Type::Perspective;
+        scene.camera.eye = {0, 0.5f, 4};
+        for (const ParamTable* table : techniques())
+            scene.technique.emplace(std::string(table->name), Settings(*table));
+        scene.environment.emplace();
+        auto map = std::make_shared<Image>(8, 4, 3);
+        std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);
+        scene.environment->map = map;
+    }
+    void addBall() {
+        scene::Object ball;
+        ball.name = "ball";
+        ball.shape = scene::Sphere{};
+        ball.material.transmission = 1;
+        scene.objects.push_back(ball);
+    }
+    void addFloor() {
+        scene::Object floor;
+        floor.name = "floor";
+        floor.shape = scene::Plane{{8, 8}};
+        floor.transform.translate = {0, -1.2f, 0};
+        scene.objects.push_back(floor);
+        scene.lights.push_back(scene::DistantLight{.direction = {-0.3f, -1, -0.2f}});
+    }
+    void addField() {
+        scene::Object field = support::sceneOf(support::waves({40, 30}), 0.2f, 0.05f).objects[0];
+        field.transform.translate = {0, 0, -1.5f};
+        field.transform.scale = 3;
+        scene.objects.push_back(field);
+        if (scene.lights.empty()) scene.lights.push_back(scene::PointLight{});
+    }
+    // How often a pass of this name stands in what explain() says will run.
+    int runs(const std::string& name) {
+        Renderer renderer(*context);
+        const Result<std::string> text = renderer.explain(scene, scene.size);
+        EXPECT_TRUE(text.ok()) << text.error().message;
+        int count = 0;
+        for (std::size_t at = text->find("\n  " + name + ":"); at != std::string::npos;
+             at = text->find("\n  " + name + ":", at + 1))
+            ++count;
+        return count;
+    }
+    Image picture(scene::Aov aov = scene::Aov::Color) {
+        Renderer renderer(*context);
+        scene.view.show = aov;
+        EXPECT_TRUE(renderer.finish(scene, 1, scene.size).ok());
+        Result<Image> image = renderer.read(scene, aov);
+        EXPECT_TRUE(image.ok());
+        return std::move(*image);
+    }
+};
+
+TEST_F(Composed, ABallOfGlassRunsItsTwoLayersAndTheTraceOnly) {
+    addBall();
+    EXPECT_EQ(runs("views.peel"), 2);
+    EXPECT_EQ(runs("refract.trace"), 1);
+    EXPECT_EQ(runs("brdf.shade"), 0);
+    EXPECT_EQ(runs("relief.light"), 0);
+    EXPECT_EQ(runs("views.surface"), 0);
+}
+
+TEST_F(Composed, AFloorRunsNoLayers) {
+    addFloor();
+    EXPECT_EQ(runs("views.surface"), 1);
+    EXPECT_EQ(runs("brdf.shade"), 1);
+    EXPECT_EQ(runs("views.peel"), 0);
+    EXPECT_EQ(runs("refract.trace"), 0);
+    EXPECT_EQ(runs("relief.light"), 0);
+}
+
+TEST_F(Composed, AHeightFieldRunsRelief) {
+    addField();
+    EXPECT_GE(runs("relief.light"), 1);
+    EXPECT_EQ(runs("brdf.shade"), 0);
+    EXPECT_EQ(runs("views.peel"), 0);
+}
+
+TEST_F(Composed, AllTogetherRunOneAfterTheOther) {
+    addFloor();
+    addField();
+    addBall();
+    for (const char* pass : {"relief.light", "brdf.shade", "refract.trace"})
+        EXPECT_GE(runs(pass), 1) << pass;
+}
+
+// In an even environment a ball that absorbs nothing cannot be told from what is behind it, but for light
+// that is mirrored more than once inside: at the rim of the ball that is up to a fifth.
+TEST_F(Composed, AClearBallInAnEvenEnvironmentIsNearlyInvisible) {
+    addBall();
+    const Image image = picture();
+    for (ivec2 pixel : {ivec2(32, 24), ivec2(36, 20), ivec2(2, 2)})
+        // The chain leaves out what is mirrored inside: R + T T at 0 to 40 degrees, R about 0.04, is
+        // 0.04 + 0.9216 = 0.9616 of 0.5.
+        EXPECT_NEAR(image.at(pixel.x, pixel.y)[0], pixel.x == 2 ? 0.5 : 0.4808, 2e-3);
+}
+
+TEST_F(Composed, ABallHidesNothingOfTheFieldBesideIt) {
+    addField();
+    const Image before = picture();
+    addBall();
+    // So near the field that the near plane, and with it the rounding of eye rays, stays where it is.
+    scene.objects.back().transform = {.translate = {0, 0, -0.8f}, .scale = 0.2f};
+    const Image after = picture();
+    const Image layers = picture(scene::Aov::Layers);
+    int seen = 0;
+    for (int y = 0; y < scene.size.y; ++y) {
+        for (int x = 0; x < scene.size.x; ++x) {
+            if (before.at(x, y)[3] == 0 || layers.at(x, y)[0] > 0) continue;
+            ++seen;
+            EXPECT_EQ(after.at(x, y)[0], before.at(x, y)[0]);
+        }
+    }
+    EXPECT_GT(seen, 100);
+}
+
+TEST_F(Composed, GeometryIsThatOfTheFirstThingGlassToo) {
+    addFloor();
+    addBall();
+    const Image depth = picture(scene::Aov::Depth);
+    // Straight ahead the ball's front is |eye| - 1 = sqrt(16.25) - 1 m away; 256 segments stand in for the
+    // sphere.
+    EXPECT_NEAR(depth.at(32, 24)[0], std::sqrt(16.25) - 1, 5e-3);
+    EXPECT_GT(depth.at(32, 40)[0], depth.at(32, 47)[0]); // the floor comes nearer downwards
+}
+
+TEST_F(Composed, WhatMovesIsDrawnAgainAtAnotherTime) {
+    addBall();
+    scene.objects[0].wave = {.amplitude = {0, 0.2f, 0}};
+    scene.view.time = 0.1f;
+    const Image before = picture(scene::Aov::Direction);
+    scene.view.time = 0.3f;
+    EXPECT_NE(picture(scene::Aov::Direction).pixels, before.pixels);
+}
+
+} // namespace
+} // namespace lucent::frame

@@ -1,0 +1,151 @@
+#include "tests/scene/Gltf.h"
+
+#include <gtest/gtest.h>
+
+namespace lucent::scene {
+namespace {
+
+// A square whose material has these members; what is said on stderr in `said`.
+Material materialOf(const std::string& members, std::string* said = nullptr) {
+    std::string json = test::gltf(test::squareBuffer<std::uint16_t>(), 5123, "", R"(, "material": 0)", "");
+    json.insert(json.rfind('}'), R"(, "materials": [ { "name": "m")" + members + " } ]");
+    testing::internal::CaptureStderr();
+    std::string error;
+    // warnOnce() says the same text once: a name for each set of members.
+    const Mesh mesh = test::read(test::glb(test::squareBuffer<std::uint16_t>(), json), error,
+                                 "m/" + std::to_string(std::hash<std::string>()(members)) + ".gltf");
+    const std::string text = testing::internal::GetCapturedStderr();
+    if (said) *said = text.empty() ? "" : text.substr(text.find(".gltf: ") + 7);
+    EXPECT_EQ(error, "");
+    if (mesh.parts.size() != 1) {
+        ADD_FAILURE() << mesh.parts.size() << " parts";
+        return {};
+    }
+    EXPECT_EQ(mesh.parts[0].material, "m");
+    return mesh.parts[0].values;
+}
+
+std::string matt(const std::string& more = "") {
+    return R"(, "pbrMetallicRoughness": { "metallicFactor": 0 )" + more + " }";
+}
+std::string glass(const std::string& volume, const std::string& more = "") {
+    return matt(R"(, "roughnessFactor": 0)") +
+           R"(, "extensions": { "KHR_materials_transmission": { "transmissionFactor": 0.75 })" + volume +
+           more + " }";
+}
+const std::string kVolume = R"(, "KHR_materials_volume": { "thicknessFactor": 1 })";
+
+TEST(GltfMaterial, ColoursAreLinearAsTheyStand) {
+    std::string said;
+    const Material m = materialOf(matt(R"(, "baseColorFactor": [0.1, 0.2, 0.3, 1])") +
+                                      R"(, "emissiveFactor": [0.5, 0.25, 1], "extensions":
+                                         { "KHR_materials_emissive_strength": { "emissiveStrength": 4 } })",
+                                  &said);
+    EXPECT_EQ(m.diffuse, vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.base, vec3(2, 1, 4));
+    EXPECT_FALSE(m.isRefractive() || m.isMirror());
+    EXPECT_EQ(said, "");
+}
+
+TEST(GltfMaterial, DefaultsAreThoseOfTheFormat) {
+    std::string said;
+    const Material m = materialOf("", &said);
+    EXPECT_EQ(m.diffuse, vec3(1));
+    EXPECT_EQ(m.base, vec3(0));
+    EXPECT_EQ(m.ior, 1.5f);
+    EXPECT_EQ(said, "");
+}
+
+TEST(GltfMaterial, GlassHasItsVolume) {
+    std::string said;
+    const Material m = materialOf(glass(R"(, "KHR_materials_volume": { "thicknessFactor": 0.1,
+        "attenuationColor": [0.5, 0.25, 1], "attenuationDistance": 2 })",
+                                        R"(, "KHR_materials_ior": { "ior": 1.33 },
+                                           "KHR_materials_dispersion": { "dispersion": 0.36 })"),
+                                  &said);
+    EXPECT_EQ(m.transmission, 0.75f);
+    EXPECT_EQ(m.ior, 1.33f);
+    EXPECT_EQ(m.dispersion, 0.36f);
+    EXPECT_EQ(m.attenuationColor, vec3(0.5f, 0.25f, 1));
+    EXPECT_EQ(m.attenuationDistance, 2);
+    EXPECT_EQ(said, "");
+    EXPECT_EQ(materialOf(glass(kVolume)).attenuationDistance, 0); // glTF's infinity: nothing is absorbed
+}
+
+TEST(GltfMaterial, ThinWallsBendNothingAndSayWhatIsMissing) {
+    for (const std::string volume : {"", R"(, "KHR_materials_volume": { "attenuationDistance": 1 })"}) {
+        std::string said;
+        const Material m =
+            materialOf(glass(volume, R"(, "KHR_materials_dispersion": { "dispersion": 1 })"), &said);
+        EXPECT_EQ(m.transmission, 0.75f);
+        EXPECT_EQ(m.ior, 1);
+        EXPECT_EQ(m.dispersion, 0);
+        EXPECT_EQ(m.attenuationDistance, 0);
+        EXPECT_EQ(said, "not read: the reflection of thin walls (KHR_materials_volume.thicknessFactor 0)\n");
+    }
+}
+
+TEST(GltfMaterial, InfiniteIorAndSmoothMetalAreMirrors) {
+    const Material infinite = materialOf(glass(kVolume, R"(, "KHR_materials_ior": { "ior": 0 })"));
+    EXPECT_EQ(infinite.reflectance, vec3(1));
+    EXPECT_FALSE(infinite.isRefractive());
+    EXPECT_GT(infinite.ior, 0);
+    std::string said;
+    const Material metal = materialOf(
+        R"(, "pbrMetallicRoughness": { "roughnessFactor": 0, "baseColorFactor": [1, 0.5, 0.25, 1] })", &said);
+    EXPECT_EQ(metal.reflectance, vec3(1, 0.5f, 0.25f));
+    EXPECT_EQ(said, "");
+}
+
+TEST(GltfMaterial, MetalLetsNothingThrough) {
+    std::string said;
+    const Material m = materialOf(
+        R"(, "pbrMetallicRoughness": { "metallicFactor": 0.5, "roughnessFactor": 0 },
+           "extensions": { "KHR_materials_transmission": { "transmissionFactor": 1 } )" +
+            kVolume + " }",
+        &said);
+    EXPECT_EQ(m.transmission, 0.5f);
+    EXPECT_EQ(said, "not read: metallicFactor\n");
+}
+
+TEST(GltfMaterial, WhatIsNotReadIsNamed) {
+    std::string said;
+    const Material m = materialOf(
+        matt(R"(, "roughnessFactor": 0.5, "baseColorTexture": { "index": 0 })") +
+            R"(, "emissiveFactor": [1, 1, 1], "emissiveTexture": { "index": 0 }, "normalTexture": { "index": 0 },
+               "alphaMode": "BLEND" } ], "textures": [ {} ],
+               "extensionsUsed": [ "KHR_materials_specular", "KHR_materials_ior", "KHR_lights_punctual" ],
+               "samplers": [ { )",
+        &said);
+    EXPECT_EQ(said,
+              "not read: KHR_lights_punctual, KHR_materials_specular, alphaMode BLEND, baseColorTexture, "
+              "emissiveTexture, normalTexture, roughnessFactor\n");
+    EXPECT_EQ(m.base, vec3(0)); // the texture would blacken most of it
+}
+
+TEST(GltfMaterial, TrianglesAreOrderedByMaterial) {
+    // The two triangles of the square in three primitives: material 1, none, material 0. Both have one name.
+    std::string json = test::gltf(test::squareBuffer<std::uint16_t>(), 5123, "", R"(, "material": 1)", "");
+    const std::string primitive = R"({ "attributes": { "POSITION": 0 }, "indices": 1, "material": 1 } ])";
+    json.replace(json.find(primitive), primitive.size(),
+                 R"({ "attributes": { "POSITION": 0 }, "indices": 1, "material": 1 },
+                    { "attributes": { "POSITION": 0 }, "indices": 1 },
+                    { "attributes": { "POSITION": 0 }, "indices": 1, "material": 0 } ])");
+    json.insert(json.rfind('}'), R"(, "materials": [ { "name": "a" }, { "name": "a" } ])");
+    std::string error;
+    const Mesh mesh = test::read(test::glb(test::squareBuffer<std::uint16_t>(), json), error);
+    ASSERT_EQ(error, "");
+    ASSERT_EQ(mesh.parts.size(), 3u);
+    EXPECT_EQ(mesh.parts[0].material, "a");
+    EXPECT_EQ(mesh.parts[1].material, "a'");
+    EXPECT_EQ(mesh.parts[2].material, "default");
+    EXPECT_EQ(mesh.indices[0], 8u); // the third primitive's vertices
+    EXPECT_EQ(mesh.indices[6], 0u);
+    EXPECT_EQ(mesh.indices[12], 4u);
+    json.replace(json.find(R"("material": 0)"), 13, R"("material": 9)");
+    test::read(test::glb(test::squareBuffer<std::uint16_t>(), json), error);
+    EXPECT_EQ(error, "m/a.gltf: points to material 9, which does not exist");
+}
+
+} // namespace
+} // namespace lucent::scene
