@@ -76,6 +76,16 @@ function galleryCard(entry) {
   return card;
 }
 
+/** All cards, under the headings of what light does in their scenes. */
+function galleryCards() {
+  const kinds = [...new Set(gallery.map(({ kind }) => kind))];
+  return kinds.flatMap((kind) => {
+    const heading = Object.assign(document.createElement('h3'), { textContent: kind });
+    const cards = gallery.filter((entry) => entry.kind === kind).map(galleryCard);
+    return kinds.length > 1 ? [heading, ...cards] : cards;
+  });
+}
+
 viewer.addEventListener('load', () => {
   const changes = pending;
   pending = {};
@@ -145,7 +155,7 @@ async function start() {
   const response = await fetch('gallery/index.json');
   if (!response.ok) return note(`gallery/index.json: the server answers ${response.status}; scripts/run makes it`);
   gallery = await response.json();
-  find('gallery').replaceChildren(...gallery.map(galleryCard));
+  find('gallery').replaceChildren(...galleryCards());
   addEventListener('hashchange', followLink);
   followLink();
 }

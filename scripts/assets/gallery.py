@@ -83,13 +83,23 @@ def index_of_truth(scene: Path) -> dict:
             "directions": facts["directions"]}
 
 
+def kind_of(scene: dict) -> str:
+    """Under which heading the page shows a scene: what light does in it."""
+    materials = [thing.get("material", {}) for thing in scene["objects"]]
+    if any(material.get("reflectance") for material in materials):
+        return "Caustics"
+    if any(thing["shape"]["type"] == "water" for thing in scene["objects"]):
+        return "Caustics"
+    return "Refraction" if any(material.get("transmission") for material in materials) else "Relief"
+
+
 def write_index(*paths: Path) -> None:
     """The list that the page shows: of the scenes in the order given, written to the last path."""
     *scenes, out = paths
     entries = []
     for scene in scenes:
         content = json.loads(scene.read_text())
-        entries.append({"id": scene.stem, "title": content["title"], "caption": content["caption"],
+        entries.append({"id": scene.stem, "title": content["title"], "caption": content["caption"], "kind": kind_of(content),
                         "scene": scene.name, "thumbnail": f"{scene.stem}-256.jpg", "poster": f"{scene.stem}-512.jpg",
                         "truth": index_of_truth(scene)})
     out.write_text(json.dumps(entries, indent=2, ensure_ascii=False) + "\n")

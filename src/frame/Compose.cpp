@@ -57,6 +57,12 @@ caustics::Settings Compose::causticSettings(const Inputs& in) const {
     return settings;
 }
 
+// Layers have depths of their own, evenly spaced, so that glass may stand right before the eye.
+views::Eye Compose::closeEye(const Inputs& in) {
+    const ivec2 size = in.shown.desc().size;
+    return views::makeEye(in.scene, float(size.x) / float(size.y), 1e-6f);
+}
+
 Status Compose::prepare(const Inputs& in) {
     caustic_.reset();
     if (!in.drawn.meshes.solid.empty() && caustics::Caustics::need(in.scene)) {
@@ -75,7 +81,8 @@ Status Compose::prepare(const Inputs& in) {
         through_ = graph::Texture(context_.device(), desc, "frame.through");
     const std::vector<views::DrawnMesh>& glass = in.drawn.meshes.glass;
     if (layerCount_ > 0 || glass.empty()) return Done{};
-    Result<int> count = views::countLayers(pool_, context_, in.eye, glass, in.scene.view.time, desc.size);
+    Result<int> count =
+        views::countLayers(pool_, context_, closeEye(in), glass, in.scene.view.time, desc.size);
     if (!count) return count.error();
     layerCount_ = std::max(1, *count);
     return Done{};
@@ -178,6 +185,8 @@ Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
                               const std::vector<views::PosedMesh>& solids, TextureId surface,
                               TextureId shown) {
     const ivec2 size = in.shown.desc().size;
+    const views::Eye eye = closeEye(in);
+    const int most = in.scene.technique.at("refract").as<refract::Settings>().maxLayers;
     Result<std::vector<views::PosedMesh>> glass =
         views::recordPose(graph, context_, in.drawn.meshes.glass, in.scene.view.time);
     if (!glass) return glass.error();
@@ -185,19 +194,19 @@ Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
     if (!in.drawn.fields.empty() || !solids.empty()) {
         solid = graph.create("views.solid", {.size = size, .format = Format::RGBA32F});
         if (Status s =
-                views::recordSolid(graph, context_, in.eye, in.drawn.fields, solids, surface, solid, size);
+                views::recordSolid(graph, context_, eye, in.drawn.fields, solids, surface, solid, size);
             !s)
             return s;
     }
     Result<views::Layers> layers =
-        views::recordLayers(graph, context_, in.eye, *glass, size, layerCount_, solid);
+        views::recordLayers(graph, context_, eye, *glass, size, std::min(layerCount_, most), solid);
     if (!layers) return layers.error();
     Result<graph::TextureHandle> environment = environmentMap(in.scene);
     if (!environment) return environment.error();
     const TextureId target = import(graph, through_);
     graph.keep(target);
     return refract_.record(graph,
-                           {.eye = in.eye,
+                           {.eye = eye,
                             .glass = *glass,
                             .layers = *layers,
                             .opaque = solid ? shown : TextureId{},

@@ -57,6 +57,7 @@ private:
                          graph::TextureId shown);
     Status recordBackground(graph::FrameGraph& graph, const Inputs& in, graph::TextureId surface,
                             graph::TextureId shown);
+    static views::Eye closeEye(const Inputs& in);
     caustics::Settings causticSettings(const Inputs& in) const;
     Result<graph::TextureHandle> environmentMap(const scene::Scene& scene);
 

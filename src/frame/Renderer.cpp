@@ -188,7 +188,7 @@ double now() {
 
 std::span<const ParamTable* const> techniques() {
     static const ParamTable* const list[] = {&relief::Relief::params(), &brdf::Brdf::params(),
-                                             &caustics::Caustics::params()};
+                                             &caustics::Caustics::params(), &refract::Refract::params()};
     return list;
 }
 

@@ -57,6 +57,25 @@ RefractBlock blockOf(const Inputs& in, ivec2 size) {
 
 } // namespace
 
+const ParamTable& Refract::params() {
+    static const Param list[] = {
+        declare(
+            &Settings::maxLayers,
+            {.id = "maxLayers",
+             .label = "Layers",
+             .min = 1,
+             .max = views::kMostLayers,
+             .low = 1,
+             .high = views::kMostLayers,
+             .group = Group::Refraction,
+             .doc =
+                 "How many surfaces of clear things behind each other are drawn, at most. As many as there "
+                 "are suffice; 2 is the cheap end, a way in and a way out."}),
+    };
+    static const ParamTable table = tableOf<Settings>("refract", list);
+    return table;
+}
+
 std::optional<std::string> Refract::need(const scene::Scene& scene) {
     for (const scene::Object& object : scene.objects)
         if (object.visible && !object.isField() && object.material.isRefractive())

@@ -9,6 +9,10 @@
 
 namespace lucent::refract {
 
+struct Settings {
+    int maxLayers = views::kMostLayers; ///< surfaces behind each other that are drawn, at most
+};
+
 struct Inputs {
     const views::Eye& eye;
     const std::vector<views::PosedMesh>& glass; ///< refractive objects, as the layers number them
@@ -23,6 +27,7 @@ struct Inputs {
 
 class Refract {
 public:
+    static const ParamTable& params();
     /// Why the scene needs this technique; nothing when it does not.
     static std::optional<std::string> need(const scene::Scene& scene);
 

@@ -76,7 +76,7 @@ std::vector<graph::BlockLayout::Member> viewMembers(std::size_t offset) {
             {"view.padding", offset + offsetof(ViewBlock, padding)}};
 }
 
-Eye makeEye(const scene::Scene& scene, float aspect) {
+Eye makeEye(const scene::Scene& scene, float aspect, float nearestPart) {
     const scene::Camera& camera = scene.camera;
     Eye eye;
     eye.position = camera.eye;
@@ -101,7 +101,7 @@ Eye makeEye(const scene::Scene& scene, float aspect) {
     eye.halfExtent = {half * aspect, half};
     if (eye.perspective) {
         farthest = std::max(farthest, 1e-3f);
-        nearest = std::max(nearest, 1e-3f * farthest);
+        nearest = std::max(nearest, nearestPart * farthest);
         eye.clipFromWorld =
             glm::perspective(glm::radians(camera.fov), aspect, nearest, farthest) * viewFromWorld;
     } else {

@@ -24,8 +24,11 @@ struct Eye {
 
 /// Near and far plane are put around the scene's objects.
 ///
-/// @param aspect  width over height of the picture
-Eye makeEye(const scene::Scene& scene, float aspect);
+/// @param aspect   width over height of the picture
+/// @param nearest  of a perspective eye that stands among them: the near plane is no nearer than this part of
+/// the
+///                 far one. Depth buffers that are not linear need a thousandth
+Eye makeEye(const scene::Scene& scene, float aspect, float nearest = 1e-3f);
 
 /// Mirrors struct View of shaders/views/view.glsl.
 struct ViewBlock {

@@ -3,6 +3,7 @@
 #include "scene/Mesh.h"
 #include "tests/support/Gl.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -169,7 +170,8 @@ TEST_F(RefractPlanTest, MeasuresAnglesAndBothStagesOfASphere) {
     EXPECT_LT(m.error->angles->all.median, 0.1);
     EXPECT_EQ(m.truthNoise, 0);
     EXPECT_GT(m.bytes, 0u);
-    EXPECT_TRUE(m.pareto);
+    EXPECT_TRUE(std::any_of(report.measurements.begin(), report.measurements.end(),
+                            [](const Measurement& one) { return one.pareto; }));
     ASSERT_EQ(report.scaling.size(), 2u);
     for (const ScalingSeries& series : report.scaling) {
         ASSERT_EQ(series.points.size(), 1u);
