@@ -127,7 +127,8 @@ void main() {
 #if defined(SHOW_DIRECTION) || !defined(USE_DISPERSION)
     oColor = throughGlass(pixel, texel, eye, 1);
 #else
-    oColor = vec4(0.0, 0.0, 0.0, 1.0);
-    for (int channel = 0; channel < 3; ++channel) oColor[channel] = throughGlass(pixel, texel, eye, channel)[channel];
+    vec4 color = vec4(0.0, 0.0, 0.0, 1.0); // WebGL lets no output be indexed
+    for (int channel = 0; channel < 3; ++channel) color[channel] = throughGlass(pixel, texel, eye, channel)[channel];
+    oColor = color;
 #endif
 }

@@ -345,7 +345,7 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort) {
         stages.push_back({seesWalls(scene) ? wanted : 0, true});
     else
         stages.push_back({manyLights ? wanted : 0, false});
-    coarse = effort == Effort::Coarse && (stages.size() > 1 || limited(scene));
+    coarse = effort == Effort::Coarse && (stages.size() > 1 || limited(scene) || need(scene, "brdf"));
     if (coarse) stages.resize(1);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,18 @@ TEST(Shaders, AFileStandsOnceInAStageAndIsSharedByStages) {
     ASSERT_EQ(inLight.size(), 1u); // it includes nothing
     EXPECT_EQ(piecesOf("views/surface.frag", "views/field.glsl"), inLight);
     EXPECT_FALSE(piecesOf("relief/light.frag", "relief/light.frag").empty());
+}
+
+// WebGL refuses an output with a variable index, which native drivers let pass: no output is indexed at all.
+TEST(Shaders, NoOutputIsIndexed) {
+    for (const Stage* stage = begin(); stage != end(); ++stage) {
+        std::string source;
+        for (int i = 0; i < stage->pieceCount; ++i)
+            source += stage->pieces[i]->source;
+        static const std::regex indexed(R"(\bo[A-Z]\w*\s*\[)");
+        std::smatch found;
+        EXPECT_FALSE(std::regex_search(source, found, indexed)) << stage->path << ": " << found.str();
+    }
 }
 
 TEST(Shaders, UnknownStagesAreNotFound) { EXPECT_EQ(find("relief/nothing.frag"), nullptr); }
