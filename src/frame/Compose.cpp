@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 namespace lucent::frame {
 
@@ -19,6 +20,14 @@ TextureId import(graph::FrameGraph& graph, const graph::Texture& texture) {
 }
 
 bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
+
+// Those that the camera does not leave out.
+std::vector<views::PosedMesh> seen(const std::vector<views::PosedMesh>& meshes) {
+    std::vector<views::PosedMesh> list;
+    std::copy_if(meshes.begin(), meshes.end(), std::back_inserter(list),
+                 [](const views::PosedMesh& mesh) { return mesh.drawn.object->visible; });
+    return list;
+}
 
 struct BackgroundBlock {
     views::ViewBlock view;
@@ -89,16 +98,21 @@ Status Compose::prepare(const Inputs& in) {
 }
 
 Status Compose::record(graph::FrameGraph& graph, const Inputs& in) {
-    const views::DrawnMeshes& meshes = in.drawn.meshes;
-    if (meshes.solid.empty() && meshes.glass.empty()) return Done{};
-    Result<std::vector<views::PosedMesh>> solids =
-        views::recordPose(graph, context_, meshes.solid, in.scene.view.time);
+    if (in.drawn.count() == in.drawn.fields.size()) return Done{};
+    // Every mesh is posed once, hidden ones too: they cast shadows and caustics.
+    Result<views::DrawnMeshes> all = views::drawnMeshes(in.scene, images_, true, &waters_);
+    if (!all) return all.error();
+    const float time = in.scene.view.time;
+    Result<std::vector<views::PosedMesh>> solids = views::recordPose(graph, context_, all->solid, time);
     if (!solids) return solids.error();
+    Result<std::vector<views::PosedMesh>> glass = views::recordPose(graph, context_, all->glass, time);
+    if (!glass) return glass.error();
     const TextureId surface = import(graph, in.surface), shown = import(graph, in.shown);
     graph.keep(shown);
-    if (!solids->empty())
-        if (Status s = recordSolids(graph, in, *solids, surface, shown); !s) return s;
-    if (!meshes.glass.empty()) return recordThrough(graph, in, *solids, surface, shown);
+    if (!in.drawn.meshes.solid.empty())
+        if (Status s = recordSolids(graph, in, *solids, *glass, surface, shown); !s) return s;
+    if (!in.drawn.meshes.glass.empty())
+        return recordThrough(graph, in, seen(*solids), seen(*glass), surface, shown);
     if (replaces(in.scene, in.drawn)) return recordBackground(graph, in, surface, shown);
     return Done{};
 }
@@ -138,31 +152,24 @@ Status Compose::recordBackground(graph::FrameGraph& graph, const Inputs& in, Tex
 }
 
 Status Compose::recordSolids(graph::FrameGraph& graph, const Inputs& in,
-                             const std::vector<views::PosedMesh>& solids, TextureId surface,
-                             TextureId shown) {
+                             const std::vector<views::PosedMesh>& solids,
+                             const std::vector<views::PosedMesh>& glass, TextureId surface, TextureId shown) {
     const ivec2 size = in.shown.desc().size;
-    Result<views::DrawnMeshes> all = views::drawnMeshes(in.scene, images_, true, &waters_);
-    if (!all) return all.error();
-    const float time = in.scene.view.time;
-    Result<std::vector<views::PosedMesh>> opaque = views::recordPose(graph, context_, all->solid, time);
-    if (!opaque) return opaque.error();
-    Result<std::vector<views::PosedMesh>> glass = views::recordPose(graph, context_, all->glass, time);
-    if (!glass) return glass.error();
     TextureId flux;
     if (caustic_) {
         Result<TextureId> irradiance = caustics_.record(graph,
                                                         {.scene = in.scene,
                                                          .eye = in.eye,
-                                                         .glass = *glass,
-                                                         .solids = *opaque,
+                                                         .glass = glass,
+                                                         .solids = solids,
                                                          .surface = surface,
                                                          .size = size},
                                                         *caustic_, causticSettings(in));
         if (!irradiance) return irradiance.error();
         flux = *irradiance;
     }
-    std::vector<views::PosedMesh> casters = std::move(*opaque);
-    casters.insert(casters.end(), glass->begin(), glass->end());
+    std::vector<views::PosedMesh> casters = solids;
+    casters.insert(casters.end(), glass.begin(), glass.end());
     Result<graph::TextureHandle> environment = environmentMap(in.scene);
     if (!environment) return environment.error();
     auto settings = in.scene.technique.at("brdf").as<brdf::Settings>();
@@ -170,7 +177,7 @@ Status Compose::recordSolids(graph::FrameGraph& graph, const Inputs& in,
     return brdf_.record(graph,
                         {.scene = in.scene,
                          .eye = in.eye,
-                         .solids = solids,
+                         .solids = seen(solids),
                          .casters = casters,
                          .surface = surface,
                          .flux = flux,
@@ -182,14 +189,12 @@ Status Compose::recordSolids(graph::FrameGraph& graph, const Inputs& in,
 }
 
 Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
-                              const std::vector<views::PosedMesh>& solids, TextureId surface,
+                              const std::vector<views::PosedMesh>& solids,
+                              const std::vector<views::PosedMesh>& glass, TextureId surface,
                               TextureId shown) {
     const ivec2 size = in.shown.desc().size;
     const views::Eye eye = closeEye(in);
     const int most = in.scene.technique.at("refract").as<refract::Settings>().maxLayers;
-    Result<std::vector<views::PosedMesh>> glass =
-        views::recordPose(graph, context_, in.drawn.meshes.glass, in.scene.view.time);
-    if (!glass) return glass.error();
     TextureId solid;
     if (!in.drawn.fields.empty() || !solids.empty()) {
         solid = graph.create("views.solid", {.size = size, .format = Format::RGBA32F});
@@ -199,7 +204,7 @@ Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
             return s;
     }
     Result<views::Layers> layers =
-        views::recordLayers(graph, context_, eye, *glass, size, std::min(layerCount_, most), solid);
+        views::recordLayers(graph, context_, eye, glass, size, std::min(layerCount_, most), solid);
     if (!layers) return layers.error();
     Result<graph::TextureHandle> environment = environmentMap(in.scene);
     if (!environment) return environment.error();
@@ -207,7 +212,7 @@ Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
     graph.keep(target);
     return refract_.record(graph,
                            {.eye = eye,
-                            .glass = *glass,
+                            .glass = glass,
                             .layers = *layers,
                             .opaque = solid ? shown : TextureId{},
                             .solid = solid,

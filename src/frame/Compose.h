@@ -50,10 +50,12 @@ public:
 
 private:
     Status recordSolids(graph::FrameGraph& graph, const Inputs& in,
-                        const std::vector<views::PosedMesh>& solids, graph::TextureId surface,
+                        const std::vector<views::PosedMesh>& solids,
+                        const std::vector<views::PosedMesh>& glass, graph::TextureId surface,
                         graph::TextureId shown);
     Status recordThrough(graph::FrameGraph& graph, const Inputs& in,
-                         const std::vector<views::PosedMesh>& solids, graph::TextureId surface,
+                         const std::vector<views::PosedMesh>& solids,
+                         const std::vector<views::PosedMesh>& glass, graph::TextureId surface,
                          graph::TextureId shown);
     Status recordBackground(graph::FrameGraph& graph, const Inputs& in, graph::TextureId surface,
                             graph::TextureId shown);
