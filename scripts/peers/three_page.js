@@ -3,7 +3,7 @@
  * Lucent; window.compare() times both and counts their errors.
  */
 import * as THREE from 'three';
-import { callWasm } from '../../web/wasm.js';
+import { Lucent, combinations, makeCanvas, timeInTurn, waitFor } from './page.js';
 import { centreOf, directionOf, sampleWaves, solveWaves } from './waves.mjs';
 
 const kMapSize = 2048;
@@ -45,8 +45,6 @@ function makeGeometry(heights, n, scale) {
   geometry.setIndex(new THREE.BufferAttribute(indices, 1));
   return geometry;
 }
-
-const makeCanvas = (n) => Object.assign(document.createElement('canvas'), { width: n, height: n });
 
 class Three {
   constructor(heights, n, scale) {
@@ -100,8 +98,7 @@ class Three {
     this.light.castShadow = true;
     this.renderer.setRenderTarget(null);
     this.renderer.render(this.scene, this.camera);
-    const gl = this.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    waitFor(this.renderer.getContext());
   }
 
   /** Linear red of every pixel in a row of RGBA, row 0 at the bottom. */
@@ -132,61 +129,16 @@ class Three {
   }
 }
 
-/** The bench module (src/web/Bench.cpp) on a canvas of its own. */
-class Lucent {
-  static async start(heights, n, scale) {
-    const { default: create } = await import(new URL('lucent-bench.js', location).href); // of the page's site
-    const one = new Lucent();
-    one.n = n;
-    one.wasm = await create({ locateFile: (name) => new URL(name, location).href });
-    one.gl = makeCanvas(n).getContext('webgl2', { antialias: false, depth: false, stencil: false });
-    const { GL } = one.wasm;
-    GL.makeContextCurrent(GL.registerContext(one.gl, { majorVersion: 2, minorVersion: 0 }));
-    one.#demand('start');
-    one.#put('waves.pfm', pfm(heights, n));
-    one.#put('waves.json', new TextEncoder().encode(JSON.stringify(sceneOf(n, scale))));
-    one.#demand('load', 'waves.json');
-    return one;
-  }
-
-  #text(name, ...values) {
-    return this.wasm.UTF8ToString(callWasm(this.wasm, `bench_${name}`, ...values));
-  }
-  #demand(name, ...values) {
-    const message = this.#text(name, ...values);
-    if (message) throw new Error(message);
-  }
-  #put(name, bytes) {
-    callWasm(this.wasm, 'bench_file_put', name, bytes);
-  }
-  get driver() {
-    return this.#text('driver');
-  }
-
-  aim(direction) {
-    this.#demand('set', 'lights.0.direction', direction.map((part) => -part).join(' '));
-  }
-
-  frame() {
-    this.#demand('draw');
-    this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
-  }
-
-  // First channel of what was read or solved last.
-  #values() {
-    const from = this.wasm._bench_pixels() / 4;
-    return Float64Array.from({ length: this.n * this.n }, (_, i) => this.wasm.HEAPF32[from + 4 * i]);
-  }
-  picture() {
-    this.#demand('draw');
-    this.#demand('read');
-    return this.#values();
-  }
-  truth() {
-    this.#demand('solve', 1); // there is no environment
-    return this.#values();
-  }
+async function startLucent(heights, n, scale) {
+  const lucent = await Lucent.start(n);
+  lucent.put('waves.pfm', pfm(heights, n));
+  lucent.load(sceneOf(n, scale));
+  return lucent;
 }
+const aimLucent = (lucent, direction) => lucent.set('lights.0.direction', direction.map((part) => -part));
+
+/** First channel of four. */
+const firstOf = (values) => Float64Array.from({ length: values.length / 4 }, (_, i) => values[4 * i]);
 
 function pfm(heights, n) {
   const head = new TextEncoder().encode(`Pf\n${n} ${n}\n-1.0\n`);
@@ -240,42 +192,17 @@ class Errors {
   }
 }
 
-const median = (times) => {
-  const sorted = [...times].sort((a, b) => a - b);
-  return { median: sorted[sorted.length >> 1], low: sorted[0], high: sorted.at(-1), repeats: sorted.length };
-};
-
-function timeOf(work) {
-  const start = performance.now();
-  work();
-  return performance.now() - start;
-}
-
-// Frames of both in turn under a light that moves, so that whatever else the machine does hits both. The first pair
-// compiles and uploads.
+// Frames of both in turn under a light that moves.
 function timeBoth(three, lucent, elevation, repeats) {
-  const times = { three: [], lucent: [] };
-  for (let i = 0; i <= repeats; ++i) {
-    const direction = directionOf(elevation, 40 + 3 * i);
-    const pair = [three, lucent].map((one) =>
-      timeOf(() => {
-        one.aim(direction);
-        one.frame();
-      }),
-    );
-    if (i === 0) continue;
-    times.three.push(pair[0]);
-    times.lucent.push(pair[1]);
-  }
-  return { three: median(times.three), lucent: median(times.lucent) };
-}
-
-/** Every combination of the lists' elements: {a: [1, 2], b: [3]} gives [{a: 1, b: 3}, {a: 2, b: 3}]. */
-const combinations = (lists) =>
-  Object.entries(lists).reduce(
-    (done, [name, list]) => done.flatMap((one) => list.map((value) => ({ ...one, [name]: value }))),
-    [{}],
+  const lightOf = (i) => directionOf(elevation, 40 + 3 * i);
+  return timeInTurn(
+    {
+      three: (i) => (three.aim(lightOf(i)), three.frame()),
+      lucent: (i) => (aimLucent(lucent, lightOf(i)), lucent.frame()),
+    },
+    repeats,
   );
+}
 
 /**
  * @param options  n texels and pixels a side; scale, m for a height of 1; elevations of the lights, degrees; repeats of
@@ -285,22 +212,21 @@ const combinations = (lists) =>
  */
 window.compare = async ({ n, scale, elevations, repeats, knobs }) => {
   const heights = sampleWaves(n);
-  const lucent = await Lucent.start(heights, n, scale);
+  const lucent = await startLucent(heights, n, scale);
   const three = new Three(heights, n, scale);
   const lights = elevations.map((elevation) => directionOf(elevation, 40));
   const truths = lights.map((light) => {
-    lucent.aim(light);
-    return { exact: solveWaves(n, scale, light), sampled: lucent.truth() };
+    aimLucent(lucent, light);
+    return { exact: solveWaves(n, scale, light), sampled: firstOf(lucent.truth()) };
   });
   const open = lights.map((light) => {
     three.aim(light);
     return three.read(false);
   });
-  const errorsOf = (one) => {
+  const errorsOf = (pictureUnder) => {
     const errors = { exact: new Errors(), sampled: new Errors() };
     lights.forEach((light, i) => {
-      one.aim(light);
-      const picture = one.picture(open[i]);
+      const picture = pictureUnder(light, open[i]);
       for (const kind of ['exact', 'sampled']) errors[kind].add(picture, truths[i][kind], n);
     });
     return { exact: errors.exact.json, sampled: errors.sampled.json };
@@ -308,7 +234,7 @@ window.compare = async ({ n, scale, elevations, repeats, knobs }) => {
   const set = (setting) => three.set({ ...setting, bias: setting.bias / n, normalBias: setting.normalBias / n });
   const swept = combinations(knobs).map((setting) => {
     set(setting);
-    return { knobs: setting, ...errorsOf(three) };
+    return { knobs: setting, ...errorsOf((light, unshadowed) => (three.aim(light), three.picture(unshadowed))) };
   });
   const best = swept.reduce((a, b) => (b.exact.wrongShare < a.exact.wrongShare ? b : a));
   set(best.knobs);
@@ -317,10 +243,10 @@ window.compare = async ({ n, scale, elevations, repeats, knobs }) => {
   truths.forEach(({ exact, sampled }) => limits.add(sampled, exact, n));
   return {
     driver: lucent.driver,
-    glVersion: lucent.gl.getParameter(lucent.gl.VERSION),
+    glVersion: lucent.glVersion,
     revision: THREE.REVISION,
     three: swept,
-    lucent: errorsOf(lucent),
+    lucent: errorsOf((light) => (aimLucent(lucent, light), firstOf(lucent.picture()))),
     sampling: limits.json,
     ms,
   };

@@ -25,6 +25,7 @@ const kErrors = {
   flip: { label: 'FLIP', of: (e) => e.flip },
   degrees: { label: 'median angle in degrees', of: (e) => e.degrees?.all.median },
   wrongShare: { label: 'share of wrong texels', of: (e) => e.wrongShare },
+  misplaced: { label: 'share of misplaced light', of: (e) => e.flux?.misplaced },
   ssim: { label: '1 - SSIM', of: (e) => (e.ssim == null ? null : 1 - e.ssim) },
 };
 
@@ -157,6 +158,7 @@ function hover(m) {
     m.bakeMs == null ? null : `prepared in ${number(m.bakeMs)} ms`,
   ];
   if (m.error?.wrongShare != null) lines.push(`${number(100 * m.error.wrongShare)} % of the texels wrong`);
+  if (m.error?.flux) lines.push(`${number(100 * m.error.flux.misplaced)} % of the light misplaced, ${number(100 * m.error.flux.byNoise)} % by the noise of the truth`);
   if (m.error?.degrees) lines.push(angles('everywhere', m.error.degrees.all), angles('away from silhouettes', m.error.degrees.inside));
   else if (m.error?.rmse != null) lines.push(`RMSE ${number(m.error.rmse)}, ${number(m.error.relRmse)} of the mean`, `99 % within ${number(m.error.p99)}, all within ${number(m.error.max)}`);
   if (m.error?.flip != null) lines.push(`FLIP ${number(m.error.flip)}, SSIM ${number(m.error.ssim)}`);
@@ -269,6 +271,7 @@ function measurementTable(title, measurements) {
       { title: '99 %', number: true, cell: error('p99') },
       { title: 'max', number: true, cell: error('max') },
       ...(measurements.some((m) => m.error?.degrees) ? kAngleColumns : []),
+      ...(measurements.some((m) => m.error?.flux) ? [{ title: 'misplaced %', number: true, cell: (m) => number(m.error?.flux && 100 * m.error.flux.misplaced) }] : []),
       ...(measurements.some((m) => m.error?.wrongShare != null) ? [{ title: 'wrong texels', number: true, cell: error('wrongShare') }] : []),
       { title: 'FLIP', number: true, cell: error('flip') },
       { title: 'SSIM', number: true, cell: (m) => m.error?.ssim?.toFixed(5) ?? '–' },

@@ -1,6 +1,9 @@
-/** Lucent and three.js before the same exact pictures, small: scripts/peers/three.mjs is the whole comparison. */
+/** Lucent and its peers before the same exact pictures, small: scripts/peers/ holds the whole comparisons. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
+import { sceneOf as waterSceneOf } from '../../scripts/peers/caustics.mjs';
+import { sceneOf as glassSceneOf } from '../../scripts/peers/refraction.mjs';
+import { bringIn } from '../../scripts/peers/shared.mjs';
 import { compare, kComparison } from '../../scripts/peers/three.mjs';
 import { directionOf, solveWaves, wavesAt } from '../../scripts/peers/waves.mjs';
 import { openPage, openStage } from './support.mjs';
@@ -46,4 +49,103 @@ test('the smooth field is lit where no step along the ray is inside', () => {
     if (Math.abs(highest) > 4 * kStep) assert.equal(exact[i] > 0, highest < 0, `texel ${i}: ${highest} above the ray`);
   }
   assert.ok(lit > 0.2 * n * n && lit < 0.8 * n * n, `${lit} texels are lit`);
+});
+
+/** A picture as the program writes it, of pixel(x, y) => [red, green, blue] with row 0 at the top. */
+function pfmOf(size, pixel) {
+  const values = new Float32Array(3 * size * size);
+  for (let y = 0; y < size; ++y)
+    for (let x = 0; x < size; ++x) values.set(pixel(x, y), 3 * ((size - 1 - y) * size + x));
+  return Buffer.concat([Buffer.from(`PF\n${size} ${size}\n-1.0\n`), Buffer.from(values.buffer)]);
+}
+
+/** Runs a peer's page script on pictures that are given to it by name. */
+async function compareIn(script, pictures, options) {
+  const page = await openPage(stage, 'blank.html');
+  await page.route('**/peers/*', (route) =>
+    route.fulfill({ body: pictures[new URL(route.request().url()).pathname.split('/').pop()] }),
+  );
+  await bringIn(page, script);
+  const found = await page.evaluate((given) => window.compare(given), options);
+  await page.leave();
+  return found;
+}
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const sum = (a, b, factor) => a.map((value, i) => value + factor * b[i]);
+const unit = (a) => a.map((value) => value / Math.hypot(...a));
+
+/** Snell's law in double precision; the normal faces the ray. */
+function refract(direction, normal, eta) {
+  const cosine = -dot(direction, normal);
+  const inside = Math.sqrt(1 - eta * eta * (1 - cosine * cosine));
+  return sum(direction.map((value) => eta * value), normal, eta * cosine - inside);
+}
+
+/** Where a ray through a pixel leaves a ball of glass around the origin, radius 1, ior 1.5; nothing where it misses. */
+function throughBall({ eye, fov }, size, x, y) {
+  const back = unit(eye); // the eye looks at the origin
+  const right = unit([back[2], 0, -back[0]]);
+  const up = cross(back, right);
+  const half = Math.tan((fov * Math.PI) / 360);
+  const [across, above] = [(2 * (x + 0.5)) / size - 1, 1 - (2 * (y + 0.5)) / size];
+  const ray = unit(sum(sum(back.map((value) => -value), right, half * across), up, half * above));
+  const along = -dot(eye, ray);
+  const root = along * along - dot(eye, eye) + 1;
+  if (root <= 0) return null;
+  const entry = sum(eye, ray, along - Math.sqrt(root));
+  const within = refract(ray, entry, 1 / 1.5);
+  const exit = sum(entry, within, -2 * dot(entry, within));
+  return refract(within, exit.map((value) => -value), 1.5);
+}
+
+test('a glass ball bends light as it must by Lucent and by rays through a tree, not by transmission', async () => {
+  const size = 48;
+  const scene = glassSceneOf('sphere', size);
+  const rayAt = (x, y) => throughBall(scene.camera, size, x, y);
+  const pictures = {
+    exact: pfmOf(size, (x, y) => rayAt(x, y) ?? [0, 0, -1]),
+    layers: pfmOf(size, (x, y) => Array(3).fill(rayAt(x, y) ? 2 : 0)),
+  };
+  const { lucent, swept } = await compareIn('refraction_page.js', pictures, {
+    scene,
+    size,
+    files: { exact: 'exact', layers: 'layers' },
+    targets: { median: 0.1, p95: 2 },
+    repeats: 1,
+    knobs: {
+      transmission: { thickness: [2], side: ['front'] },
+      tree: { strategy: ['sah'], leaf: [4] },
+      rays: { segments: [128], bounces: [2], normals: ['smooth'], reenters: [false, true] },
+      flat: { segments: [] },
+    },
+  });
+  assert.ok(lucent.all.median <= 0.1 && lucent.all.p95 <= 2, `Lucent is off by ${JSON.stringify(lucent.all)}`);
+  // Between vertices a 128th of a turn apart the triangles lie up to 1 - cos(pi / 128) = 3e-4 below the ball, and the
+  // ray is bent there at the normal of a place as far beside: some hundredths of a degree.
+  for (const { error } of [...swept.example, ...swept.reentering])
+    assert.ok(error.all.median <= 0.1, `three-mesh-bvh is off by ${JSON.stringify(error.all)}`);
+  // Its ray leaves at the entry's normal: not bent a second time, it lacks half of the turn, which is 2 (a - b) with
+  // sin a = 1.5 sin b: 23 degrees at a = 45.
+  const [{ error }] = swept.transmission;
+  assert.ok(error.all.median > 10, `three.js is off by only ${JSON.stringify(error.all)}`);
+});
+
+test('flat water lights its floor evenly, by Lucent and by area ratios', async () => {
+  const size = 50;
+  const scene = waterSceneOf('water', size);
+  scene.objects[1].shape.amplitude = 0;
+  const transmitted = 1 - (0.33 / 2.33) ** 2; // straight down from air into water of ior 1.33
+  const pictures = { exact: pfmOf(size, () => Array(3).fill(transmitted)), noise: pfmOf(size, () => [0, 0, 0]) };
+  const { swept } = await compareIn('caustics_page.js', pictures, {
+    scene,
+    files: { exact: 'exact', noise: 'noise' },
+    knobs: { peer: { cells: [64], map: [256] }, lucent: { cells: [32], grid: [256], mapSize: [512] } },
+    target: 0.01,
+    repeats: 1,
+  });
+  const misplaced = ([{ error }]) => error.flux.misplaced;
+  assert.ok(misplaced(swept.lucent) <= 0.01, `Lucent misplaces ${misplaced(swept.lucent)}`); // the target on water
+  assert.ok(misplaced(swept.peer) <= 1e-3, `area ratios misplace ${misplaced(swept.peer)}`); // rounding of derivatives
 });

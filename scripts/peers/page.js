@@ -1,0 +1,139 @@
+/** What the peers' pages share: Lucent on a canvas of its own, pictures of numbers, times. */
+import { callWasm } from '../../web/wasm.js';
+
+export function makeCanvas(width, height = width) {
+  return Object.assign(document.createElement('canvas'), { width, height });
+}
+
+/** Waits for all that was drawn on a canvas. */
+export function waitFor(gl) {
+  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+}
+
+/** The bench module (src/web/Bench.cpp) with one scene. */
+export class Lucent {
+  static async start(width, height = width) {
+    const { default: create } = await import(new URL('lucent-bench.js', location).href); // of the page's site
+    const one = new Lucent();
+    one.pixels = width * height;
+    one.wasm = await create({ locateFile: (name) => new URL(name, location).href });
+    const options = { antialias: false, depth: false, stencil: false };
+    one.gl = makeCanvas(width, height).getContext('webgl2', options);
+    const { GL } = one.wasm;
+    GL.makeContextCurrent(GL.registerContext(one.gl, { majorVersion: 2, minorVersion: 0 }));
+    one.#demand('start');
+    return one;
+  }
+
+  #text(name, ...values) {
+    return this.wasm.UTF8ToString(callWasm(this.wasm, `bench_${name}`, ...values));
+  }
+  #demand(name, ...values) {
+    const message = this.#text(name, ...values);
+    if (message) throw new Error(message);
+  }
+  get driver() {
+    return this.#text('driver');
+  }
+  get glVersion() {
+    return this.gl.getParameter(this.gl.VERSION);
+  }
+
+  /** A file that the scene names. */
+  put(name, bytes) {
+    callWasm(this.wasm, 'bench_file_put', name, bytes);
+  }
+  /** @param scene  as a file has it */
+  load(scene) {
+    this.put('scene.json', new TextEncoder().encode(JSON.stringify(scene)));
+    this.#demand('load', 'scene.json');
+  }
+  set(path, value) {
+    this.#demand('set', path, [value].flat().join(' '));
+  }
+
+  /** A frame on the canvas, waited for. */
+  frame() {
+    this.#demand('draw');
+    waitFor(this.gl);
+  }
+
+  /** Gives the context back: browsers keep few of them. */
+  release() {
+    this.gl.getExtension('WEBGL_lose_context').loseContext();
+  }
+
+  // What was read or solved last.
+  #values() {
+    const from = this.wasm._bench_pixels() / 4;
+    return this.wasm.HEAPF32.slice(from, from + 4 * this.pixels);
+  }
+  /** What the scene shows: 4 floats a pixel, linear, row 0 at the top. */
+  picture() {
+    this.#demand('draw');
+    this.#demand('read');
+    return this.#values();
+  }
+  /** The same of its exact solution, of height fields only. */
+  truth() {
+    this.#demand('solve', 1); // there is no environment
+    return this.#values();
+  }
+}
+
+/** Rows of a target the other way round: WebGL's begin at the bottom. @param values  `width` of them a row */
+export function turned(values, width) {
+  const rows = values.length / width;
+  const result = new values.constructor(values.length);
+  for (let row = 0; row < rows; ++row)
+    result.set(values.subarray(row * width, (row + 1) * width), (rows - 1 - row) * width);
+  return result;
+}
+
+export async function fetchBytes(name) {
+  const answer = await fetch(`peers/${name}`);
+  if (!answer.ok) throw new Error(`peers/${name}: the server answers ${answer.status}; must be there`);
+  return new Uint8Array(await answer.arrayBuffer());
+}
+
+/** A picture of the program: 3 floats a pixel, row 0 at the top. */
+export async function fetchPfm(name) {
+  const bytes = await fetchBytes(name);
+  const head = /^PF\n(\d+) (\d+)\n-1(\.0+)?\n/.exec(new TextDecoder('latin1').decode(bytes.subarray(0, 64)));
+  if (!head) throw new Error(`${name}: is no PFM of colours in little-endian order`);
+  const [width, height] = [Number(head[1]), Number(head[2])];
+  return { width, height, values: turned(new Float32Array(bytes.slice(head[0].length).buffer), 3 * width) };
+}
+
+export function spreadOf(times) {
+  const sorted = [...times].sort((a, b) => a - b);
+  return { median: sorted[sorted.length >> 1], low: sorted[0], high: sorted.at(-1), repeats: sorted.length };
+}
+
+export function timeOf(work) {
+  const start = performance.now();
+  work();
+  return performance.now() - start;
+}
+
+/**
+ * Frames of all in turn, so that whatever else the machine does hits all. The first round compiles and uploads.
+ * @param frames   {name: (i) => draws frame i and waits for it}
+ * @return         {name: spread of milliseconds}
+ */
+export function timeInTurn(frames, repeats) {
+  const times = Object.keys(frames).map(() => []);
+  for (let i = 0; i <= repeats; ++i) {
+    const round = Object.values(frames).map((frame) => timeOf(() => frame(i)));
+    if (i > 0) round.forEach((time, k) => times[k].push(time));
+  }
+  return Object.fromEntries(Object.keys(frames).map((name, k) => [name, spreadOf(times[k])]));
+}
+
+/** Every combination of the lists' elements: {a: [1, 2], b: [3]} gives [{a: 1, b: 3}, {a: 2, b: 3}]. */
+export function combinations(lists) {
+  return Object.entries(lists).reduce(
+    (done, [name, list]) => done.flatMap((one) => list.map((value) => ({ ...one, [name]: value }))),
+    [{}],
+  );
+}
