@@ -88,7 +88,14 @@ await build({
 });
 await build({ ...common, entryPoints: [web('page.js')], outfile: out('page.js') });
 await build({ minify: true, entryPoints: [web('page.css')], outfile: out('page.css') });
-for (const name of ['index.html', 'example.html', 'bench.html']) copyFileSync(web(name), out(name));
+for (const name of ['index.html', 'bench.html']) copyFileSync(web(name), out(name));
+
+// The picture of what public peers make of a caustic is measured (scripts/peers/caustics.mjs); without it its figure
+// is left out.
+const kPeers = join(kRoot, 'assets/pictures/caustics-peers.png');
+const example = readFileSync(web('example.html'), 'utf8');
+if (existsSync(kPeers)) copyFileSync(kPeers, out('caustics-peers.png'));
+writeFileSync(out('example.html'), existsSync(kPeers) ? example : example.replace(/<figure class="peers">.*?<\/figure>\n/s, ''));
 for (const module of kModules) copyFileSync(wasm(`${module}.wasm`), out(`${module}.wasm`));
 if (existsSync(kGallery)) {
   rmSync(out('gallery'), { recursive: true, force: true });

@@ -113,7 +113,18 @@ const kEditors = {
 };
 
 /** Tells lists of controls apart by what they are made for. */
-const contentOf = (controls) => controls.map(({ path, group }) => group && path).join();
+const contentOf = (controls) => controls.map(({ path, group, choices }) => group && [path, ...choices]).join();
+
+/** The part of a group that holds the controls of one object, lamp or technique: that which was begun last. */
+function ownerPart(group, owner) {
+  if (!owner) return group;
+  const last = group.lastElementChild;
+  if (last.getAttribute('aria-label') === owner) return last;
+  const title = make('div', { className: 'owner', textContent: owner, 'aria-hidden': 'true' });
+  const part = make('div', { role: 'group', 'aria-label': owner }, title);
+  group.append(part);
+  return part;
+}
 
 export class Controls {
   #actions;
@@ -140,7 +151,7 @@ export class Controls {
     for (const control of controls.filter(({ group }) => group)) {
       if (!groups.has(control.group))
         groups.set(control.group, make('fieldset', {}, make('legend', { textContent: control.group })));
-      groups.get(control.group).append(this.#row(control));
+      ownerPart(groups.get(control.group), control.owner).append(this.#row(control));
     }
     this.element.replaceChildren(...groups.values());
     this.update(controls);

@@ -25,8 +25,8 @@ const kHintTime = 1600; // ms
 const kKeys =
   'Arrow keys on a relief move the light or turn the environment, page up and page down lift the light or zoom, ' +
   'shift with arrow keys orbits the camera. Arrow keys in other scenes orbit the camera, page up and page down zoom, ' +
-  'shift with arrow keys turns the environment or moves the light. Space plays what moves, 0 goes back, question mark ' +
-  'lists all keys, Escape leaves.';
+  'shift with arrow keys turns the environment or moves the light, D lets a drop fall into water. Space plays what ' +
+  'moves, 0 goes back, question mark lists all keys, Escape leaves.';
 
 const kStyle = new CSSStyleSheet();
 kStyle.replaceSync(css);
@@ -279,7 +279,21 @@ export class LucentViewer extends HTMLElement {
     if (!this.paused) this.#set('playing', 'false');
   }
 
-  /** Milliseconds, passes, draws, lights, bytes, complete, frames, and where the panel's controls lie. */
+  /**
+   * A drop falls into the water that is seen at a place of the element, and time runs.
+   * @param x, y  CSS pixels from its top left corner. @return {boolean}  false where there is no water
+   */
+  drop(x, y) {
+    const fell = this.#apply('viewer_drop', x, y) === 1;
+    this.#sync();
+    return fell;
+  }
+
+  /**
+   * Milliseconds, passes, draws, lights, bytes, complete, frames, modes that the scene has something for, and where the
+   * panel's controls lie; while the caustic map is shown, energy: W of each colour that met glass and mirrors, and what
+   * became of them.
+   */
   stats() {
     return JSON.parse(this.#ask('viewer_stats') || '{}');
   }

@@ -86,6 +86,31 @@ function galleryCards() {
   });
 }
 
+// ---- modes: what light does in a scene, as the gallery sorts them
+
+/** Shows a mode of the scene at hand, or else of the first scene that has it. */
+function showMode(kind) {
+  const mode = kind.toLowerCase();
+  if (viewer.stats().modes?.includes(mode)) viewer.set('mode', mode);
+  else showScene(gallery.find((entry) => entry.kind === kind));
+}
+
+function modeButtons() {
+  const kinds = [...new Set(gallery.map(({ kind }) => kind))];
+  if (kinds.length < 2) return [];
+  return kinds.map((kind) => {
+    const button = Object.assign(document.createElement('button'), { textContent: kind });
+    button.addEventListener('click', () => showMode(kind));
+    return button;
+  });
+}
+
+function showModes() {
+  const mode = viewer.get('mode');
+  for (const button of find('modes').children)
+    button.setAttribute('aria-pressed', String(button.textContent.toLowerCase() === mode));
+}
+
 viewer.addEventListener('load', () => {
   const changes = pending;
   pending = {};
@@ -98,6 +123,8 @@ viewer.addEventListener('error', ({ detail }) => note(detail.message));
 viewer.addEventListener('change', writeLinkSoon);
 viewer.addEventListener('change', showCompare);
 viewer.addEventListener('load', showCompare);
+viewer.addEventListener('change', showModes);
+viewer.addEventListener('load', showModes);
 viewer.addEventListener('frame', showCost);
 
 // ---- toolbar
@@ -156,6 +183,7 @@ async function start() {
   if (!response.ok) return note(`gallery/index.json: the server answers ${response.status}; scripts/run makes it`);
   gallery = await response.json();
   find('gallery').replaceChildren(...galleryCards());
+  find('modes').replaceChildren(...modeButtons());
   addEventListener('hashchange', followLink);
   followLink();
 }

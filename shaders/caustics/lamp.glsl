@@ -8,6 +8,11 @@ struct Lamp {
     vec2 grid;  // rays a side
 };
 
+// Whether a pixel belongs to the lamp's next view.
+bool isBeside(View view, int border, ivec2 pixel) {
+    return any(lessThan(pixel, ivec2(border))) || any(greaterThanEqual(pixel, ivec2(view.size) - border));
+}
+
 // Flux of one ray of the grid: of parallel light irradiance times the area of a texel, of a point intensity times its
 // solid angle. No cosine at the surface comes in: it is in the number of rays that a slanted surface gets.
 //

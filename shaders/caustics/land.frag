@@ -71,15 +71,7 @@ float distanceAlong(vec3 v, vec3 r) {
     return d;
 }
 #else
-// Part of the ray that lies in the receivers' box; empty where x > y.
-vec2 insideBox(vec3 v, vec3 r) {
-    vec3 inverse = 1.0 / mix(r, vec3(1e-20), lessThan(abs(r), vec3(1e-20)));
-    vec3 a = (light.low.xyz - v) * inverse;
-    vec3 b = (light.high.xyz - v) * inverse;
-    vec3 near = min(a, b);
-    vec3 far = max(a, b);
-    return vec2(max(max(near.x, near.y), max(near.z, 0.0)), min(far.x, min(far.y, far.z)));
-}
+#include "caustics/box.glsl"
 
 const int kStretches = 8;      // of the ray, in each of which one crossing is looked for
 const float kSteepest = 200.0; // metres of gap a metre of ray: beyond it the light's view jumps from one surface to another
@@ -108,7 +100,7 @@ float crossingIn(vec3 v, vec3 r, float a, float gapA, float b, float gapB) {
 }
 
 float distanceAlong(vec3 v, vec3 r) {
-    vec2 part = insideBox(v, r);
+    vec2 part = insideBox(v, r, light.low.xyz, light.high.xyz);
     if (part.x >= part.y) return kNowhere;
     float a = part.x;
     float gapA = gapAt(v, r, a);

@@ -11,7 +11,8 @@ layout(std140) uniform MirrorBlock {
     Lamp lamp;
     vec4 mirrors[32]; // reflectance; a: object
     int count;
-    int padding0, padding1, padding2;
+    int border; // pixels at each side that belong to the lamp's next view
+    int padding0, padding1;
 } light;
 
 // The mirror of an object in the list; light.count: it is none.
@@ -22,7 +23,9 @@ int mirrorOf(vec4 texel) {
     return texel.w == 0.0 ? light.count : found;
 }
 
-bool isMet(ivec2 pixel) { return mirrorOf(texelFetch(uSurface, pixel, 0)) < light.count; }
+bool isMet(ivec2 pixel) {
+    return !isBeside(light.view, light.border, pixel) && mirrorOf(texelFetch(uSurface, pixel, 0)) < light.count;
+}
 #include "caustics/photon.glsl"
 
 void main() {
@@ -37,11 +40,12 @@ void main() {
     vec3 flux = start.coverage * fluxOf(light.view, light.lamp, eye, length(place));
     vec3 reflectance = light.mirrors[mirror].rgb;
 #ifdef WITH_BOOK
-    oMet = vec4(flux, 1.0);
+    flux *= start.own;
+    oMet = vec4(flux, start.own);
     oAbsorbed = vec4(flux * (1.0 - reflectance), 1.0);
 #else
     oPlace = vec4(light.view.eye.xyz + place, float(mirror + 1));
     oDirection = vec4(reflect(eye, fromOctahedral(texel.xy)), 0.0);
-    oFlux = vec4(flux * reflectance, 1.0);
+    oFlux = vec4(flux * reflectance, markOf(start.coverage, start.sixths));
 #endif
 }

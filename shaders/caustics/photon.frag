@@ -12,13 +12,16 @@ layout(std140) uniform PhotonBlock {
     View view; // of the light
     Lamp lamp;
     Glass glass[kMostGlass];
+    vec4 tint;   // of the light, as part of white
     int count;   // layers
-    int channel; // whose index of refraction counts; 3: that of green for all
-    int padding0, padding1;
+    int channel; // whose index of refraction counts
+    int border;  // pixels at each side that belong to the lamp's next view
+    int padding;
 } layers;
 #include "views/glass.glsl"
 
 bool isMet(ivec2 pixel) {
+    if (isBeside(layers.view, layers.border, pixel)) return false;
     vec4 texel = texelFetch(uLayers, ivec3(pixel, 0), 0);
 #ifdef USE_SOLID
     vec4 solid = texelFetch(uSolid, pixel, 0);
@@ -66,19 +69,18 @@ void main() {
     Start start = startOf(layers.view, layers.lamp.grid);
     if (start.coverage == 0.0) return;
     vec2 at = vec2(start.pixel) + 0.5;
-    vec4 texel = texelFetch(uLayers, ivec3(start.pixel, 0), 0);
+    vec4 texel = nearestTexel(start.pixel);
     vec3 eye = eyeRay(layers.view, at);
-    int channel = layers.channel == 3 ? 1 : layers.channel;
     Beam beam = Beam(placeFrom(layers.view, at, texel.x), eye, 0, vec3(1.0));
     Book book = Book(vec3(0.0), vec3(0.0));
     Crossing crossing = firstCrossing(start.pixel, texel, eye);
     vec3 flux = start.coverage * fluxOf(layers.view, layers.lamp, eye, length(beam.origin));
-    if (layers.channel < 3) flux *= vec3(layers.channel == 0, layers.channel == 1, layers.channel == 2);
+    flux *= layers.tint.rgb;
     int way = 1;
     int reflections = 0;
     bool inGlass = false; // it ended on something opaque
     for (int i = 1;; ++i) {
-        bool mirrored = bend(beam, book, crossing, channel);
+        bool mirrored = bend(beam, book, crossing, layers.channel);
         way = after(way, crossing, mirrored);
         if (mirrored) ++reflections;
         if (reflections > kMostTotalReflections || i == kMostInterfaces) {
@@ -97,7 +99,8 @@ void main() {
     }
     bool lost = crossing.kind == kLost;
 #ifdef WITH_BOOK
-    oMet = vec4(flux, 1.0);
+    flux *= start.own;
+    oMet = vec4(flux, start.own);
     oAbsorbed = vec4(flux * book.absorbed, 1.0);
     oReflected = vec4(flux * book.reflected, 1.0);
     if (lost) oLost = vec4(flux * beam.weight, 1.0);
@@ -105,6 +108,6 @@ void main() {
     if (lost) return;
     oPlace = vec4(layers.view.eye.xyz + beam.origin, float(way | 1));
     oDirection = vec4(beam.direction, inGlass ? 1.0 : 0.0);
-    oFlux = vec4(flux * beam.weight, 1.0);
+    oFlux = vec4(flux * beam.weight, markOf(start.coverage, start.sixths));
 #endif
 }

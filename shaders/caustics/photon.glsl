@@ -2,8 +2,14 @@
 //
 // The file that includes this has said whether a pixel of the light's view shows what bends light: isMet().
 // out   a ray that leaves what bends it; WITH_BOOK: where its light stays
+// model VERTICES: the rays through the middles of cells, for beams (caustics/beams.frag); RESTS: a ray for each cell,
+//       of what no beam carries: where what bends light ends, or its rays part; PIXELS: for each pixel of that.
+//       VERTICES and one of the two together carry all light. Else a ray for each cell, full or not
+#if defined(PIXELS) || defined(RESTS) || (defined(VERTICES) && defined(WITH_BOOK))
+#include "caustics/beams.glsl"
+#endif
 #ifdef WITH_BOOK
-layout(location = 0) out vec4 oMet; // [W]
+layout(location = 0) out vec4 oMet; // [W]; a: the share of the ray's flux that is its own to carry
 layout(location = 1) out vec4 oAbsorbed;
 layout(location = 2) out vec4 oReflected;
 layout(location = 3) out vec4 oLost;
@@ -11,35 +17,82 @@ void clearOutputs() { oMet = oAbsorbed = oReflected = oLost = vec4(0.0); }
 #else
 layout(location = 0) out vec4 oPlace;     // world; w: the way it took as a number, 0: no ray
 layout(location = 1) out vec4 oDirection; // unit; w: 1 where the place is already on an opaque object, inside glass
-layout(location = 2) out vec4 oFlux;      // [W]; a: 1
+layout(location = 2) out vec4 oFlux;      // [W]; a: VERTICES: 1 + sixths (caustics/sixths.glsl); else coverage
 void clearOutputs() { oPlace = oDirection = oFlux = vec4(0.0); }
 #endif
 
+#ifdef VERTICES
+#include "caustics/sixths.glsl"
+float markOf(float coverage, int sixths) { return float(1 + sixths); }
+#else
+float markOf(float coverage, int sixths) { return coverage; }
+#endif
+
 struct Start {
-    ivec2 pixel;    // that shows what bends light, nearest to the middle of those of the ray's cell that do
-    float coverage; // share of the cell's pixels that do; 0: there is no ray
+    ivec2 pixel;    // that shows what bends light
+    float coverage; // share of a cell's pixels that the ray stands for; 0: there is no ray
+    float own;      // share of that for which it is traced itself: the rest of a cell's is traced by pixels
+    int sixths;     // VERTICES: bits of those that are full
 };
 
+#if defined(PIXELS)
+Start startOf(View view, vec2 grid) {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    int side = int(view.size.x / grid.x);
+    float alone = loneShare(pixel, side, ivec2(grid));
+    if (alone == 0.0 || !isMet(pixel)) alone = 0.0;
+    return Start(pixel, alone / float(side * side), 1.0, 0);
+}
+#elif defined(VERTICES)
+Start startOf(View view, vec2 grid) {
+    int side = int(view.size.x / grid.x);
+    ivec2 middle = side * ivec2(gl_FragCoord.xy) + side / 2;
+    if (!isMet(middle)) return Start(middle, 0.0, 0.0, 0);
+    int empty = 0;
+    for (int i = 0; i < side * side; ++i) {
+        ivec2 beside = ivec2(i % side, i / side) - side / 2;
+        if (!isMet(middle + beside)) empty |= sixthsOf(beside);
+    }
+    float own = 1.0;
+#ifdef WITH_BOOK
+    own -= loneShare(middle, side, ivec2(grid));
+#endif
+    return Start(middle, 1.0, own, 63 & ~empty);
+}
+#else
+#ifdef RESTS
+float shareOf(ivec2 pixel, int side, vec2 grid) { return isMet(pixel) ? loneShare(pixel, side, ivec2(grid)) : 0.0; }
+bool isCarried(ivec2 middle, int side, vec2 grid) { return loneShare(middle, side, ivec2(grid)) == 0.0; }
+#else
+float shareOf(ivec2 pixel, int side, vec2 grid) { return isMet(pixel) ? 1.0 : 0.0; }
+bool isCarried(ivec2 middle, int side, vec2 grid) { return false; }
+#endif
+
+// Through the pixel nearest to the middle of those of the cell that count.
 Start startOf(View view, vec2 grid) {
     int side = int(view.size.x / grid.x);
     ivec2 corner = side * ivec2(gl_FragCoord.xy);
+    Start start = Start(corner, 0.0, 1.0, 0);
+    if (isCarried(corner + side / 2, side, grid)) return start;
     vec2 middle = vec2(0.0);
     float count = 0.0;
     for (int i = 0; i < side * side; ++i) {
         ivec2 within = ivec2(i % side, i / side);
-        if (!isMet(corner + within)) continue;
-        middle += vec2(within);
-        ++count;
+        float share = shareOf(corner + within, side, grid);
+        middle += share * vec2(within);
+        count += share;
     }
-    middle /= max(count, 1.0);
-    Start start = Start(corner, count / float(side * side));
+    if (count == 0.0) return start;
+    middle /= count;
+    start.coverage = count / float(side * side);
     float nearest = 1e30;
     for (int i = 0; i < side * side; ++i) {
         ivec2 within = ivec2(i % side, i / side);
         float apart = distance(vec2(within), middle);
-        if (apart >= nearest || !isMet(corner + within)) continue;
+        if (apart >= nearest || shareOf(corner + within, side, grid) == 0.0) continue;
         nearest = apart;
         start.pixel = corner + within;
     }
     return start;
 }
+#endif

@@ -8,6 +8,9 @@ const float kRadius = 2.5; // standard deviations
 const float kPi = 3.14159265;
 
 void main() {
+    vec2 corner = vec2(light.face % 3, light.face / 3) * light.faces[light.face].size;
+    vec2 pixel = gl_FragCoord.xy - corner;
+    if (any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, light.faces[light.face].size))) discard;
     vec2 r = kRadius * (2.0 * gl_PointCoord - 1.0);
     float square = dot(r, r);
     if (square > kRadius * kRadius) discard;

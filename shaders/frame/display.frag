@@ -5,12 +5,15 @@
 #ifndef COMPOSED
 #include "views/surface_pixel.glsl"
 #endif
+#include "lib/heat.glsl"
 #include "lib/shading.glsl"
 layout(std140) uniform DisplayBlock {
     vec4 scale;  // the value is scale * sum + shift, before the exposure
     vec4 shift;
     int isScalar; // show the sum's alpha channel as grey
     int encode;   // apply the sRGB curve: for light, not for normals or counts
+    int isHeat;   // show the binary logarithm of the brightest channel, scaled and shifted, in false colours
+    int padding;
 } display;
 uniform sampler2D uSum;
 layout(location = 0) out vec4 oColor;
@@ -18,6 +21,7 @@ layout(location = 0) out vec4 oColor;
 void main() {
     vec4 sum = texelFetch(uSum, ivec2(gl_FragCoord.xy), 0);
     vec3 value = display.isScalar != 0 ? vec3(sum.a) : sum.rgb;
+    if (display.isHeat != 0) value = vec3(log2(max(max(max(value.r, value.g), value.b), 1e-30)));
     value = value * display.scale.rgb + display.shift.rgb;
 #ifdef COMPOSED
     float coverage = sum.a;
@@ -28,6 +32,7 @@ void main() {
 #ifdef LINEAR
     oColor = coverage > 0.0 ? vec4(value, coverage) : vec4(0.0);
 #else
+    if (display.isHeat != 0) value = heatColor(value.r);
     vec3 clamped = clamp(value, 0.0, 1.0);
     vec3 encoded = vec3(srgbFromLinear(clamped.r), srgbFromLinear(clamped.g), srgbFromLinear(clamped.b));
     oColor = vec4((display.encode != 0 ? encoded : clamped) * coverage, coverage);

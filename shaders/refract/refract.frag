@@ -1,13 +1,14 @@
 // refract/refract.frag: what the eye sees through refractive objects.
 //
-// in    views/layers.glsl   all their surfaces
+// in    views/layers.glsl   all their surfaces; USE_BISECTION: the first one, the others by refract/bisection.glsl
 //       uOpaque             the shaded opaque surfaces and the background; a: coverage
 //       views/environment.glsl
 // out   oColor  COLOR: linear Rec. 709; DIRECTION: the last direction of green light; a: coverage, of DIRECTION 0
 //               where the ray was given up or left the picture inside an object (its colour is what it shows if it
-//               goes on as it does)
+//               goes on as it does); LOST: 1 there
 // model Snell's law at every interface (thesis 2008, ch. 3); total reflection followed; of Fresnel's reflections
-//       the first one that the eye meets (dissertation 2007, 5); absorption along the geometric way
+//       the first one that the eye meets (dissertation 2007, 5); absorption along the geometric way, or
+//       (USE_OPTICAL_LENGTH) that times the index of refraction (thesis 2008, 3.8)
 // not   reflections inside, light from what the view does not show
 #include "views/glass_block.glsl"
 #include "views/view.glsl"
@@ -19,6 +20,9 @@ layout(std140) uniform RefractBlock {
     int hasEnvironment;
     float intensity; // of the environment
     int around;      // a bit for each object whose box holds the eye
+    vec2 depths;     // of bisection: nearest and farthest depth of all surfaces
+    int depthCount;  // and how many lie behind each other
+    int padding;
 } layers;
 #include "views/glass.glsl"
 #include "views/environment.glsl"
@@ -32,17 +36,41 @@ vec4 environmentAt(vec3 direction) {
     return vec4(layers.intensity * mapRadiance(mat3(layers.mapFromWorld) * direction), 1.0);
 }
 
-// Follows a beam to its end; `first` is a crossing that is known already.
-vec4 follow(inout Beam beam, Crossing crossing, bool known, int channel) {
+// The length that light is absorbed along.
+float lengthOf(Beam beam, float way, int channel) {
+#ifdef USE_OPTICAL_LENGTH
+    return way * iorOf(mediumOf(beam.inside))[channel];
+#else
+    return way;
+#endif
+}
+
+// How far a beam came through layers (refract/bisection.glsl).
+struct Walk {
+    int layer;    // that it met last
+    int object;   // that it met first,
+    bool entered; // and whether it entered it
+};
+#ifdef USE_BISECTION
+#include "refract/bisection.glsl"
+const int kMostMirrored = 0; // total reflection is not followed
+#else
+const int kMostMirrored = kMostTotalReflections;
+Crossing advance(inout Beam beam, inout Walk walk, int channel) {
+    Crossing crossing = march(layers.view, rayOf(layers.view, beam.origin, beam.direction), beam.inside);
+    if (crossing.kind != kNothing) beam.weight *= leftAfter(beam, lengthOf(beam, crossing.t, channel));
+    beam.origin += crossing.t * beam.direction;
+    return crossing;
+}
+#endif
+
+// Follows a beam to its end from the crossing that it met first, which it has passed or was mirrored by. a: -1 where it
+// is lost.
+vec4 follow(inout Beam beam, Crossing first, int channel) {
+    Walk walk = Walk(0, first.object, first.entered);
     int reflections = 0;
     for (int i = 0; i < kMostInterfaces; ++i) {
-        if (!known) {
-            Ray ray = rayOf(layers.view, beam.origin, beam.direction);
-            crossing = march(layers.view, ray, beam.inside);
-            if (crossing.kind != kNothing) beam.weight *= leftAfter(beam, crossing.t);
-            beam.origin += crossing.t * beam.direction;
-        }
-        known = false;
+        Crossing crossing = advance(beam, walk, channel);
         if (crossing.kind == kNothing) {
             vec4 light = environmentAt(beam.direction);
             return crossing.entered && beam.inside != 0 ? vec4(light.rgb, -1.0) : light;
@@ -51,7 +79,7 @@ vec4 follow(inout Beam beam, Crossing crossing, bool known, int channel) {
 #ifdef USE_SOLID
         if (crossing.kind == kSolid) return vec4(texelFetch(uOpaque, crossing.pixel, 0).rgb, 1.0);
 #endif
-        if (cross_(beam, crossing, channel).x > 0.0 && ++reflections > kMostTotalReflections) break;
+        if (cross_(beam, crossing, channel).x > 0.0 && ++reflections > kMostMirrored) break;
     }
     return vec4(0.0, 0.0, 0.0, -1.0);
 }
@@ -73,14 +101,16 @@ int insideAtEye(ivec2 pixel) {
 
 vec4 throughGlass(ivec2 pixel, vec4 texel, vec3 eye, int channel) {
     Beam start = Beam(placeFrom(layers.view, vec2(pixel) + 0.5, texel.x), eye, insideAtEye(pixel), vec3(1.0));
-    start.weight = leftAfter(start, length(start.origin));
+    start.weight = leftAfter(start, lengthOf(start, length(start.origin), channel));
     Crossing first = firstCrossing(pixel, texel, eye);
     Beam beam = start;
     vec2 mirrored = cross_(beam, first, channel);
     if (mirrored.x > 0.0) beam.inside = start.inside;
     Beam onwards = beam;
-    vec4 light = follow(onwards, first, false, channel);
-#ifdef SHOW_DIRECTION
+    vec4 light = follow(onwards, first, channel);
+#if defined(SHOW_LOST)
+    return vec4(vec3(light.a < 0.0 ? 1.0 : 0.0), 1.0);
+#elif defined(SHOW_DIRECTION)
     return vec4(onwards.direction, light.a < 0.0 ? 0.0 : 1.0);
 #else
     vec4 color = vec4(onwards.weight * max(light.rgb, 0.0), 1.0);
@@ -88,43 +118,54 @@ vec4 throughGlass(ivec2 pixel, vec4 texel, vec3 eye, int channel) {
         Beam back = start;
         back.direction = reflect(eye, first.normal);
         back.weight *= mirrored.y;
-        vec4 reflection = follow(back, first, false, channel);
+        vec4 reflection = follow(back, first, channel);
         color.rgb += back.weight * max(reflection.rgb, 0.0);
     }
     return color;
 #endif
 }
 
+// What is shown where there is no glass.
+vec4 beside(vec3 eye, vec4 color) {
+#if defined(SHOW_LOST)
+    return vec4(0.0, 0.0, 0.0, 1.0);
+#elif defined(SHOW_DIRECTION)
+    return vec4(eye, 1.0);
+#else
+    return color;
+#endif
+}
+
+float layersAt(ivec2 pixel) {
+    int count = 0;
+#ifdef USE_BISECTION
+    count = surfacesAt(pixel, layers.depthCount, layers.depths);
+#else
+    while (count < layers.count && texelFetch(uLayers, ivec3(pixel, count), 0).w > 0.0) ++count;
+#endif
+    return float(count);
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec3 eye = eyeRay(layers.view, gl_FragCoord.xy);
 #ifdef SHOW_LAYERS
-    float count = 0.0;
-    while (count < float(layers.count) && texelFetch(uLayers, ivec3(pixel, int(count)), 0).w > 0.0) ++count;
-    oColor = vec4(vec3(count), 1.0);
+    oColor = vec4(vec3(layersAt(pixel)), 1.0);
     return;
 #endif
-    vec4 texel = layers.count > 0 ? texelFetch(uLayers, ivec3(pixel, 0), 0) : vec4(0.0);
+    vec3 eye = eyeRay(layers.view, gl_FragCoord.xy);
+    vec4 texel = layers.count > 0 ? nearestTexel(pixel) : vec4(0.0);
 #ifdef USE_SOLID
     vec4 solid = texelFetch(uSolid, pixel, 0);
     if (solid.a > 0.0 && (texel.w == 0.0 || solid.r <= texel.x)) {
-#ifdef SHOW_DIRECTION
-        oColor = vec4(eye, 1.0);
-#else
-        oColor = vec4(texelFetch(uOpaque, pixel, 0).rgb, 1.0);
-#endif
+        oColor = beside(eye, vec4(texelFetch(uOpaque, pixel, 0).rgb, 1.0));
         return;
     }
 #endif
     if (texel.w == 0.0) {
-#ifdef SHOW_DIRECTION
-        oColor = vec4(eye, 1.0);
-#else
-        oColor = environmentAt(eye);
-#endif
+        oColor = beside(eye, environmentAt(eye));
         return;
     }
-#if defined(SHOW_DIRECTION) || !defined(USE_DISPERSION)
+#if defined(SHOW_DIRECTION) || defined(SHOW_LOST) || !defined(USE_DISPERSION)
     oColor = throughGlass(pixel, texel, eye, 1);
 #else
     vec4 color = vec4(0.0, 0.0, 0.0, 1.0); // WebGL lets no output be indexed

@@ -5,5 +5,6 @@ layout(std140) uniform MeshBlock {
     mat4 normalFromObject; // inverse transpose, rotation part
     View view;
     int object;  // in the scene
-    int padding0, padding1, padding2;
+    int firstCorner; // of a refractive mesh, among those of all
+    int padding0, padding1;
 } mesh;

@@ -117,8 +117,8 @@ std::vector<double> parse(const Param& param, std::string_view text) {
 } // namespace
 
 std::string_view name(Group group) {
-    constexpr std::string_view names[] = {"",           "Light",       "Material",     "Falloff",
-                                          "Refraction", "Environment", "Height field", "Shape",
+    constexpr std::string_view names[] = {"",           "Mode",     "Light",       "Material",     "Falloff",
+                                          "Refraction", "Caustics", "Environment", "Height field", "Shape",
                                           "Waves",      "View"};
     return names[int(group)];
 }

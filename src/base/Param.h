@@ -30,7 +30,20 @@ enum class Kind {
 };
 
 /// Where a parameter stands in a panel. The order is the order of the panel.
-enum class Group { None, Light, Material, Falloff, Refraction, Environment, HeightField, Shape, Waves, View };
+enum class Group {
+    None,
+    Mode,
+    Light,
+    Material,
+    Falloff,
+    Refraction,
+    Caustics,
+    Environment,
+    HeightField,
+    Shape,
+    Waves,
+    View
+};
 std::string_view name(Group group);
 
 /// One declared parameter. `kLimitless` as min or max means no bound on that side.
@@ -96,14 +109,15 @@ Param declare(Member Struct::*member, const ParamText& text) {
 struct ParamTable {
     std::string_view name; ///< "light", "material", "relief"
     std::span<const Param> params;
-    const void* defaults; ///< a default-constructed struct
-    std::size_t size;     ///< sizeof the struct
+    const void* defaults;        ///< a default-constructed struct
+    std::size_t size;            ///< sizeof the struct
+    std::string_view label = ""; ///< what a person reads, where tables share a group
 };
 
 template <class Struct>
-ParamTable tableOf(std::string_view name, std::span<const Param> params) {
+ParamTable tableOf(std::string_view name, std::span<const Param> params, std::string_view label = "") {
     static const Struct defaults{};
-    return {name, params, &defaults, sizeof(Struct)};
+    return {name, params, &defaults, sizeof(Struct), label};
 }
 
 /// Settings of a technique that the scene carries without knowing its struct.
@@ -132,9 +146,10 @@ struct BoundParam {
     std::string
         prefix; ///< of the attribute: "light", "material", "env", "relief", "view"; "": has no attribute
     const Param* param;
-    void* data;           ///< the value
-    const void* defaults; ///< the value to which reset goes back
-    bool shown = true;    ///< false: reachable by its path, but in no panel
+    void* data;                  ///< the value
+    const void* defaults;        ///< the value to which reset goes back
+    bool shown = true;           ///< false: reachable by its path, but in no panel
+    std::string_view label = ""; ///< of its table
 
     /// Where it stands in the panel now.
     Group group() const { return shown ? param->group : Group::None; }

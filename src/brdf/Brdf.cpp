@@ -193,13 +193,14 @@ const ParamTable& Brdf::params() {
                                         .doc = "Texels along a side of what a lamp sees; lamps with a size "
                                                "have half as many for each of their points."}),
     };
-    static const ParamTable table = tableOf<Settings>("brdf", list);
+    static const ParamTable table = tableOf<Settings>("brdf", list, "Surfaces and shadows");
     return table;
 }
 
 std::optional<std::string> Brdf::need(const scene::Scene& scene) {
     for (const scene::Object& object : scene.objects)
-        if (object.visible && !object.isField() && !object.material.isRefractive())
+        if (object.visible && !object.isField() && !object.material.isRefractive() &&
+            !object.material.isScattering())
             return "object \"" + object.name + "\" is " +
                    (object.material.isMirror() ? "a mirror" : "an opaque surface");
     return std::nullopt;

@@ -22,7 +22,7 @@ struct Inputs {
     const views::Eye& eye;
     const std::vector<views::PosedMesh>& solids;  ///< visible opaque objects and mirrors
     const std::vector<views::PosedMesh>& casters; ///< all that casts shadows, hidden or not: opaque,
-                                                  ///< mirrors and refractive
+                                                  ///< scattering, mirrors and refractive
     graph::TextureId surface;                     ///< views.surface
     graph::TextureId flux;                        ///< irradiance of caustics on each pixel; or none
     graph::TextureHandle environment;             ///< lat-long map of scene.environment; None without one
@@ -32,7 +32,8 @@ struct Inputs {
 };
 
 /// Radiance of a matt surface: base + diffuse * E / pi, with E of
-/// - the lamps in physical units (views/Lamps.h), past everything that casts shadows: refractive objects cast full
+/// - the lamps in physical units (views/Lamps.h), past everything that casts shadows: refractive objects cast
+/// full
 ///   ones, since the light that they let through is that of caustics; height fields cast none here;
 /// - the flux of caustics;
 /// - the environment, which nothing stands in the way of (SkyIrradiance.h).

@@ -28,16 +28,19 @@ struct PhotonBlock {
     views::ViewBlock view;
     LampBlock lamp;
     views::GlassBlock glass[views::kMostGlass + 1];
-    int count = 0, channel = 0;
-    int padding[2] = {};
+    vec4 tint{1};
+    int count = 0, channel = 0, border = 0;
+    int padding = 0;
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
             auto list = viewAndLampMembers(offsetof(PhotonBlock, view), offsetof(PhotonBlock, lamp));
             const auto glass = views::glassMembers(offsetof(PhotonBlock, glass));
             list.insert(list.end(), glass.begin(), glass.end());
-            list.insert(list.end(), {{"count", offsetof(PhotonBlock, count)},
-                                     {"channel", offsetof(PhotonBlock, channel)}});
+            list.insert(list.end(), {{"tint", offsetof(PhotonBlock, tint)},
+                                     {"count", offsetof(PhotonBlock, count)},
+                                     {"channel", offsetof(PhotonBlock, channel)},
+                                     {"border", offsetof(PhotonBlock, border)}});
             return list;
         }();
         static const graph::BlockLayout layout{"PhotonBlock", sizeof(PhotonBlock), members};
@@ -51,32 +54,18 @@ struct MirrorBlock {
     views::ViewBlock view;
     LampBlock lamp;
     vec4 mirrors[kMost] = {};
-    int count = 0;
-    int padding[3] = {};
+    int count = 0, border = 0;
+    int padding[2] = {};
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
             auto list = viewAndLampMembers(offsetof(MirrorBlock, view), offsetof(MirrorBlock, lamp));
             list.insert(list.end(), {{"mirrors", offsetof(MirrorBlock, mirrors)},
-                                     {"count", offsetof(MirrorBlock, count)}});
+                                     {"count", offsetof(MirrorBlock, count)},
+                                     {"border", offsetof(MirrorBlock, border)}});
             return list;
         }();
         static const graph::BlockLayout layout{"MirrorBlock", sizeof(MirrorBlock), members};
-        return layout;
-    }
-};
-
-struct ShareBlock {
-    views::ViewBlock view;
-    vec2 grid, padding{0};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(ShareBlock, view));
-            list.push_back({"grid", offsetof(ShareBlock, grid)});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"ShareBlock", sizeof(ShareBlock), members};
         return layout;
     }
 };
@@ -121,6 +110,42 @@ struct DepositBlock {
             {"faceCount", offsetof(DepositBlock, faceCount)}, {"face", offsetof(DepositBlock, face)},
             {"unit", offsetof(DepositBlock, unit)},           {"size", offsetof(DepositBlock, size)}};
         static const graph::BlockLayout layout{"DepositBlock", sizeof(DepositBlock), members};
+        return layout;
+    }
+};
+
+struct LinesBlock {
+    views::ViewBlock view;
+    vec4 low, high;
+    ivec2 grid;
+    float unit, padding = 0;
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = views::viewMembers(offsetof(LinesBlock, view));
+            list.insert(list.end(), {{"low", offsetof(LinesBlock, low)},
+                                     {"high", offsetof(LinesBlock, high)},
+                                     {"grid", offsetof(LinesBlock, grid)},
+                                     {"unit", offsetof(LinesBlock, unit)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"LinesBlock", sizeof(LinesBlock), members};
+        return layout;
+    }
+};
+
+struct GatherBlock {
+    views::ViewBlock view;
+    float unit;
+    float padding[3] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = views::viewMembers(offsetof(GatherBlock, view));
+            list.push_back({"unit", offsetof(GatherBlock, unit)});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"GatherBlock", sizeof(GatherBlock), members};
         return layout;
     }
 };

@@ -15,15 +15,19 @@
 namespace lucent::caustics {
 
 enum class Intersect : int { Hybrid, FixedPoint, Newton, Secant };
-enum class Deposit : int { Beam, Splat };
+enum class Deposit : int { Beam, Splat, Lines };
+std::string_view nameOf(Intersect intersect);
+std::string_view nameOf(Deposit deposit);
 
 struct Settings {
     Intersect intersect = Intersect::Hybrid;
     Deposit deposit = Deposit::Beam;
     int grid = 128;        ///< rays a side
+    bool refine = true;    ///< beams: rays through single pixels where no beam carries light
     int mapSize = 512;     ///< texels a side of the caustic map
     int steps = 32;        ///< looks at the receivers' image for a ray, at most
     int lightSamples = 16; ///< points that stand for a lamp with a size
+    int wavelengths = 3;   ///< of white light in glass that disperses
 };
 
 struct Inputs {
@@ -31,7 +35,7 @@ struct Inputs {
     const views::Eye& eye;                       ///< the camera's
     const std::vector<views::PosedMesh>& glass;  ///< refractive objects, hidden or not
     const std::vector<views::PosedMesh>& solids; ///< opaque objects and mirrors, hidden or not
-    graph::TextureId surface;                    ///< views.surface
+    graph::TextureId surface;                    ///< views.surface; none: nothing is looked up
     ivec2 size;                                  ///< of the camera's picture
 };
 
@@ -40,12 +44,13 @@ struct Plan {
     struct View {
         views::Eye eye;
         int layers = 0; ///< surfaces of refractive objects behind each other
+        int border = 0; ///< pixels at each side that belong to the light's next view
     };
     struct Light {
         views::LampPoint lamp;
-        std::vector<View> glass;         ///< that show what refracts
-        std::vector<views::Eye> mirrors; ///< that show what mirrors
-        views::ShadowViews receivers;    ///< in which the caustic map lies
+        std::vector<View> glass;      ///< that show what refracts
+        std::vector<View> mirrors;    ///< that show what mirrors
+        views::ShadowViews receivers; ///< in which the caustic map lies
     };
     std::vector<Light> lights;
 };
@@ -61,6 +66,14 @@ struct Energy {
     dvec3 lost{0};      ///< given up inside
     dvec3 astray{0};    ///< of `received`: laid down where no surface is, two texels or more beside one
     double looks = 0;   ///< at the receivers' image, mean over the rays that left glass
+};
+
+/// What one point of a light leaves on what it sees.
+struct Map {
+    graph::TextureId
+        flux; ///< RGBA16F; 1: what the light leaves on a texel undisturbed, in its brightest colour
+    graph::TextureId depths; ///< R32F: of the receivers; 1e30 where there is none
+    ivec2 size{0};           ///< of both
 };
 
 /// Not drawn: light that glass or mirrors reflect on (but for total reflection inside), light by way of a
@@ -88,12 +101,17 @@ public:
     Result<graph::TextureId> record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
                                     const Settings& settings) const;
 
+    /// Adds the passes of one light alone, up to its map. `in.surface` must be none.
+    Result<Map> recordMap(graph::FrameGraph& graph, const Inputs& in, const Plan::Light& light,
+                          const Settings& settings) const;
+
     /// Runs the same passes and sums what they carry. Reads pictures back.
     Result<Energy> measure(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
                            const views::DrawnMeshes& meshes, const Plan& plan,
                            const Settings& settings) const;
 
 private:
+    Status checkLimits(const Inputs& in, const Settings& settings) const;
     gl::Context& context_;
 };
 

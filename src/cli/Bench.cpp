@@ -10,6 +10,7 @@
 #include "frame/Renderer.h"
 #include "gl/Context.h"
 #include "measure/BudgetProof.h"
+#include "measure/CausticsPlan.h"
 #include "measure/RefractPlan.h"
 #include "measure/ReliefPlan.h"
 #include "scene/Load.h"
@@ -40,12 +41,12 @@ struct BenchOptions {
     std::string commit = LUCENT_COMMIT;
 };
 
-constexpr std::string_view kParts[] = {"relief", "environment", "scaling", "hard",
-                                       "all",    "refraction",  "budget"};
+constexpr std::string_view kParts[] = {"relief", "environment", "scaling",  "hard",
+                                       "all",    "refraction",  "caustics", "budget"};
 
 struct Parts {
     measure::ReliefParts relief;
-    bool refraction = false;
+    bool refraction = false, caustics = false;
 };
 
 // --- the machine
@@ -98,6 +99,7 @@ Result<Parts> parseParts(const std::vector<std::string>& names) {
         parts.relief.hard |= all || name == "hard";
         parts.relief.budget |= name == "budget";
         parts.refraction |= name == "refraction";
+        parts.caustics |= name == "caustics";
     }
     return parts;
 }
@@ -187,17 +189,35 @@ Result<measure::Plan> makeRefractPlan(const BenchOptions& options) {
     return measure::refractPlan(meshes, simpler, options.quick);
 }
 
-Result<measure::Plan> makePlan(const BenchOptions& options, const Parts& parts) {
-    Result<measure::Plan> plan = makeReliefPlan(options, parts.relief);
-    if (!plan || !parts.refraction) return plan;
-    Result<measure::Plan> more = makeRefractPlan(options);
-    if (!more) return more;
-    const auto append = [](auto& list, const auto& others) {
+// What caustics are measured on beside shapes.
+Result<std::vector<measure::BenchMesh>> causticMeshes(const BenchOptions& options) {
+    std::vector<measure::BenchMesh> meshes;
+    for (const std::string& path : {options.gallery + "/bunny.glb", options.gallery + "/dragon-40k.glb"})
+        if (Status added = addMesh(path, meshes); !added) return added.error();
+    return meshes;
+}
+
+void append(measure::Plan& plan, const measure::Plan& more) {
+    const auto add = [](auto& list, const auto& others) {
         list.insert(list.end(), others.begin(), others.end());
     };
-    append(plan->cases, more->cases);
-    append(plan->series, more->series);
-    append(plan->ratios, more->ratios);
+    add(plan.cases, more.cases);
+    add(plan.series, more.series);
+    add(plan.ratios, more.ratios);
+}
+
+Result<measure::Plan> makePlan(const BenchOptions& options, const Parts& parts) {
+    Result<measure::Plan> plan = makeReliefPlan(options, parts.relief);
+    if (plan && parts.refraction) {
+        const Result<measure::Plan> more = makeRefractPlan(options);
+        if (!more) return more;
+        append(*plan, *more);
+    }
+    if (plan && parts.caustics) {
+        const auto meshes = causticMeshes(options);
+        if (!meshes) return meshes.error();
+        append(*plan, measure::causticsPlan(*meshes, options.quick));
+    }
     return plan;
 }
 
@@ -217,13 +237,17 @@ bool isRefraction(const scene::Scene& scene) {
     return scene.view.show == scene::Aov::Direction || scene.view.show == scene::Aov::Layers;
 }
 
+Result<truth::Picture> solve(const scene::Scene& scene, int directions, const truth::Tile& rows) {
+    if (isRefraction(scene)) return measure::solveRefraction(scene, rows, 0);
+    if (scene.view.show == scene::Aov::Irradiance) return measure::solveCaustics(scene, rows, 0);
+    return measure::solveRelief(scene, directions, rows, 0);
+}
+
 measure::BenchReport runPlan(gl::Context& context, measure::Plan plan, const std::string& truths) {
     plan.truthParts = 1;
-    const auto solve = [&](const scene::Scene& scene, int directions, const truth::Tile& rows) {
-        return cachedTruth(truthPath(truths, scene, directions), [&] {
-            return isRefraction(scene) ? measure::solveRefraction(scene, rows, 0)
-                                       : measure::solveRelief(scene, directions, rows, 0);
-        });
+    const auto solveOnce = [&](const scene::Scene& scene, int directions, const truth::Tile& rows) {
+        return cachedTruth(truthPath(truths, scene, directions),
+                           [&] { return solve(scene, directions, rows); });
     };
     const auto start = std::chrono::steady_clock::now();
     std::unique_ptr<measure::Sweep> sweep;
@@ -232,7 +256,7 @@ measure::BenchReport runPlan(gl::Context& context, measure::Plan plan, const std
         std::fprintf(stderr, "bench: %s  %s\n", progressLine(sweep->share(), elapsed.count()).c_str(),
                      what.c_str());
     };
-    sweep = std::make_unique<measure::Sweep>(context, std::move(plan), solve, say);
+    sweep = std::make_unique<measure::Sweep>(context, std::move(plan), solveOnce, say);
     while (sweep->step())
         ;
     return sweep->report();
@@ -259,6 +283,20 @@ Status proveBudget(gl::Context& context, const BenchOptions& options, measure::B
     const std::vector<measure::Ratio> totals = proof->totals();
     report.ratios.insert(report.ratios.end(), totals.begin(), totals.end());
     return writeAll({{options.output + "/budget.json", toBytes(proof->json())}});
+}
+
+// The books of caustics, into the report.
+Status proveCaustics(gl::Context& context, const BenchOptions& options, measure::BenchReport& report) {
+    const auto meshes = causticMeshes(options);
+    if (!meshes) return meshes.error();
+    const auto say = [](const std::string& line) {
+        std::fprintf(stderr, "bench: caustics: %s\n", line.c_str());
+    };
+    const Result<std::vector<measure::Ratio>> ratios =
+        measure::proveCaustics(context, *meshes, options.quick, say);
+    if (!ratios) return ratios.error();
+    report.ratios.insert(report.ratios.end(), ratios->begin(), ratios->end());
+    return Done{};
 }
 
 Status bench(const BenchOptions& options) {
@@ -290,6 +328,8 @@ Status bench(const BenchOptions& options) {
     report.peakMB = peakMB;
     if (parts->relief.budget)
         if (Status proved = proveBudget(**context, options, report); !proved) return proved;
+    if (parts->caustics)
+        if (Status proved = proveCaustics(**context, options, report); !proved) return proved;
     report.ratios.push_back({"MB resident with a relief of 512^2 texels", peakMB, 256, false});
     std::fputs(report.text().c_str(), stdout);
     const std::string json = report.json();
@@ -305,8 +345,9 @@ Command addBench(CLI::App& program) {
     CLI::App* parser =
         program.add_subcommand("bench", "Measures speed against error, all methods in one run");
     const auto options = std::make_shared<BenchOptions>();
-    parser->add_option("NAMES", options->parts,
-                       "Parts: relief, environment, scaling, hard, all of them without; refraction; budget");
+    parser->add_option(
+        "NAMES", options->parts,
+        "Parts: relief, environment, scaling, hard, all of them without; refraction; caustics; budget");
     parser->add_flag("--quick", options->quick, "Smaller scenes, fewer repeats: two minutes without a GPU");
     parser->add_option("-o,--output", options->output, "Folder for bench.json and report.html")
         ->required()
@@ -327,6 +368,7 @@ Command addBench(CLI::App& program) {
                    "  lucent bench --quick -o build/bench\n"
                    "  lucent bench relief environment -o build/bench\n"
                    "  lucent bench refraction --quick -o build/bench-refraction\n"
+                   "  lucent bench caustics --quick -o build/bench-caustics\n"
                    "  lucent bench budget -o build/budget   # proves quality.maxError: half an hour");
     return {parser, [options] { return bench(*options); }};
 }

@@ -35,7 +35,9 @@ std::vector<Section> sections() {
     all.push_back({"material of height fields and opaque surfaces", material, &scene::colorParams()});
     all.push_back({"material of height fields", material, &scene::reliefParams()});
     all.push_back({"material of every other shape", material, &scene::opticsParams()});
+    all.push_back({"material where light gets inside", material, &scene::mediumParams()});
     all.push_back({"material where light is transmitted", material, &scene::refractionParams()});
+    all.push_back({"material where light is scattered", material, &scene::scatteringParams()});
     all.push_back({"transform", "objects.NAME.transform", &scene::transformParams()});
     all.push_back({"wave, not of height fields and water", "objects.NAME.wave", &scene::waveParams()});
     for (const scene::TypeKeys& light : scene::lightTypes())

@@ -7,10 +7,13 @@
 #include "base/Text.h"
 #include "frame/Renderer.h"
 #include "relief/Relief.h"
+#include "subsurface/Subsurface.h"
+#include "truth/Dipole.h"
 #include "truth/Glass.h"
 #include "truth/Lambert.h"
 #include "truth/LightTracer.h"
 #include "truth/RenderRelief.h"
+#include "truth/Walk.h"
 
 #include <algorithm>
 #include <atomic>
@@ -46,14 +49,24 @@ bool isLight(const TruthOptions& options) {
 bool isGlass(const TruthOptions& options) {
     return options.estimator == "glass" || options.estimator == "glass-tree";
 }
+/// Whether the picture is made by rays of light, not pixel by pixel.
+bool isByRays(const TruthOptions& options) { return isLight(options) || options.estimator == "walk"; }
+bool isInside(const TruthOptions& options) {
+    return options.estimator == "dipole" || options.estimator == "walk";
+}
 truth::Branching branchingOf(const TruthOptions& options) {
     const bool tree = options.estimator == "glass-tree" || options.estimator == "light-tree";
     return tree ? truth::Branching::Tree : truth::Branching::Chain;
 }
 
-/// What a scene is solved by unless it is said: irradiance, and colours where caustics belong to what is
-/// drawn, by light; height fields alone by the relief model; all else by what is seen through glass.
+/// What a scene is solved by unless it is said: radiosity, and colours of what scatters light inside, by the
+/// dipole; irradiance, and colours where caustics belong to what is drawn, by light; height fields alone by
+/// the relief model; all else by what is seen through glass.
 std::string chosenEstimator(const scene::Scene& scene) {
+    const bool scatters = std::any_of(scene.objects.begin(), scene.objects.end(),
+                                      [](const auto& object) { return object.material.isScattering(); });
+    if (scene.view.show == scene::Aov::Radiosity) return "dipole";
+    if (scene.view.show == scene::Aov::Color && scatters) return "dipole";
     if (scene.view.show == scene::Aov::Irradiance) return "light";
     if (scene.view.show == scene::Aov::Color && frame::need(scene, "caustics")) return "light";
     const bool fields = std::all_of(scene.objects.begin(), scene.objects.end(),
@@ -61,22 +74,38 @@ std::string chosenEstimator(const scene::Scene& scene) {
     return fields ? "relief" : "glass";
 }
 
-/// Irradiance is of light alone; the estimators of height fields leave out everything else.
+/// Irradiance is of light alone, radiosity of what scatters inside; the estimators of height fields leave out
+/// everything else.
 Status checkEstimator(const scene::Scene& scene, const TruthOptions& options) {
     const scene::Aov aov = scene.view.show;
     const std::string name(scene::aovNames()[std::size_t(aov)]);
     if (aov == scene::Aov::Irradiance && !isLight(options))
         return Error{"--estimator: " + options.estimator +
                      " does not solve the AOV irradiance; must be light or light-tree"};
+    if (isInside(options) != (aov == scene::Aov::Radiosity) && aov != scene::Aov::Color)
+        return Error{"--estimator: " + options.estimator + " does not solve the AOV " + name + "; must be " +
+                     (isInside(options) ? "glass, or --aov color or radiosity" : "dipole or walk")};
     if (isLight(options) && aov != scene::Aov::Irradiance && aov != scene::Aov::Color)
         return Error{"--estimator: " + options.estimator + " does not solve the AOV " + name +
                      "; must be glass, or --aov irradiance or color"};
-    if (isLight(options) || isGlass(options)) return Done{};
+    if (isLight(options) || isGlass(options) || isInside(options)) return Done{};
     for (const scene::Object& object : scene.objects)
         if (!object.isField())
             return Error{"--estimator: " + options.estimator + " knows height fields only, and object " +
                          inQuotes(object.name) + " is none; must be glass, glass-tree, light or light-tree"};
     return Done{};
+}
+
+/// The model that the scene's technique draws, as far as it is one of the truth's.
+truth::DipoleOptions dipoleOptionsOf(const scene::Scene& scene, const TruthOptions& options) {
+    const auto& settings = scene.technique.at("subsurface").as<subsurface::Settings>();
+    const bool offset = settings.dipoleGeometry == subsurface::DipoleGeometry::Offset;
+    return {.aov = scene.view.show,
+            .profile = truth::Diffusion(int(settings.profile)), // in the same order
+            .geometry = offset ? truth::DipoleGeometry::Offset : truth::DipoleGeometry::Planar,
+            .normalisedExit = settings.exit == subsurface::Exit::Whole,
+            .samples = options.samples,
+            .seed = options.seed};
 }
 
 Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scene,
@@ -89,6 +118,11 @@ Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scen
                                                     .seed = options.seed});
         if (!glass) return glass.error();
         return std::unique_ptr<truth::Estimator>(new truth::GlassEstimator(std::move(*glass)));
+    }
+    if (options.estimator == "dipole") {
+        auto dipole = truth::DipoleEstimator::create(scene, scene.size, dipoleOptionsOf(scene, options));
+        if (!dipole) return dipole.error();
+        return std::unique_ptr<truth::Estimator>(new truth::DipoleEstimator(std::move(*dipole)));
     }
     const auto& settings = scene.technique.at("relief").as<relief::Settings>();
     if (options.estimator == "lambert") {
@@ -120,6 +154,13 @@ Result<truth::Picture> solve(const scene::Scene& scene, const TruthOptions& opti
                                   .samples = options.samples,
                                   .seed = options.seed},
                                  tile, work, interrupted);
+    if (options.estimator == "walk")
+        return truth::traceWalks(scene, scene.size,
+                                 {.aov = scene.view.show,
+                                  .photons = options.photons,
+                                  .samples = options.samples,
+                                  .seed = options.seed},
+                                 tile, work, interrupted);
     const auto estimator = makeEstimator(scene, options);
     if (!estimator) return estimator.error();
     return truth::render(**estimator, scene.size, tile, work, interrupted);
@@ -134,7 +175,7 @@ truth::Facts factsOf(const scene::Scene& scene, const TruthOptions& options) {
             .seed = options.seed,
             .samples = options.samples,
             .directions = options.estimator == "relief" ? options.directions : 0,
-            .photons = isLight(options) ? options.photons : 0,
+            .photons = isByRays(options) ? options.photons : 0,
             .antialias = options.antialias,
             .exposure = scene.view.exposure};
 }
@@ -156,15 +197,16 @@ Result<truth::Tile> parseTile(const std::string& text, std::int64_t most, const 
 Result<truth::Tile> tileOf(const scene::Scene& scene, const TruthOptions& options) {
     constexpr std::int64_t kMost = std::numeric_limits<int>::max();
     if (options.tile.empty()) return truth::Tile{};
-    if (isLight(options)) return parseTile(options.tile, std::min(options.photons, kMost), "light rays");
+    if (isByRays(options)) return parseTile(options.tile, std::min(options.photons, kMost), "light rays");
     return parseTile(options.tile, scene.size.y, "rows");
 }
 
 Status checkOptions(const TruthOptions& options) {
     if (options.estimator != "relief" && options.directionsGiven->count() > 0)
         return Error{"--directions: is of the relief estimator; must be --samples for " + options.estimator};
-    if (!isLight(options) && options.photonsGiven->count() > 0)
-        return Error{"--photons: is of the light estimators; must be --samples for " + options.estimator};
+    if (!isByRays(options) && options.photonsGiven->count() > 0)
+        return Error{"--photons: is of light, light-tree and walk; must be --samples for " +
+                     options.estimator};
     if (!isGlass(options) && options.antialias)
         return Error{"--antialias: is of the glass estimators; must be left out for " + options.estimator};
     return Done{};
@@ -209,7 +251,7 @@ Command addTruth(CLI::App& program) {
     options->scene.addAovTo(
         *parser,
         "Quantity to solve: of height fields color or d (illumination); of other scenes color, irradiance, "
-        "direction, layers, normal, depth or position");
+        "radiosity, direction, layers, normal, depth or position");
     options->output.addTo(*parser);
     parser
         ->add_option(
@@ -219,21 +261,24 @@ Command addTruth(CLI::App& program) {
             "stands for. Of what is seen through glass, without caustics, glass: the model; glass-tree: "
             "every "
             "reflection, which it leaves out. Of irradiance, and of colours with caustics, light: the model; "
-            "light-tree: with every reflection. Unless given: irradiance, and colours of scenes whose "
-            "picture is "
-            "drawn with caustics (lucent explain names them), by light; height fields alone by relief; all "
-            "else by "
-            "glass")
-        ->check(CLI::IsMember({"relief", "lambert", "glass", "glass-tree", "light", "light-tree"}));
+            "light-tree: with every reflection. Of what scatters light inside, dipole: the model, with the "
+            "scene's profile and dipoleGeometry; walk: random walks, which it stands for. Unless given: "
+            "radiosity, "
+            "and colours of scenes in which something scatters, by dipole; irradiance, and colours of scenes "
+            "whose picture is drawn with caustics (lucent explain names them), by light; height fields alone "
+            "by "
+            "relief; all else by glass")
+        ->check(CLI::IsMember(
+            {"relief", "lambert", "glass", "glass-tree", "light", "light-tree", "dipole", "walk"}));
     parser
         ->add_option(
             "--samples", options->samples,
             "Points of each light that has a size, and of the environment on matt surfaces; with glass-tree "
-            "paths")
+            "paths, with dipole places where light enters")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
     options->photonsGiven =
-        parser->add_option("--photons", options->photons, "Light rays of light and light-tree")
+        parser->add_option("--photons", options->photons, "Light rays of light, light-tree and walk")
             ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 40))
             ->capture_default_str();
     parser->add_flag("--antialias", options->antialias,
@@ -262,7 +307,9 @@ Command addTruth(CLI::App& program) {
         "  lucent truth coin.json -o physics.pfm --estimator lambert --samples 1024\n"
         "  lucent truth coin.json -o coin-3.tile --tile 3/8\n"
         "  lucent truth ball.json -o direction.exr --aov direction\n"
-        "  lucent truth ball.json -o floor.exr --aov irradiance --photons 100000000");
+        "  lucent truth ball.json -o floor.exr --aov irradiance --photons 100000000\n"
+        "  lucent truth marble.json -o b.exr --aov radiosity --samples 4096\n"
+        "  lucent truth marble.json -o physics.exr --aov radiosity --estimator walk");
     return {parser, [options] { return makeTruth(*options); }};
 }
 

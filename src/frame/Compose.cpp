@@ -1,5 +1,8 @@
 #include "frame/Compose.h"
 
+#include "base/Log.h"
+#include "frame/Inside.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -12,8 +15,9 @@ using graph::TextureId;
 namespace {
 
 // Of a first look.
-constexpr int kCoarseSamples = 4; // points that stand for a lamp
-constexpr int kCoarseGrid = 64;   // rays a side, of caustics
+constexpr int kCoarseSamples = 4;      // points that stand for a lamp
+constexpr int kCoarseGrid = 64;        // rays a side, of caustics
+constexpr float kCoarseEpsilon = 0.1f; // of scattering
 
 TextureId import(graph::FrameGraph& graph, const graph::Texture& texture) {
     return graph.import(texture.handle(), texture.desc(), texture.label());
@@ -62,6 +66,16 @@ caustics::Settings Compose::causticSettings(const Inputs& in) const {
     if (in.coarse) {
         settings.lightSamples = std::min(settings.lightSamples, kCoarseSamples);
         settings.grid = std::min(settings.grid, kCoarseGrid);
+        settings.refine = false;
+    }
+    return settings;
+}
+
+subsurface::Settings Compose::scatteringSettings(const Inputs& in) const {
+    auto settings = in.scene.technique.at("subsurface").as<subsurface::Settings>();
+    if (in.coarse) {
+        settings.lightSamples = std::min(settings.lightSamples, kCoarseSamples);
+        settings.epsilon = std::max(settings.epsilon, kCoarseEpsilon);
     }
     return settings;
 }
@@ -80,6 +94,13 @@ Status Compose::prepare(const Inputs& in) {
         Result<caustics::Plan> plan = caustics_.plan(pool_, in.scene, in.eye, *all, causticSettings(in));
         if (!plan) return plan.error();
         caustic_ = std::move(*plan);
+    }
+    scattering_.reset();
+    if (subsurface::Subsurface::need(in.scene)) {
+        Result<subsurface::Plan> plan =
+            subsurface_.plan(pool_, in.scene, in.drawn.meshes.solid, scatteringSettings(in));
+        if (!plan) return plan.error();
+        scattering_ = std::move(*plan);
     }
     if (!replaces(in.scene, in.drawn)) {
         through_ = graph::Texture();
@@ -107,6 +128,7 @@ Status Compose::record(graph::FrameGraph& graph, const Inputs& in) {
     if (!solids) return solids.error();
     Result<std::vector<views::PosedMesh>> glass = views::recordPose(graph, context_, all->glass, time);
     if (!glass) return glass.error();
+    if (isNumbered(in.scene.view.show)) return recordInside(graph, in, *solids, *glass);
     const TextureId surface = import(graph, in.surface), shown = import(graph, in.shown);
     graph.keep(shown);
     if (!in.drawn.meshes.solid.empty())
@@ -119,7 +141,46 @@ Status Compose::record(graph::FrameGraph& graph, const Inputs& in) {
 
 bool Compose::replaces(const scene::Scene& scene, const Drawn& drawn) {
     const bool background = hasEnvironment(scene) && scene.view.show == scene::Aov::Color;
+    if (isNumbered(scene.view.show)) return drawn.count() > drawn.fields.size();
     return !drawn.meshes.glass.empty() || (background && !drawn.meshes.solid.empty());
+}
+
+// What the techniques work on, in place of the picture.
+Status Compose::recordInside(graph::FrameGraph& graph, const Inputs& in,
+                             const std::vector<views::PosedMesh>& solids,
+                             const std::vector<views::PosedMesh>& glass) {
+    const scene::View& view = in.scene.view;
+    const ivec2 size = in.shown.desc().size;
+    const TextureId target = import(graph, through_);
+    graph.keep(target);
+    if (view.show == scene::Aov::CausticMap) {
+        if (!caustic_ || view.layer > int(caustic_->lights.size())) {
+            recordNothing(graph, "no lamp has that many points that throw light by way of glass or mirrors",
+                          target);
+            return Done{};
+        }
+        const caustics::Inputs inputs{in.scene, in.eye, glass, solids, {}, size};
+        Result<caustics::Map> map = caustics_.recordMap(
+            graph, inputs, caustic_->lights[std::size_t(view.layer - 1)], causticSettings(in));
+        return map ? recordMapView(graph, context_, *map, target, size) : map.error();
+    }
+    if (in.drawn.meshes.glass.empty()) {
+        recordNothing(graph, "nothing that is seen refracts", target);
+        return Done{};
+    }
+    Result<views::Layers> layers =
+        views::recordLayers(graph, context_, closeEye(in), seen(glass), size, layerCount_, {});
+    return layers ? recordLayerView(graph, context_, *layers, view.layer, view.show, target) : layers.error();
+}
+
+Result<std::optional<caustics::Energy>> Compose::energy(const Inputs& in) {
+    if (!caustic_) return std::optional<caustics::Energy>();
+    Result<views::DrawnMeshes> all = views::drawnMeshes(in.scene, images_, true, &waters_);
+    if (!all) return all.error();
+    Result<caustics::Energy> energy =
+        caustics_.measure(pool_, in.scene, in.eye, *all, *caustic_, causticSettings(in));
+    if (!energy) return energy.error();
+    return std::optional(*energy);
 }
 
 Status Compose::recordBackground(graph::FrameGraph& graph, const Inputs& in, TextureId surface,
@@ -170,22 +231,48 @@ Status Compose::recordSolids(graph::FrameGraph& graph, const Inputs& in,
     }
     std::vector<views::PosedMesh> casters = solids;
     casters.insert(casters.end(), glass.begin(), glass.end());
+    const scene::Aov show = in.scene.view.show;
+    if (scattering_ && (show == scene::Aov::Color || show == scene::Aov::Radiosity))
+        if (Status s = recordScattering(graph, in, seen(solids), casters, surface, shown); !s) return s;
+    if (show == scene::Aov::Radiosity) return Done{};
     Result<graph::TextureHandle> environment = environmentMap(in.scene);
     if (!environment) return environment.error();
     auto settings = in.scene.technique.at("brdf").as<brdf::Settings>();
     if (in.coarse) settings.lightSamples = std::min(settings.lightSamples, kCoarseSamples);
+    std::vector<views::PosedMesh> shaded = seen(solids);
+    std::erase_if(shaded,
+                  [](const views::PosedMesh& mesh) { return mesh.drawn.object->material.isScattering(); });
     return brdf_.record(graph,
                         {.scene = in.scene,
                          .eye = in.eye,
-                         .solids = seen(solids),
+                         .solids = shaded,
                          .casters = casters,
                          .surface = surface,
                          .flux = flux,
                          .environment = *environment,
                          .target = shown,
-                         .show = in.scene.view.show,
+                         .show = show,
                          .size = size},
                         settings);
+}
+
+Status Compose::recordScattering(graph::FrameGraph& graph, const Inputs& in,
+                                 const std::vector<views::PosedMesh>& solids,
+                                 const std::vector<views::PosedMesh>& casters, TextureId surface,
+                                 TextureId shown) {
+    Result<graph::TextureHandle> environment = environmentMap(in.scene);
+    if (!environment) return environment.error();
+    return subsurface_.record(graph,
+                              {.scene = in.scene,
+                               .eye = in.eye,
+                               .solids = solids,
+                               .casters = casters,
+                               .surface = surface,
+                               .environment = *environment,
+                               .target = shown,
+                               .radiosity = in.scene.view.show == scene::Aov::Radiosity,
+                               .size = in.shown.desc().size},
+                              *scattering_, scatteringSettings(in));
 }
 
 Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
@@ -194,7 +281,11 @@ Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
                               TextureId shown) {
     const ivec2 size = in.shown.desc().size;
     const views::Eye eye = closeEye(in);
-    const int most = in.scene.technique.at("refract").as<refract::Settings>().maxLayers;
+    const auto settings = in.scene.technique.at("refract").as<refract::Settings>();
+    if (Status s = refract::check(settings); !s) return s;
+    const bool peels = settings.layers == refract::LayerMethod::Peel;
+    if (settings.layers == refract::LayerMethod::Voxels)
+        if (Status s = checkVoxels(in, eye, settings); !s) return s;
     TextureId solid;
     if (!in.drawn.fields.empty() || !solids.empty()) {
         solid = graph.create("views.solid", {.size = size, .format = Format::RGBA32F});
@@ -203,8 +294,8 @@ Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
             !s)
             return s;
     }
-    Result<views::Layers> layers =
-        views::recordLayers(graph, context_, eye, glass, size, std::min(layerCount_, most), solid);
+    Result<views::Layers> layers = views::recordLayers(
+        graph, context_, eye, glass, size, peels ? std::min(layerCount_, settings.maxLayers) : 1, solid);
     if (!layers) return layers.error();
     Result<graph::TextureHandle> environment = environmentMap(in.scene);
     if (!environment) return environment.error();
@@ -219,8 +310,26 @@ Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
                             .environment = *environment,
                             .light = hasEnvironment(in.scene) ? &*in.scene.environment : nullptr,
                             .target = target,
-                            .show = in.scene.view.show},
-                           size);
+                            .show = in.scene.view.show,
+                            .count = layerCount_},
+                           size, settings);
+}
+
+// Says when surfaces lie too close for the slices. It reads a picture back, so it looks again only when the
+// number of layers has changed, or the slices.
+Status Compose::checkVoxels(const Inputs& in, const views::Eye& eye, const refract::Settings& settings) {
+    const int key = layerCount_ + 64 * int(settings.slices) + 128 * int(settings.bounds);
+    if (voxelsChecked_ == key) return Done{};
+    Result<views::VoxelCount> count =
+        views::countVoxels(pool_, context_, eye, in.drawn.meshes.glass, in.scene.view.time,
+                           in.shown.desc().size, refract::voxelSettings(settings));
+    if (!count) return count.error();
+    if (count->sharing > 0)
+        warnOnce("refract: refractive surfaces lie closer than a slice of depth: " +
+                 std::to_string(count->sharing) + " of " + std::to_string(count->surfaces) +
+                 " in all pixels share slices with others; rays take them as lying in one place");
+    voxelsChecked_ = key;
+    return Done{};
 }
 
 Result<graph::TextureHandle> Compose::environmentMap(const scene::Scene& scene) {
@@ -231,7 +340,9 @@ Result<graph::TextureHandle> Compose::environmentMap(const scene::Scene& scene) 
 void Compose::clear() {
     through_ = graph::Texture();
     caustic_.reset();
+    scattering_.reset();
     waters_.clear();
+    voxelsChecked_ = 0;
     forget();
 }
 

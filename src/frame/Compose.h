@@ -1,10 +1,11 @@
 #pragma once
-/// Everything that is no height field: opaque objects and mirrors with the caustics on them, over the light
-/// on the fields, and all of it seen through refractive objects.
+/// Everything that is no height field: opaque objects and mirrors with the caustics on them, objects in which
+/// light scatters, over the light on the fields, and all of it seen through refractive objects.
 
 #include "brdf/Brdf.h"
 #include "caustics/Caustics.h"
 #include "refract/Refract.h"
+#include "subsurface/Subsurface.h"
 #include "views/Surface.h"
 #include "views/Water.h"
 
@@ -23,7 +24,7 @@ class Compose {
 public:
     Compose(gl::Context& context, graph::TexturePool& pool, views::ImageCache& images)
         : context_(context), pool_(pool), images_(images), waters_(context), caustics_(context),
-          brdf_(context), refract_(context) {}
+          brdf_(context), subsurface_(context), refract_(context) {}
 
     struct Inputs {
         const scene::Scene& scene;
@@ -44,6 +45,9 @@ public:
     /// environment stands behind meshes.
     static bool replaces(const scene::Scene& scene, const Drawn& drawn);
     const graph::Texture& through() const { return through_; }
+    /// What became of the light that met glass and mirrors in the picture that was recorded last; nothing
+    /// where no lamp makes any. Draws the maps again and reads them back.
+    Result<std::optional<caustics::Energy>> energy(const Inputs& in);
     /// What is seen, or from where, has changed.
     void forget() { layerCount_ = 0; }
     void clear();
@@ -57,10 +61,19 @@ private:
                          const std::vector<views::PosedMesh>& solids,
                          const std::vector<views::PosedMesh>& glass, graph::TextureId surface,
                          graph::TextureId shown);
+    Status checkVoxels(const Inputs& in, const views::Eye& eye, const refract::Settings& settings);
     Status recordBackground(graph::FrameGraph& graph, const Inputs& in, graph::TextureId surface,
                             graph::TextureId shown);
+    Status recordInside(graph::FrameGraph& graph, const Inputs& in,
+                        const std::vector<views::PosedMesh>& solids,
+                        const std::vector<views::PosedMesh>& glass);
     static views::Eye closeEye(const Inputs& in);
+    Status recordScattering(graph::FrameGraph& graph, const Inputs& in,
+                            const std::vector<views::PosedMesh>& solids,
+                            const std::vector<views::PosedMesh>& casters, graph::TextureId surface,
+                            graph::TextureId shown);
     caustics::Settings causticSettings(const Inputs& in) const;
+    subsurface::Settings scatteringSettings(const Inputs& in) const;
     Result<graph::TextureHandle> environmentMap(const scene::Scene& scene);
 
     gl::Context& context_;
@@ -69,10 +82,13 @@ private:
     views::Waters waters_;
     caustics::Caustics caustics_;
     brdf::Brdf brdf_;
+    subsurface::Subsurface subsurface_;
     refract::Refract refract_;
-    std::optional<caustics::Plan> caustic_; ///< nothing where no light makes any
+    std::optional<caustics::Plan> caustic_;      ///< nothing where no light makes any
+    std::optional<subsurface::Plan> scattering_; ///< nothing where no light scatters
     graph::Texture through_;
-    int layerCount_ = 0; ///< surfaces of refractive objects behind each other; 0: not known
+    int layerCount_ = 0;    ///< surfaces of refractive objects behind each other; 0: not known
+    int voxelsChecked_ = 0; ///< with what checkVoxels() looked last; 0: it did not
 };
 
 } // namespace lucent::frame

@@ -4,8 +4,10 @@
 #include "base/Image.h"
 #include "base/Param.h"
 #include "base/Result.h"
+#include "caustics/Caustics.h"
 #include "gl/Context.h"
 #include "scene/Scene.h"
+#include "views/Water.h"
 
 #include <cstdint>
 #include <map>
@@ -40,6 +42,9 @@ struct Stats {
     double predicted = 0;        ///< RMSE over the mean that was predicted for it
     double planMilliseconds = 0; ///< of them, for choosing
 };
+
+/// Ends of the false colours in which a caustic map is shown, 1: what the light leaves undisturbed.
+inline constexpr float kMapDarkest = 1.0f / 16, kMapBrightest = 64;
 
 /// A reference beside the picture. Places are pixels of the screen from its top left corner.
 struct Beside {
@@ -78,6 +83,10 @@ public:
     /// Runs advance() until complete.
     Status finish(const scene::Scene& scene, std::uint64_t revision, ivec2 size);
 
+    /// A drop falls into the water that an object is, at the moment that was drawn last; the picture must
+    /// then be drawn anew, with another revision. @return false where no water has been drawn
+    bool drop(int object, const views::WaterDrop& drop);
+
     /// Returns when the GPU has finished the picture.
     void wait();
 
@@ -86,6 +95,10 @@ public:
     Result<Image> read(const scene::Scene& scene, scene::Aov aov);
     /// The tone-mapped picture (exposure, sRGB), 4 channels in [0,1], straight alpha: what PNG files hold.
     Result<Image> readDisplay(const scene::Scene& scene);
+
+    /// What became of the light that met glass and mirrors in the finished picture; nothing where no lamp
+    /// makes caustics. Draws their maps again and reads them back.
+    Result<std::optional<caustics::Energy>> energy(const scene::Scene& scene);
 
     Stats stats() const;
     /// Every pass with its reason, size, format and bytes, and what was left out and why.

@@ -109,9 +109,15 @@ void write(JsonWriter& json, const Ratio& ratio) {
 }
 
 // What settings are weighed by.
-double decisive(const Metrics& error) { return error.angles ? error.angles->all.median : error.rmse; }
+double decisive(const Metrics& error) {
+    return error.angles ? error.angles->all.median : error.flux ? error.flux->misplaced : error.rmse;
+}
 
 std::string errorText(const Metrics& error) {
+    if (error.flux)
+        return formatted("  misplaced %.2f %% (noise %.2f %%), encircled %.2f %%, flux %.4f, RMSE %.2e",
+                         100 * error.flux->misplaced, 100 * error.flux->byNoise, 100 * error.flux->encircled,
+                         error.fluxRatio, error.rmse);
     if (!error.angles) return formatted("  RMSE %.2e, %.2e of the mean", error.rmse, error.relRmse);
     const auto part = [](const char* where, const Angles& angles) {
         return formatted("  %s: %.3g degrees, 95 %% %.3g, 99 %% %.3g, lost %.2g %%", where, angles.median,

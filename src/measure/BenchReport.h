@@ -75,7 +75,8 @@ struct BenchReport {
     std::vector<HardResult> hardCases;
     std::vector<Ratio> ratios;
 
-    /// Sets Measurement::pareto: time against RMSE (of directions the median angle) among the measurements of
+    /// Sets Measurement::pareto: time against RMSE (of directions the median angle, of light on a floor what
+    /// is misplaced) among the measurements of
     /// one scene, size and technique.
     void markParetoFronts();
 

@@ -88,6 +88,44 @@ void write(JsonWriter& json, std::string_view name, const Angles& angles) {
     json.key("lost").value(angles.lost).key("pixels").value(angles.pixels).end();
 }
 
+double sumOfColors(const Image& image, int x, int y) {
+    double sum = 0;
+    for (int channel = 0; channel < colorChannels(image); ++channel)
+        sum += double(image.at(x, y)[channel]);
+    return sum;
+}
+
+constexpr int kCell = 5; // pixels a side, over which light may lie where it likes
+
+/// The flux of two pictures within growing circles around the middle of the second's flux: the largest
+/// difference.
+double encircledDifference(const Image& image, const Image& reference) {
+    struct Spot {
+        double radius, found, wanted;
+    };
+    std::vector<Spot> spots;
+    dvec2 middle(0);
+    double all = 0;
+    for (int y = 0; y < reference.height; ++y)
+        for (int x = 0; x < reference.width; ++x) {
+            const double wanted = sumOfColors(reference, x, y);
+            middle += wanted * dvec2(x, y);
+            all += wanted;
+        }
+    middle /= all;
+    for (int y = 0; y < reference.height; ++y)
+        for (int x = 0; x < reference.width; ++x)
+            spots.push_back(
+                {glm::distance(dvec2(x, y), middle), sumOfColors(image, x, y), sumOfColors(reference, x, y)});
+    std::sort(spots.begin(), spots.end(), [](const Spot& a, const Spot& b) { return a.radius < b.radius; });
+    double difference = 0, most = 0;
+    for (const Spot& spot : spots) {
+        difference += spot.found - spot.wanted;
+        most = std::max(most, std::abs(difference));
+    }
+    return shareOf(most, all);
+}
+
 bool exceedsOne(const Image& image) {
     bool found = false;
     forEachValue(image, image, nullptr, [&](int, int, double value, double) { found = found || value > 1; });
@@ -162,6 +200,28 @@ Result<Metrics> compareDirections(const Image& image, const std::string& imageNa
     return metrics;
 }
 
+FluxErrors compareFlux(const Image& image, const Image& reference, const Image& errors) {
+    FluxErrors flux;
+    double apart = 0, noise = 0, all = 0;
+    for (int top = 0; top + kCell <= reference.height; top += kCell)
+        for (int left = 0; left + kCell <= reference.width; left += kCell) {
+            double difference = 0, variance = 0;
+            for (int i = 0; i < kCell * kCell; ++i) {
+                const int x = left + i % kCell, y = top + i / kCell;
+                const double wanted = sumOfColors(reference, x, y), deviation = sumOfColors(errors, x, y);
+                difference += sumOfColors(image, x, y) - wanted;
+                variance += deviation * deviation;
+                all += wanted;
+            }
+            apart += std::abs(difference);
+            noise += std::sqrt(variance * 2 / std::numbers::pi); // mean of the absolute value of a Gaussian
+        }
+    flux.misplaced = shareOf(0.5 * apart, all);
+    flux.byNoise = shareOf(0.5 * noise, all);
+    flux.encircled = encircledDifference(image, reference);
+    return flux;
+}
+
 void addPerceptual(Metrics& metrics, const Image& image, const Image& reference) {
     const bool unclamped = exceedsOne(image) || exceedsOne(reference);
     metrics.ssim = ssim(image, reference);
@@ -183,6 +243,13 @@ void writeMembers(JsonWriter& json, const Metrics& metrics) {
     if (metrics.ssim) member("ssim", *metrics.ssim);
     if (metrics.flip) member("flip", *metrics.flip);
     member("fluxRatio", metrics.fluxRatio);
+    if (metrics.flux) {
+        json.key("flux").beginObject();
+        member("misplaced", metrics.flux->misplaced);
+        member("byNoise", metrics.flux->byNoise);
+        member("encircled", metrics.flux->encircled);
+        json.end();
+    }
     if (!metrics.angles) return;
     json.key("degrees").beginObject();
     write(json, "all", metrics.angles->all);

@@ -13,7 +13,9 @@
 
 namespace lucent::measure {
 
-/// A method with its knobs: parameters of its technique, as a scene file spells them.
+/// A method with its knobs: parameters of its technique, as a scene file spells them. The method is one of
+/// the choices of its technique's "method", or of the first of its parameters that offers it; else a mere
+/// name.
 struct Setting {
     std::string method;
     std::vector<std::pair<std::string, std::string>> knobs{};
@@ -51,6 +53,10 @@ struct Case {
     /// glass.
     std::function<void(scene::Scene&)> toLayers{};
     Timed timed = timedLight();
+    /// Compares light that a floor receives by way of something: what the timed pictures differ by.
+    bool comparesTimed = false;
+    /// The exact picture of that, where a closed form of it is known; empty: it is solved.
+    std::function<Image()> closedForm{};
 };
 
 /// One setting on scenes of growing size.

@@ -1,36 +1,58 @@
 #include "measure/RefractPlan.h"
 
 #include "frame/Renderer.h"
+#include "measure/DepthNormals.h"
 #include "scene/Environment.h"
 #include "scene/Mesh.h"
 #include "truth/Glass.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 
 namespace lucent::measure {
 
 namespace {
 
-constexpr std::string_view kLayerLimit = "maxLayers"; // the knob that keeps fewer layers than there are
 constexpr float kIor = 1.5f;
 
 // --- methods and knobs
 
-bool hasKnob(std::string_view technique, std::string_view knob) {
-    for (const ParamTable* table : frame::techniques())
-        if (table->name == technique)
-            return std::any_of(table->params.begin(), table->params.end(),
-                               [&](const Param& param) { return param.id == knob; });
-    return false;
+using Knobs = std::vector<std::pair<std::string, std::string>>;
+
+Setting with(Setting setting, const Knobs& knobs) {
+    setting.knobs.insert(setting.knobs.end(), knobs.begin(), knobs.end());
+    return setting;
 }
 
-// All layers that there are, and, where a scene can ask for fewer, so many.
+// The thesis's way: slices, five halvings, normals from depths.
+Setting voxels(const Knobs& knobs = {}) {
+    return with({"voxels", {{"layers", "voxels"}, {"trace", "bisection"}, {"normals", "delta1"}}}, knobs);
+}
+// Its cheap end: the first and the last surface.
+Setting twoSurfaces() {
+    return {"two surfaces", {{"layers", "front-back"}, {"trace", "bisection"}, {"normals", "delta1"}}};
+}
+Setting peelBisected(const Knobs& knobs = {}) {
+    return with({"peel and bisection", {{"trace", "bisection"}}}, knobs);
+}
+
+constexpr const char* kLayerCounts[] = {"2", "4", "8", "16", "32"};
+
+// Ours first: all layers that there are, and at most so many.
 std::vector<Setting> refractSettings() {
     std::vector<Setting> settings{{"peel"}};
-    if (hasKnob("refract", kLayerLimit))
-        for (const char* layers : {"2", "4", "8", "16", "32"})
-            settings.push_back({"peel", {{std::string(kLayerLimit), layers}}});
+    for (const char* layers : kLayerCounts)
+        settings.push_back({"peel", {{"maxLayers", layers}}});
+    settings.push_back(twoSurfaces());
+    for (const char* slices : {"256", "512"})
+        settings.push_back(voxels({{"slices", slices}}));
+    settings.push_back(voxels({{"bounds", "global"}}));
+    settings.push_back(voxels({{"peeling", "on-the-fly"}}));
+    for (const char* layers : kLayerCounts)
+        settings.push_back(peelBisected({{"maxLayers", layers}}));
+    for (const char* normals : {"neighbours", "delta1", "delta2"})
+        settings.push_back(peelBisected({{"normals", normals}}));
     return settings;
 }
 
@@ -101,6 +123,36 @@ const Timed kFrame{showColor, showNothing};
 const Timed kLayersStage{showLayers, showNothing};
 const Timed kTraceStage{showColor, showLayers};
 
+// The thesis's stages (its table 4.2): a picture that counts surfaces by what one stage leaves, less one that
+// counts them by what the stage before it leaves. Counting itself is a few looks at a texel.
+void choose(scene::Scene& scene, const Knobs& knobs) {
+    for (const auto& [knob, value] : knobs) {
+        [[maybe_unused]] const Status set = setParam(scene, "technique.refract." + knob, value);
+        assert(set);
+    }
+}
+std::function<void(scene::Scene&)> counting(const Setting& setting) {
+    return [setting](scene::Scene& scene) {
+        choose(scene, setting.knobs);
+        showLayers(scene);
+    };
+}
+Setting bitsOnly() { return voxels({{"peeling", "on-the-fly"}}); }
+
+struct Stage {
+    const char* name;
+    Timed timed;
+};
+std::vector<Stage> thesisStages() {
+    const Setting first{
+        "", {{"layers", "peel"}, {"trace", "pyramid"}, {"normals", "stored"}, {"maxLayers", "1"}}};
+    return {{"voxels, nearest and farthest depths", {counting(twoSurfaces()), showNothing}},
+            {"voxels, slices", {counting(bitsOnly()), counting(twoSurfaces())}},
+            {"voxels, peeling", {counting(voxels()), counting(bitsOnly())}},
+            {"voxels, first surface", {counting(first), showNothing}},
+            {"voxels, reduction, first surface and rays", {showColor, counting(voxels())}}};
+}
+
 Case refractCase(const std::string& name, scene::Scene scene) {
     const double rays = double(scene.size.x) * scene.size.y;
     return {.technique = "refract",
@@ -131,16 +183,19 @@ std::vector<Series> refractSeries(std::vector<BenchMesh> meshes, bool quick) {
     std::sort(meshes.begin(), meshes.end(),
               [](const BenchMesh& a, const BenchMesh& b) { return triangles(a) < triangles(b); });
     const int size = quick ? 128 : 256;
-    const auto series = [&](const char* name, const Timed& timed) {
+    const auto series = [&](const Setting& setting, const Timed& timed) {
         Series one{
-            .technique = "refract", .over = "triangles", .setting = {name}, .points = {}, .timed = timed};
+            .technique = "refract", .over = "triangles", .setting = setting, .points = {}, .timed = timed};
         for (const BenchMesh& mesh : meshes)
             one.points.push_back({triangles(mesh),
                                   {[mesh, size]() -> Result<scene::Scene> { return glassScene(mesh, size); },
                                    double(size) * size + triangles(mesh)}});
         return one;
     };
-    return {series(kTraceName, kTraceStage), series(kLayersName, kLayersStage)};
+    std::vector<Series> all{series({kTraceName}, kTraceStage), series({kLayersName}, kLayersStage)};
+    for (const Stage& stage : thesisStages())
+        all.push_back(series({stage.name, voxels().knobs}, stage.timed));
+    return all;
 }
 
 // --- promises
@@ -188,6 +243,29 @@ RatioRule growth(const std::string& stage, std::optional<double> target) {
     };
 }
 
+// Normals from depths against a ball's own, in degrees (the thesis's figure 3.4). They cost no picture.
+void addNormals(Plan& plan) {
+    constexpr int kSize = 256;
+    const auto add = [&](const std::string& method, DepthNormals normals, int slices) {
+        const std::string depths =
+            slices ? " from " + std::to_string(slices) + " slices" : " from exact depths";
+        const auto figure = [&](const char* what, double NormalErrors::*value) {
+            plan.ratios.push_back([=,
+                                   name = "normals, " + method + depths + ": " + what](const BenchReport&) {
+                return std::optional<Ratio>(Ratio{name, errorsOf(normals, kSize, slices).*value, {}, false});
+            });
+        };
+        figure("median of degrees off", &NormalErrors::median);
+        figure("95 % of degrees off", &NormalErrors::p95);
+        figure("median of degrees off at the outline", &NormalErrors::outline);
+    };
+    for (const int slices : {0, 256, 512}) {
+        add("delta 1", DepthNormals::Delta1, slices);
+        add("delta 2", DepthNormals::Delta2, slices);
+        add("neighbours", DepthNormals::Neighbours, slices);
+    }
+}
+
 } // namespace
 
 scene::Scene glassScene(const BenchMesh& mesh, int size) {
@@ -226,6 +304,7 @@ Plan refractPlan(const std::vector<BenchMesh>& meshes, const std::vector<BenchMe
     plan.series = refractSeries(simpler, quick);
     plan.ratios.push_back(growth(kTraceName, 1.3));
     plan.ratios.push_back(growth(kLayersName, {}));
+    addNormals(plan);
     return plan;
 }
 

@@ -23,19 +23,24 @@ Timed timedLight() {
 
 namespace {
 
-// Not every technique has several methods to choose from.
-bool hasMethods(const std::string& technique) {
-    for (const ParamTable* table : frame::techniques())
-        if (table->name == technique)
-            return std::any_of(table->params.begin(), table->params.end(),
-                               [](const Param& param) { return param.id == "method"; });
-    return false;
+// The parameter of a technique that chooses among its methods; "" where none does.
+std::string methodParam(const std::string& technique, const std::string& method) {
+    for (const ParamTable* table : frame::techniques()) {
+        if (table->name != technique) continue;
+        const auto found = std::find_if(table->params.begin(), table->params.end(), [&](const Param& param) {
+            return param.id == "method" ||
+                   std::find(param.choices.begin(), param.choices.end(), method) != param.choices.end();
+        });
+        if (found != table->params.end()) return std::string(found->id);
+    }
+    return "";
 }
 
 Status apply(scene::Scene& scene, const std::string& technique, const Setting& setting) {
     const std::string place = "technique." + technique + ".";
-    if (hasMethods(technique))
-        if (Status set = setParam(scene, place + "method", setting.method); !set) return set;
+    const std::string param = methodParam(technique, setting.method);
+    if (!param.empty())
+        if (Status set = setParam(scene, place + param, setting.method); !set) return set;
     for (const auto& [knob, value] : setting.knobs)
         if (Status set = setParam(scene, place + knob, value); !set) return set;
     return Done{};
@@ -48,6 +53,12 @@ double pictureCost(const Setting& setting, double rays) {
     for (const auto& [knob, value] : setting.knobs)
         if (knob == "steps") return rays * kStep * std::strtod(value.c_str(), nullptr);
     return rays * kPictureRay;
+}
+
+// Takes the colours of one picture off another one of the same size.
+void takeOff(Image& image, const Image& rest) {
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        if (i % 4 != 3) image.pixels[i] -= rest.pixels[i];
 }
 
 // A renderer with what it draws: what one scene shows, and the two pictures whose difference is timed.
@@ -89,6 +100,16 @@ public:
         if (with_.view.show != scene_.view.show)
             if (Status done = renderer_.finish(scene_, ++revision_, scene_.size); !done) return done.error();
         return renderer_.read(scene_, scene_.view.show);
+    }
+    // What is left of it where the other timed picture is taken off.
+    Result<Image> difference() {
+        Result<Image> whole = picture();
+        if (!whole) return whole;
+        if (Status done = without(); !done) return done.error();
+        const Result<Image> rest = renderer_.read(without_, scene_.view.show);
+        if (!rest) return rest;
+        takeOff(*whole, *rest);
+        return whole;
     }
     const frame::Stats& stats() const { return stats_; }
     frame::Renderer& renderer() { return renderer_; }
@@ -187,16 +208,26 @@ private:
             Result<scene::Scene> scene = state.plan.scene();
             if (!scene) return scene.error();
             state.scene = std::move(*scene);
+            if (state.plan.closedForm) {
+                state.truth = truth::Picture(state.scene.size);
+                state.truth.values = state.plan.closedForm();
+                return true;
+            }
             solving_ = std::make_unique<Solving>(sweep, state.scene);
         }
         const Result<bool> done = solving_->step();
         if (!done || !*done) return done;
         if (isSecond_) {
-            (state.plan.toLayers ? state.layers : state.physics) = solving_->picture().values;
+            if (state.plan.comparesTimed)
+                takeOff(state.truth.values, solving_->picture().values);
+            else
+                (state.plan.toLayers ? state.layers : state.physics) = solving_->picture().values;
             return true;
         }
         state.truth = solving_->picture();
-        const auto& toSecond = state.plan.toLayers ? state.plan.toLayers : state.plan.toPhysics;
+        const auto& toSecond = state.plan.comparesTimed ? state.plan.timed.without
+                               : state.plan.toLayers    ? state.plan.toLayers
+                                                        : state.plan.toPhysics;
         if (!toSecond) return true;
         scene::Scene second = state.scene;
         toSecond(second);
@@ -207,7 +238,7 @@ private:
 
     std::shared_ptr<CaseState> state_;
     std::unique_ptr<Solving> solving_;
-    bool isSecond_ = false; // physics or layers are being solved
+    bool isSecond_ = false; // physics, layers or what is taken off are being solved
 };
 
 class Sweep::Timing : public Task {
@@ -238,7 +269,7 @@ private:
         scene::Scene scene = state_->scene;
         if (Status set = apply(scene, result_.technique, setting_); !set) return set;
         drawing_ = std::make_unique<Drawing>(sweep.context_, std::move(scene), state_->plan.timed);
-        const Result<Image> image = drawing_->picture();
+        const Result<Image> image = state_->plan.comparesTimed ? drawing_->difference() : drawing_->picture();
         if (!image) return image.error();
         if (Status judged = judge(*image); !judged) return judged;
         const frame::Stats& stats = drawing_->stats();
@@ -262,6 +293,12 @@ private:
         }
         Result<Metrics> metrics = compare(image, label, truth, "exact solution", &truth);
         if (!metrics) return metrics.error();
+        if (state.plan.comparesTimed) {
+            metrics->flux = compareFlux(image, truth, state.truth.errors);
+            result_.error = *metrics;
+            result_.truthNoise = state.truth.standardError();
+            return Done{};
+        }
         if (!setting_.ownModel) addPerceptual(*metrics, image, truth);
         (setting_.ownModel ? result_.modelError : result_.error) = *metrics;
         result_.truthNoise = state.truth.standardError();

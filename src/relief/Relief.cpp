@@ -169,7 +169,7 @@ const ParamTable& Relief::params() {
                                               "counting as one, so that more lights do not brighten the "
                                               "picture (thesis 4.3.7). Off: lights add."}),
     };
-    static const ParamTable table = tableOf<Settings>("relief", list);
+    static const ParamTable table = tableOf<Settings>("relief", list, "Relief");
     return table;
 }
 

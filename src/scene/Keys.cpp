@@ -66,6 +66,8 @@ constexpr Key kWater[] = {{"type", KeyType::Constant,
                            "Water that obeys the wave equation, in the xz plane, centred, facing +y.",
                            R"("water")"}};
 constexpr Key kMaterial[] = {
+    {"preset", KeyType::Preset,
+     "A measured material, for scattering, absorption and ior; keys beside it replace its values."},
     {"absorption", KeyType::Coefficient,
      "Instead of attenuationColor and attenuationDistance: light falls by e^(-absorption * metres) [1/m]."},
     {"baseMap", KeyType::File, "Picture that multiplies the base colour."},
@@ -140,7 +142,8 @@ const KeySet& objectKeys() {
 }
 
 const KeySet& materialKeys() {
-    static const KeySet keys{{&colorParams(), &reliefParams(), &opticsParams(), &refractionParams()},
+    static const KeySet keys{{&colorParams(), &reliefParams(), &opticsParams(), &mediumParams(),
+                              &refractionParams(), &scatteringParams()},
                              kMaterial};
     return keys;
 }

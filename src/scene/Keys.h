@@ -19,6 +19,7 @@ enum class KeyType {
     File,        ///< name of a file
     Toggle,      ///< true unless it says false
     Size,        ///< two integers in [1, kMaxPictureSide]
+    Preset,      ///< name of a measured material
     Coefficient, ///< one number in [0, kFar], or three for red, green and blue
     Content,     ///< objects and lists with keys of their own
 };

@@ -6,6 +6,7 @@
 #include "scene/ImageUse.h"
 #include "scene/Json.h"
 #include "scene/Keys.h"
+#include "scene/MaterialPresets.h"
 #include "scene/Mesh.h"
 
 #include <algorithm>
@@ -349,8 +350,10 @@ private:
 
     bool readMaterial(const Place& place, Object& object) {
         Material& material = object.material;
-        return readKeys(place, materialKeys(), {&material, &material, &material, &material}) &&
-               readAbsorption(place, material) && keepStatus(place, check(material)) &&
+        const std::initializer_list<void*> tables = {&material, &material, &material,
+                                                     &material, &material, &material};
+        return readKeys(place, materialKeys(), tables) && readAbsorption(place, material) &&
+               readPreset(place, material) && keepStatus(place, check(material)) &&
                refuseIdleKeys(place, object) &&
                readMap(place, "baseMap", material.baseMapFile, material.baseMap) &&
                readMap(place, "diffuseMap", material.diffuseMapFile, material.diffuseMap) &&
@@ -383,6 +386,32 @@ private:
             return false;
         }
         material.setAbsorption(read.three);
+        return true;
+    }
+    // Keys beside the preset replace its values.
+    bool readPreset(const Place& place, Material& material) {
+        const Json* json = place.json.find("preset");
+        if (!json) return true;
+        const Place member = place.at(*json, "preset");
+        std::string name;
+        if (!readText(member, name)) return false;
+        const auto presets = materialPresets();
+        const auto found = std::find_if(presets.begin(), presets.end(),
+                                        [&](const MaterialPreset& preset) { return preset.name == name; });
+        if (found == presets.end()) {
+            std::string known;
+            for (const MaterialPreset& preset : presets)
+                (known += known.empty() ? "" : &preset == &presets.back() ? " or " : ", ") += preset.name;
+            return wrongType(member, known);
+        }
+        Material measured = material;
+        apply(*found, measured);
+        if (!place.json.find("scattering")) material.scattering = measured.scattering;
+        if (!place.json.find("ior")) material.ior = measured.ior;
+        if (!place.json.find("absorption") && !place.json.find("attenuationDistance")) {
+            material.attenuationColor = measured.attenuationColor;
+            material.attenuationDistance = measured.attenuationDistance;
+        }
         return true;
     }
     // Keys that change nothing about the object would otherwise be ignored in silence.

@@ -13,6 +13,9 @@ namespace {
 // is black in every picture, and with it a distance can be found for any absorption (setAbsorption()).
 constexpr double kDarkest = 1e-6;
 
+// At 1 light would go on as if nothing had scattered it.
+constexpr double kMostAnisotropy = 0.999;
+
 } // namespace
 
 const ParamTable& colorParams() {
@@ -113,12 +116,23 @@ const ParamTable& opticsParams() {
                  .group = Group::Refraction,
                  .doc = "Share of the light inside that passes; above 0 the object is clear, its surface "
                         "refracts and does nothing else."}),
+        declare(&Material::scattering,
+                {.id = "scattering",
+                 .label = "Scattering",
+                 .unit = "1/m",
+                 .min = 0,
+                 .max = kFar,
+                 .high = 5e3, // marble, milk and skin
+                 .group = Group::Material,
+                 .doc =
+                     "How often light is scattered on a metre of its way inside, red, green and blue; above "
+                     "0 the object is translucent."}),
     };
     static const ParamTable table = tableOf<Material>("material", params);
     return table;
 }
 
-const ParamTable& refractionParams() {
+const ParamTable& mediumParams() {
     static const Param params[] = {
         declare(&Material::ior, {.id = "ior",
                                  .label = "Index of refraction",
@@ -148,6 +162,13 @@ const ParamTable& refractionParams() {
                  .doc = "What is left of white light after the attenuation distance; black would be an "
                         "absorption without bound.",
                  .color = true}),
+    };
+    static const ParamTable table = tableOf<Material>("material", params);
+    return table;
+}
+
+const ParamTable& refractionParams() {
+    static const Param params[] = {
         declare(&Material::dispersion,
                 {.id = "dispersion",
                  .label = "Dispersion",
@@ -162,6 +183,42 @@ const ParamTable& refractionParams() {
                                      .group = Group::Refraction,
                                      .doc = "Each surface mirrors its share of light; off: all light is "
                                             "transmitted unless it is totally reflected."}),
+    };
+    static const ParamTable table = tableOf<Material>("material", params);
+    return table;
+}
+
+const ParamTable& scatteringParams() {
+    static const Param params[] = {
+        declare(&Material::anisotropy,
+                {.id = "anisotropy",
+                 .label = "Anisotropy",
+                 .min = -kMostAnisotropy,
+                 .max = kMostAnisotropy,
+                 .low = -kMostAnisotropy,
+                 .high = kMostAnisotropy,
+                 .group = Group::Material,
+                 .doc = "Mean cosine of the angle by which scattered light turns: 0 as often back as forth, "
+                        "towards 1 forwards. Light spreads as if scattering were (1 - anisotropy) times as "
+                        "frequent and even."}),
+        declare(&Material::thickness,
+                {.id = "thickness",
+                 .label = "Thickness",
+                 .unit = "m",
+                 .min = 0,
+                 .max = kLargest,
+                 .high = 0.02f,
+                 .group = Group::Material,
+                 .doc =
+                     "Of a layer whose upper side the surface is, for profiles that know layers; 0: as thick "
+                     "as the object."}),
+        declare(&Material::roughness,
+                {.id = "roughness",
+                 .label = "Roughness",
+                 .min = 0,
+                 .max = 1,
+                 .group = Group::Material,
+                 .doc = "Of the surface that mirrors lamps: 0 as sharp points, 1 spread wide."}),
     };
     static const ParamTable table = tableOf<Material>("material", params);
     return table;
@@ -197,22 +254,31 @@ bool holds(const ParamTable& table, std::string_view key) {
 std::string whyIdle(const Object& object, std::string_view key) {
     if (key == "wave" && (object.isField() || std::holds_alternative<Water>(object.shape)))
         return " does nothing on height fields and water; must stand on another shape";
-    const bool refracts = holds(refractionParams(), key) || key == "absorption";
+    const bool inside = holds(mediumParams(), key) || key == "absorption";
+    const bool refracts = holds(refractionParams(), key);
+    const bool scatters = holds(scatteringParams(), key);
     if (object.isField()) {
-        if (!refracts && !holds(opticsParams(), key)) return {};
+        if (!inside && !refracts && !scatters && !holds(opticsParams(), key) && key != "preset") return {};
         return " does nothing on a height field; must stand on another shape";
     }
     const Material& material = object.material;
     const bool isMap = key == "baseMap" || key == "diffuseMap" || key == "specularMap";
     if (isMap || holds(reliefParams(), key))
         return " does nothing on a " + inQuotes(typeOf(object.shape).type) + "; must stand on a height field";
+    if (inside && !material.isRefractive() && !material.isScattering())
+        return " does nothing where no light gets inside; must stand beside a transmission or scattering "
+               "above 0";
     if (refracts && !material.isRefractive())
         return " does nothing where nothing is transmitted; must stand beside a transmission above 0";
+    if (scatters && !material.isScattering())
+        return " does nothing where nothing scatters; must stand beside a scattering above 0";
     if (!holds(colorParams(), key)) return {};
     if (material.isRefractive())
         return " does nothing beside a transmission above 0; must stand on an opaque surface";
     if (material.isMirror())
         return " does nothing beside a reflectance above 0; must stand on an opaque surface";
+    if (material.isScattering())
+        return " does nothing beside a scattering above 0; must stand on an opaque surface";
     return {};
 }
 

@@ -113,7 +113,8 @@ Mesh partOf(const Mesh& mesh, const Mesh::Part& part);
 
 /// True for bytes that start as the plain form does.
 bool isMesh(std::span<const std::byte> bytes);
-/// The plain form in which meshes reach the loader: "LUCENTM2" and then everything above, little-endian.
+/// The plain form in which meshes reach the loader: "LUCENTM2" and then everything above, little-endian; or
+/// "LUCENTM3" where a material scatters, with scattering, anisotropy and roughness behind each material.
 /// The readers write it from glTF and OBJ, natively and in the page alike.
 Bytes encodeMesh(const Mesh& mesh);
 /// Error "NAME: what; expected" for truncated files, indices out of range, lists whose lengths do not agree

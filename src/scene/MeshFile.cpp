@@ -13,6 +13,7 @@ namespace lucent::scene {
 namespace {
 
 constexpr std::string_view kMagic = "LUCENTM2";
+constexpr std::string_view kScatteringMagic = "LUCENTM3"; // materials have what scatters as well
 static_assert(std::endian::native == std::endian::little, "mesh files are written as they lie in memory");
 static_assert(sizeof(vec2) == 8 && sizeof(vec3) == 12 && sizeof(vec4) == 16 && sizeof(mat4) == 64);
 static_assert(sizeof(Node) == 44, "parent, translate, rotate as x y z w, scale: nothing between them");
@@ -93,7 +94,7 @@ private:
 
 // What the file holds, in its order; Files is a Writer or a Reader.
 template <class File, class Values>
-void materialFields(File& file, Values& m) {
+void materialFields(File& file, Values& m, bool scatter) {
     file.value(m.base, "materials");
     file.value(m.diffuse, "materials");
     file.value(m.specular, "materials");
@@ -111,10 +112,14 @@ void materialFields(File& file, Values& m) {
     file.value(fresnel, "materials");
     if constexpr (!std::is_const_v<Values>) m.fresnel = fresnel != 0;
     file.value(m.reflectance, "materials");
+    if (!scatter) return;
+    file.value(m.scattering, "materials");
+    file.value(m.anisotropy, "materials");
+    file.value(m.roughness, "materials");
 }
 
 template <class File, class AnyMesh>
-void meshFields(File& file, AnyMesh& mesh) {
+void meshFields(File& file, AnyMesh& mesh, bool scatter) {
     file.list(mesh.positions, "positions");
     file.list(mesh.indices, "indices");
     file.list(mesh.normals, "normals");
@@ -142,7 +147,7 @@ void meshFields(File& file, AnyMesh& mesh) {
         file.list(part.material, "names of materials");
         file.value(part.firstIndex, "parts");
         file.value(part.indexCount, "parts");
-        materialFields(file, part.values);
+        materialFields(file, part.values, scatter);
     });
 }
 
@@ -307,7 +312,8 @@ private:
                                isFinite(m.specularFalloff) && isFinite(m.scatterFalloff) &&
                                isFinite(m.transmission) && isFinite(m.ior) && isFinite(m.attenuationColor) &&
                                isFinite(m.attenuationDistance) && isFinite(m.dispersion) &&
-                               isFinite(m.reflectance);
+                               isFinite(m.reflectance) && isFinite(m.scattering) && isFinite(m.anisotropy) &&
+                               isFinite(m.roughness);
             if (!sound || !(m.ior > 0))
                 wrong(name + " has a value that is not finite or an ior of 0 or less; must not");
         }
@@ -323,15 +329,23 @@ private:
 
 } // namespace
 
+namespace {
+bool startsWith(std::span<const std::byte> bytes, std::string_view magic) {
+    return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+}
+} // namespace
+
 bool isMesh(std::span<const std::byte> bytes) {
-    return bytes.size() >= kMagic.size() && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
+    return startsWith(bytes, kMagic) || startsWith(bytes, kScatteringMagic);
 }
 
 Bytes encodeMesh(const Mesh& mesh) {
+    const bool scatter = std::any_of(mesh.parts.begin(), mesh.parts.end(),
+                                     [](const Mesh::Part& part) { return part.values.isScattering(); });
     Writer file;
-    for (const char letter : kMagic)
+    for (const char letter : scatter ? kScatteringMagic : kMagic)
         file.value(letter, "");
-    meshFields(file, mesh);
+    meshFields(file, mesh, scatter);
     return file.take();
 }
 
@@ -340,7 +354,7 @@ Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& nam
         return Error{name + ": is no mesh file; must be glTF 2.0, OBJ or start with " + std::string(kMagic)};
     Reader file(bytes.subspan(kMagic.size()));
     Mesh mesh;
-    meshFields(file, mesh);
+    meshFields(file, mesh, startsWith(bytes, kScatteringMagic));
     if (!file.missing().empty()) return Error{name + ": " + file.missing()};
     if (file.left() > 0)
         return Error{name + ": " + std::to_string(file.left()) + " bytes follow the mesh; must be none"};

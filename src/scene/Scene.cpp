@@ -11,8 +11,10 @@ namespace lucent::scene {
 namespace {
 
 constexpr std::string_view kCameraNames[] = {"orthographic", "perspective"};
-constexpr std::string_view kAovNames[] = {"color",    "d",          "visibility", "normal",    "depth",
-                                          "position", "iterations", "irradiance", "direction", "layers"};
+constexpr std::string_view kAovNames[] = {
+    "color",       "d",         "visibility", "normal", "depth",       "position",     "iterations",
+    "irradiance",  "direction", "layers",     "lost",   "layer-depth", "layer-normal", "layer-object",
+    "caustic-map", "radiosity"};
 
 } // namespace
 
@@ -119,6 +121,16 @@ const ParamTable& viewParams() {
                               .group = Group::View,
                               .doc = "The picture, or one of the quantities behind it.",
                               .choices = kAovNames}),
+        declare(&View::layer,
+                {.id = "layer",
+                 .label = "Layer",
+                 .min = 1,
+                 .max = 256,
+                 .low = 1,
+                 .high = 16,
+                 .group = Group::View,
+                 .doc = "Which surface behind others the views of layers show, 1 is the nearest; of "
+                        "the caustic map, which of the lamps' points."}),
         declare(&View::lightDot, {.id = "lightDot",
                                   .label = "Light dot",
                                   .group = Group::View,
@@ -165,7 +177,8 @@ struct Binder {
             if (param.id != leftOut)
                 bound.push_back({path + "." + std::string(param.id), std::string(prefix), &param,
                                  static_cast<std::byte*>(data) + param.offset,
-                                 static_cast<const std::byte*>(table.defaults) + param.offset});
+                                 static_cast<const std::byte*>(table.defaults) + param.offset, true,
+                                 table.label});
     }
 
     void addObject(Object& object, bool first) {
@@ -231,6 +244,8 @@ std::vector<BoundParam> bindParams(Scene& scene) {
     const bool still = std::none_of(scene.objects.begin(), scene.objects.end(), moves);
     for (BoundParam& param : binder.bound)
         if (param.data == &scene.view.time) param.shown = !still;
+    for (BoundParam& param : binder.bound)
+        if (param.data == &scene.view.layer) param.shown = isNumbered(scene.view.show);
     binder.add("quality", "quality", qualityParams(), &scene.quality);
     std::stable_sort(binder.bound.begin(), binder.bound.end(),
                      [](const BoundParam& a, const BoundParam& b) { return panelOrder(a) < panelOrder(b); });
@@ -294,6 +309,13 @@ Status check(const Material& material) {
     if (material.isRefractive() && material.isMirror())
         return Error{"reflectance is " + vectorText(material.reflectance) +
                      "; must be 0 beside a transmission above 0"};
+    if (!material.isScattering()) return Done{};
+    if (material.isRefractive() || material.isMirror())
+        return Error{"scattering is " + vectorText(material.scattering) + "; must be 0 beside a " +
+                     (material.isRefractive() ? "transmission" : "reflectance") + " above 0"};
+    if (material.ior < kLeastScatteringIor || material.ior > kMostScatteringIor)
+        return Error{"ior is " + shortest(material.ior) + "; must be in [" + shortest(kLeastScatteringIor) +
+                     ", " + shortest(kMostScatteringIor) + "] beside a scattering above 0"};
     return Done{};
 }
 

@@ -108,6 +108,9 @@ struct Wave {
     float period = 1;        ///< s, > 0
 };
 
+/// Of what scatters: beyond, the fit of what its boundary reflects inside (Egan and Hilgeman's) is no share.
+inline constexpr float kLeastScatteringIor = 0.3f, kMostScatteringIor = 3;
+
 /// What the surface does with light. The relief model's colours and factors (height-field thesis 2017, 3.5)
 /// hold for height fields. Other shapes are either opaque, with `base` and `diffuse` as their own radiance
 /// and albedo, or refractive, or mirrors.
@@ -128,11 +131,18 @@ struct Material {
     float attenuationDistance = 0; ///< m; 0: nothing is absorbed
     float dispersion = 0;          ///< 20 / Abbe number
     bool fresnel = true;           ///< false: all light is transmitted where Snell's law lets it
+    // Light inside, where scattering > 0; not of height fields, nor beside transmission and reflectance. What
+    // is absorbed on the way is absorption(), what bends at the surface is ior.
+    vec3 scattering{0};     ///< sigma_s, 1/m
+    float anisotropy = 0;   ///< g, mean cosine of a scattered ray, [-0.999,0.999]
+    float thickness = 0;    ///< m, of a slab that the surface is the upper side of; 0: as thick as the object
+    float roughness = 0.3f; ///< of the surface, [0,1]: its highlight; not of height fields
     // Mirrors, where reflectance > 0; not of height fields, and not beside transmission.
     vec3 reflectance{0}; ///< share of mirrored light at any angle, [0,1]
 
     bool isRefractive() const { return transmission > 0; }
     bool isMirror() const { return reflectance != vec3(0); }
+    bool isScattering() const { return scattering != vec3(0); }
     /// Absorption coefficient sigma [1/m]: light falls by exp(-sigma l) on a way of l metres. It is
     /// -ln(attenuationColor) / attenuationDistance; 0 where the distance is 0.
     vec3 absorption() const;
@@ -235,15 +245,26 @@ enum class Aov : int {
     Depth,
     Position,
     Iterations,
-    Irradiance, ///< what arrives at an opaque surface, before its albedo
-    Direction,  ///< unit, in which light seen through refractive objects came in, or the eye ray's
-    Layers      ///< interfaces that the eye ray crosses
+    Irradiance,  ///< what arrives at an opaque surface, before its albedo
+    Direction,   ///< unit, in which light seen through refractive objects came in, or the eye ray's
+    Layers,      ///< interfaces that the eye ray crosses
+    Lost,        ///< 1 where light seen through refractive objects was given up or ran out of layers
+    LayerDepth,  ///< of one layer of refractive surfaces (View::layer): m along the view
+    LayerNormal, ///< outward
+    LayerObject, ///< a colour for each object, darker where its inside faces the eye
+    CausticMap,  ///< light that refractive objects and mirrors throw, as one point of a lamp sees it; 1: what
+                 ///< it leaves there undisturbed
+    Radiosity    ///< W/m² that leave where light was scattered inside
 };
+
+/// Whether it is one of several images, which View::layer chooses.
+inline bool isNumbered(Aov aov) { return aov >= Aov::LayerDepth && aov <= Aov::CausticMap; }
 
 /// How linear light becomes a picture: exposure, clamp, sRGB curve; nothing else.
 struct View {
     float exposure = 0; ///< ev: the image is multiplied by 2^ev
     Aov show = Aov::Color;
+    int layer = 1;        ///< which layer, or which point of the lamps, from 1 on
     bool lightDot = true; ///< the viewer marks the light's place
     float time = 0;       ///< s, of waves, water and animations
 };
@@ -281,8 +302,10 @@ const ParamTable& waveParams();
 // Of the material, by where they act; see whyIdle() in Keys.h.
 const ParamTable& colorParams();      ///< height fields and opaque surfaces
 const ParamTable& reliefParams();     ///< height fields
-const ParamTable& opticsParams();     ///< every other shape: what makes it clear or a mirror
+const ParamTable& opticsParams();     ///< every other shape: what makes it clear, a mirror or translucent
+const ParamTable& mediumParams();     ///< what is clear or translucent
 const ParamTable& refractionParams(); ///< what is clear
+const ParamTable& scatteringParams(); ///< what is translucent
 const ParamTable& transformParams();
 const ParamTable& pointLightParams();
 const ParamTable& distantLightParams();

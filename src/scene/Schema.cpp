@@ -2,6 +2,7 @@
 #include "base/JsonWriter.h"
 #include "scene/Keys.h"
 #include "scene/Load.h"
+#include "scene/MaterialPresets.h"
 
 namespace lucent::scene {
 namespace {
@@ -143,6 +144,12 @@ private:
             break;
         case KeyType::Size:
             writeSizeType(json_);
+            break;
+        case KeyType::Preset:
+            json_.key("enum").beginArray();
+            for (const MaterialPreset& preset : materialPresets())
+                json_.value(preset.name);
+            json_.end();
             break;
         case KeyType::Coefficient:
             writeCoefficientType(json_);

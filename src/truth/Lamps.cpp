@@ -1,5 +1,7 @@
 #include "truth/Lamps.h"
 
+#include "truth/Interface.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,6 +50,21 @@ struct BallCone {
 std::size_t anyOf(std::size_t count, Random& random) {
     return std::min(std::size_t(random.next() * double(count)), count - 1);
 }
+
+/// A ray of light that has an irradiance on what faces it, from infinitely far away.
+///
+/// @param back  unit, to where it comes from
+Emission emitFromAfar(const dvec3& back, const dvec3& irradiance, std::span<const Sphere> targets,
+                      Random& random) {
+    const Sphere& aim = targets[anyOf(targets.size(), random)];
+    const dvec3 origin = aim.center + across(back) * (aim.radius * placeInDisc(random.nextPair()));
+    double density = 0;
+    for (const Sphere& target : targets)
+        if (glm::length(glm::cross(origin - target.center, back)) <= target.radius)
+            density += 2 / (kTwoPi * target.radius * target.radius);
+    density /= double(targets.size());
+    return {origin, -back, -kInfinity, density > 0 ? irradiance / density : dvec3(0)};
+}
 } // namespace
 
 Lamp::Lamp(const scene::Light& light) {
@@ -94,8 +111,12 @@ LampLight Lamp::light(const dvec3& place, dvec2 within) const {
 }
 
 Emission Lamp::emit(std::span<const Sphere> targets, Random& random) const {
-    if (source_.distant) return emitFromAfar(targets, random);
     const dvec2 within = random.nextPair();
+    if (source_.distant) {
+        const LightSource point =
+            source_.radius > 0 ? pointOnDisc(source_, dvec3(0), placeInDisc(within)) : source_;
+        return emitFromAfar(point.place, source_.color, targets, random);
+    }
     if (panel_) {
         const dvec3 origin = panel_->corner + within.x * panel_->edgeU + within.y * panel_->edgeV;
         Emission emission = emitFrom(origin, targets, random);
@@ -124,20 +145,6 @@ Emission Lamp::emitFrom(const dvec3& origin, std::span<const Sphere> targets, Ra
     return {origin, direction, 0, dvec3(density > 0 ? 1 / density : 0)};
 }
 
-Emission Lamp::emitFromAfar(std::span<const Sphere> targets, Random& random) const {
-    const dvec2 within = random.nextPair();
-    const dvec3 back =
-        source_.radius > 0 ? pointOnDisc(source_, dvec3(0), placeInDisc(within)).place : source_.place;
-    const Sphere& aim = targets[anyOf(targets.size(), random)];
-    const dvec3 origin = aim.center + across(back) * (aim.radius * placeInDisc(random.nextPair()));
-    double density = 0;
-    for (const Sphere& target : targets)
-        if (glm::length(glm::cross(origin - target.center, back)) <= target.radius)
-            density += 2 / (kTwoPi * target.radius * target.radius);
-    density /= double(targets.size());
-    return {origin, -back, -kInfinity, density > 0 ? source_.color / density : dvec3(0)};
-}
-
 std::optional<dvec3> Lamp::place() const {
     if (panel_) return panel_->corner + 0.5 * (panel_->edgeU + panel_->edgeV);
     return source_.distant ? std::nullopt : std::optional(source_.place);
@@ -154,16 +161,24 @@ bool Illumination::isSampled() const {
            std::any_of(lamps_.begin(), lamps_.end(), [](const Lamp& lamp) { return lamp.isSampled(); });
 }
 
-dvec3 Illumination::irradiance(const Hit& hit, const dvec3& viewer, Random& random) const {
+Emission Illumination::emit(std::size_t source, std::span<const Sphere> targets, Random& random) const {
+    if (source < lamps_.size()) return lamps_[source].emit(targets, random);
+    const LightSource direction = around_->directions.choose(random.nextPair());
+    return emitFromAfar(direction.place, 2 * kTwoPi * direction.color, targets,
+                        random); // a mean over 4 pi sr
+}
+
+dvec3 Illumination::irradiance(const Hit& hit, const dvec3& viewer, Random& random, double ior) const {
     const dvec3 normal = normalTowards(hit, viewer);
     dvec3 sum{0};
     for (const Lamp& lamp : lamps_) {
         const auto [way, irradiance] =
             lamp.light(hit.position, lamp.isSampled() ? random.nextPair() : dvec2(0));
         const double cosine = glm::dot(normal, way.direction);
-        if (cosine > 0 && irradiance != dvec3(0) && reaches(hit, way)) sum += cosine * irradiance;
+        if (cosine > 0 && irradiance != dvec3(0) && reaches(hit, way))
+            sum += (1 - reflectance(std::min(cosine, 1.0), 1 / ior)) * cosine * irradiance;
     }
-    return around_ ? sum + irradianceOfSky(hit, normal, random) : sum;
+    return around_ ? sum + irradianceOfSky(hit, normal, random, ior) : sum;
 }
 
 bool Illumination::reaches(const Hit& hit, const LightPath& way) const {
@@ -173,7 +188,7 @@ bool Illumination::reaches(const Hit& hit, const LightPath& way) const {
 
 /// One direction chosen by the environment's light and one by the cosine, each divided by the sum of both
 /// densities (the balance heuristic, Veach, Guibas 1995): neither a small sun nor an even sky is noisy.
-dvec3 Illumination::irradianceOfSky(const Hit& hit, const dvec3& normal, Random& random) const {
+dvec3 Illumination::irradianceOfSky(const Hit& hit, const dvec3& normal, Random& random, double ior) const {
     const dvec2 onDisc = placeInDisc(random.nextPair());
     const double up = std::sqrt(std::max(0.0, 1 - glm::dot(onDisc, onDisc)));
     const dvec3 directions[] = {around_->directions.choose(random.nextPair()).place,
@@ -183,7 +198,8 @@ dvec3 Illumination::irradianceOfSky(const Hit& hit, const dvec3& normal, Random&
         const double cosine = glm::dot(normal, direction);
         if (!(cosine > 0) || !reaches(hit, {direction, kInfinity})) continue;
         const double density = around_->directions.density(direction) + cosine / std::numbers::pi;
-        sum += around_->sky.radiance(direction) * (cosine / density);
+        const double entering = 1 - reflectance(std::min(cosine, 1.0), 1 / ior);
+        sum += around_->sky.radiance(direction) * (entering * cosine / density);
     }
     return sum;
 }

@@ -62,7 +62,6 @@ private:
         dvec3 radiance;
     };
     double inCone(const dvec3& direction) const;
-    Emission emitFromAfar(std::span<const Sphere> targets, Random& random) const;
     Emission emitFrom(const dvec3& origin, std::span<const Sphere> targets, Random& random) const;
 
     LightSource source_; ///< of all but areas
@@ -84,7 +83,13 @@ public:
     ///
     /// @param hit     of an opaque object
     /// @param viewer  unit direction to where it is seen from: that side of the surface is lit
-    dvec3 irradiance(const Hit& hit, const dvec3& viewer, Random& random) const;
+    /// @param ior     only what a smooth boundary to a medium of this index lets through counts; 1: all
+    dvec3 irradiance(const Hit& hit, const dvec3& viewer, Random& random, double ior = 1) const;
+
+    /// Lamps, and the environment where it shines.
+    std::size_t sources() const { return lamps_.size() + (around_ ? 1 : 0); }
+    /// A ray from a lamp or, by the last number, from the environment, aimed as Lamp::emit() does.
+    Emission emit(std::size_t source, std::span<const Sphere> targets, Random& random) const;
 
 private:
     /// An environment, and directions of it that are chosen by its light.
@@ -93,7 +98,7 @@ private:
         EnvironmentSampler directions;
     };
     bool reaches(const Hit& hit, const LightPath& way) const;
-    dvec3 irradianceOfSky(const Hit& hit, const dvec3& normal, Random& random) const;
+    dvec3 irradianceOfSky(const Hit& hit, const dvec3& normal, Random& random, double ior) const;
 
     const Optics* optics_;
     std::vector<Lamp> lamps_;

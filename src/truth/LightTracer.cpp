@@ -3,21 +3,18 @@
 #include "truth/Estimate.h"
 #include "truth/Glass.h"
 #include "truth/Lamps.h"
+#include "truth/Photons.h"
 #include "truth/SeenPlaces.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <thread>
 #include <vector>
 
 namespace lucent::truth {
 
 namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::uint64_t kPhotonStream = ~std::uint64_t(0); ///< a number that no pixel has
 
 /// Something opaque that a pixel's middle shows with nothing before it.
 struct Seen {
@@ -58,23 +55,6 @@ private:
     ivec2 size_;
     int samples_;
     std::uint64_t seed_;
-};
-
-/// What some of the rays have brought: sums, and sums of squares.
-struct Brought {
-    std::vector<dvec3> sums, squares;
-    dvec3 strongest{0}; ///< W of a ray, of each colour
-    EnergyBook energy;
-    explicit Brought(ivec2 size)
-        : sums(std::size_t(size.x) * std::size_t(size.y), dvec3(0)), squares(sums.size(), dvec3(0)) {}
-    void add(const Brought& other) {
-        for (std::size_t i = 0; i < sums.size(); ++i) {
-            sums[i] += other.sums[i];
-            squares[i] += other.squares[i];
-        }
-        strongest = glm::max(strongest, other.strongest);
-        energy.add(other.energy, 1);
-    }
 };
 
 class Tracer {
@@ -169,14 +149,14 @@ private:
         const ivec2 pixel(*place);
         const dvec3 irradiance = flux / eye_.areaOfPixel(hit.position, hit.normal);
         const std::size_t row = std::size_t(pixel.y) * std::size_t(size_.x);
-        add(valueOf(hit, irradiance), row + std::size_t(pixel.x), brought);
+        brought.add(row + std::size_t(pixel.x), valueOf(hit, irradiance));
     }
 
     /// Spreads flux evenly over a disc around it.
     void depositThroughGlass(const Hit& hit, const dvec3& direction, const dvec3& flux,
                              Brought& brought) const {
         indirectly_->near(hit, direction, [&](const SeenPlace& place) {
-            add(place.weight * radianceBy(place.hit, flux / areaOf(place)), place.pixel, brought);
+            brought.add(place.pixel, place.weight * radianceBy(place.hit, flux / areaOf(place)));
         });
     }
     static double areaOf(const SeenPlace& place) { return std::numbers::pi * place.radius * place.radius; }
@@ -188,10 +168,6 @@ private:
     /// What light adds to a surface's own.
     dvec3 radianceBy(const Hit& hit, const dvec3& irradiance) const {
         return shownBy(optics_, hit, irradiance) - shownBy(optics_, hit, dvec3(0));
-    }
-    static void add(const dvec3& value, std::size_t pixel, Brought& brought) {
-        brought.sums[pixel] += value;
-        brought.squares[pixel] += value * value;
     }
 
     const Optics& optics_;
@@ -205,91 +181,6 @@ private:
     std::vector<Media> media_; ///< around each lamp
 };
 
-/// Rays are worked off in this many rows, each added up in order and then to the others in order, whatever
-/// the number of threads: sums of floating point numbers depend on their order.
-constexpr int kLanes = 16;
-
-/// The lanes' sum. Keeps those that are early until their turn, so that few pictures lie about at a time.
-class Sum {
-public:
-    explicit Sum(ivec2 size) : total_(size) {}
-    void add(int lane, Brought brought) {
-        const std::lock_guard lock(mutex_);
-        early_.emplace(lane, std::move(brought));
-        for (; !early_.empty() && early_.begin()->first == next_; ++next_) {
-            total_.add(early_.begin()->second);
-            early_.erase(early_.begin());
-        }
-    }
-    Brought take() { return std::move(total_); }
-
-private:
-    std::mutex mutex_;
-    std::map<int, Brought> early_;
-    int next_ = 0;
-    Brought total_;
-};
-
-struct Job {
-    const Tracer& tracer;
-    ivec2 size;
-    Tile part;
-    std::int64_t photons; ///< of the part
-    const std::atomic<bool>& cancel;
-    std::atomic<std::int64_t> done = 0;
-    std::atomic<int> nextLane = 0;
-};
-
-Brought traceLane(Job& job, int lane, const std::function<void()>& now) {
-    constexpr std::int64_t kChunk = 4096;
-    Brought brought(job.size);
-    for (std::int64_t from = lane * kChunk; from < job.photons && !job.cancel; from += kLanes * kChunk) {
-        const std::int64_t to = std::min(from + kChunk, job.photons);
-        for (std::int64_t i = from; i < to; ++i)
-            job.tracer.trace(job.part.index + i * job.part.count, brought);
-        job.done += to - from;
-        now();
-    }
-    return brought;
-}
-
-Brought traceAll(const Tracer& tracer, ivec2 size, const Tile& part, std::int64_t photons, const Work& work,
-                 const std::atomic<bool>& cancel) {
-    Sum sum(size);
-    if (!tracer.hasWork()) return sum.take();
-    Job job{tracer, size, part, photons, cancel};
-    const auto takeLanes = [&](const std::function<void()>& now) {
-        for (int lane; (lane = job.nextLane++) < kLanes;)
-            sum.add(lane, traceLane(job, lane, now));
-    };
-    const int threads =
-        work.threads > 0 ? work.threads : int(std::max(1u, std::thread::hardware_concurrency()));
-    std::vector<std::thread> others; // the calling thread is one of them
-    for (int i = 1; i < std::min(threads, kLanes); ++i)
-        others.emplace_back([&] { takeLanes([] {}); });
-    takeLanes([&] { work.progress(double(job.done) / double(photons)); });
-    for (std::thread& other : others)
-        other.join();
-    return sum.take();
-}
-
-/// Adds the mean of `photons` rays and its error to a picture.
-///
-/// @param worth  for each pixel what a watt would add
-void addTo(Picture& picture, const Brought& brought, const std::vector<dvec3>& worth, double photons) {
-    for (std::size_t i = 0; i < brought.sums.size(); ++i)
-        for (int channel = 0; channel < 3; ++channel) {
-            const double mean = brought.sums[i][channel] / photons;
-            const double bound = 3 / photons * brought.strongest[channel] * worth[i][channel];
-            const double spread = brought.squares[i][channel] == 0
-                                      ? bound * bound
-                                      : std::max(0.0, brought.squares[i][channel] / photons - mean * mean) /
-                                            std::max(1.0, photons - 1);
-            picture.values.pixels[4 * i + std::size_t(channel)] += float(mean);
-            float& error = picture.errors.pixels[3 * i + std::size_t(channel)];
-            error = float(std::sqrt(double(error) * double(error) + spread));
-        }
-}
 } // namespace
 
 Result<Picture> traceLight(const scene::Scene& scene, ivec2 size, const LightOptions& options,
@@ -328,7 +219,10 @@ Result<Picture> traceLight(const scene::Scene& scene, ivec2 size, const LightOpt
     std::optional<SeenPlaces> indirectly;
     if (color) indirectly.emplace(*optics, eye, size, mediaAtEye(*optics, scene.camera));
     const Tracer tracer(*optics, illumination, eye, size, options, indirectly ? &*indirectly : nullptr);
-    const Brought brought = traceAll(tracer, size, part, photons, stretch(kStraightShare, 1), cancel);
+    const auto trace = [&](std::int64_t number, Brought& brought) { tracer.trace(number, brought); };
+    const Brought brought = tracer.hasWork()
+                                ? followAll(trace, size, part, photons, stretch(kStraightShare, 1), cancel)
+                                : Brought(size);
     if (cancel) return Error{"truth: stopped before the picture was complete", Fault::Machine};
     addTo(*picture, brought, tracer.worthOfAWatt(), double(photons));
     picture->energy.emplace().add(brought.energy, 1 / double(photons));

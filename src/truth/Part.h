@@ -21,7 +21,8 @@ struct Facts {
     std::string fingerprint; ///< of the scene with everything it loaded; see fingerprint()
     ivec2 size{0};
     std::string aov;       ///< "color", "d", "direction", ...
-    std::string estimator; ///< "relief", "lambert", "glass", "glass-tree", "light" or "light-tree"
+    std::string estimator; ///< "relief", "lambert", "glass", "glass-tree", "light", "light-tree", "dipole" or
+                           ///< "walk"
     std::uint64_t seed = 0;
     int samples = 0;          ///< of discs; for all but relief of the environment as well
     int directions = 0;       ///< of the environment, for relief

@@ -15,13 +15,19 @@ std::string number(double value) {
     return text;
 }
 
+std::string general(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
 } // namespace
 
 bool Viewer::State::truthIsFresh() {
     if (!truth || !scene) return false;
     if (freshAt != revision) {
         freshAt = revision;
-        fresh = samePicture(*scene, truth->scene);
+        fresh = samePicture(*scene, truth->scene) && !dropTime;
     }
     return fresh;
 }
@@ -123,7 +129,9 @@ void Viewer::State::compareOverlay() {
                     theme(dark));
     }
     const bool hasScale = compare.mode == CompareMode::Error && numbers && truthIsFresh();
-    drawCompareCard(compareText(), hasScale ? fullScale(numbers->p99) : 0, openSize(), theme(dark));
+    std::optional<ScaleEnds> scale;
+    if (hasScale) scale = {"0", general(fullScale(numbers->p99))};
+    drawNumbersCard(compareText(), scale, openSize(), theme(dark));
 }
 
 ComparisonReport Viewer::State::comparison() {

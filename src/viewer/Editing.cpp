@@ -16,6 +16,13 @@ bool isIdle(const scene::Scene& scene, std::string_view path) {
     return false;
 }
 
+// A parameter of an object that could be made clear and is not: it stands behind those of clear ones.
+bool isClouded(const scene::Scene& scene, std::string_view path) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+        return !object.material.isRefractive() && path.starts_with("objects." + object.name + ".");
+    });
+}
+
 } // namespace
 
 void Viewer::State::changed() {
@@ -29,6 +36,7 @@ void Viewer::State::adopt(scene::Scene newScene) {
     loaded.clear();
     offered.clear();
     play = {};
+    mode.mode = modeFor(*scene);
     history.clear();
     grip = Grip::None;
     light = 0;
@@ -36,6 +44,8 @@ void Viewer::State::adopt(scene::Scene newScene) {
     asLoaded = *scene;
     asked.reset();
     dropTruth();
+    dropTime.reset();
+    energy.reset();
     bind();
     changed();
 }
@@ -43,6 +53,7 @@ void Viewer::State::adopt(scene::Scene newScene) {
 // The controls of the scene as it is now.
 void Viewer::State::bind() {
     controls.clear();
+    offer(bindMode(mode, *scene), loaded.emplace("mode", nameOf(mode.mode)).first->second);
     for (BoundParam& bound : scene::bindParams(*scene)) {
         if (isIdle(*scene, bound.path)) bound.shown = false;
         if (bound.data == &scene->view.time) offerOfView(bindPlaying(play, bound.shown));
@@ -52,6 +63,15 @@ void Viewer::State::bind() {
     }
     for (BoundParam& bound : bindCompare(compare))
         offerOfView(std::move(bound));
+    for (Control& control : controls)
+        if (control.bound.data == &scene->view.show) control.choices = viewsOf(mode.mode, scene->view.show);
+    const auto place = [&](const Control& control) {
+        const Group group = control.bound.group();
+        return std::pair(placeOf(group, mode.mode),
+                         group == Group::Refraction && isClouded(*scene, control.bound.path));
+    };
+    std::stable_sort(controls.begin(), controls.end(),
+                     [&](const Control& a, const Control& b) { return place(a) < place(b); });
 }
 
 // What the panel has shown stays in it: a slider must not vanish under the hand that drags it to 0.
@@ -69,6 +89,7 @@ void Viewer::State::offerOfView(BoundParam bound) {
 // What belongs to the view alone: it is in no scene file.
 std::vector<BoundParam> Viewer::State::bindView() {
     std::vector<BoundParam> bound = bindCompare(compare);
+    bound.push_back(bindMode(mode, *scene));
     if (const Control* playing = find("playing"); playing && playing->bound.shown)
         bound.push_back(playing->bound);
     return bound;
@@ -107,6 +128,7 @@ Status Viewer::State::changeView(const BoundParam& bound, const std::string& val
     if (Status set = setText(*bound.param, bound.data, value); !set)
         return Error{bound.path + " " + set.error().message};
     if (getText(*bound.param, bound.data) == before) return Done{};
+    if (bound.data == &mode.mode) bind(); // other controls stand first
     ++revision;
     settled = false;
     return Done{};

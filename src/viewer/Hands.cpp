@@ -15,6 +15,9 @@ constexpr float kDividerReach = 10, kDividerTouch = 22; // CSS pixels beside it,
 constexpr float kKeyFactor = 1.1f;
 constexpr float kKeyTurn = 5.0f / 180; // half turns an arrow key
 constexpr float kKeyMove = 0.02f;      // of the picture's height an arrow key
+constexpr float kDropRadius = 0.04f;   // of the water's longer side
+constexpr float kTrailDepth = 0.15f;   // of those that follow a drag
+constexpr float kTrailStep = 12;       // CSS pixels between them
 
 // Drags leave numbers that people can read: a tenth of what a pixel is worth, as a power of ten.
 float rounded(float value, float pixelWorth) {
@@ -60,7 +63,10 @@ Viewer::State::Grip Viewer::State::gripAt(vec2 position, int button, Modifiers m
     const bool roll = modifiers.alt || button == 2;
     if (mapShines() && !onDot && (roll || !forCamera)) return roll ? Grip::Roll : Grip::Map;
     if (button == 2) return Grip::None;
-    if (forCamera && !onDot) return Grip::Orbit;
+    if (forCamera && !onDot) {
+        const bool onWater = !modifiers.control && waterAt(*scene, lens(), position);
+        return onWater ? Grip::Water : Grip::Orbit;
+    }
     return scene->lights.empty() ? Grip::None : Grip::Light;
 }
 
@@ -68,6 +74,7 @@ void Viewer::State::startGrip(Grip wanted, vec2 position) {
     grip = wanted;
     gripStart = position;
     gripCamera = scene->camera;
+    if (grip == Grip::Water) (void)fall(*waterAt(*scene, lens(), position));
     if (grip == Grip::Map || grip == Grip::Roll) gripValue = scene->environment->rotation;
     if (grip != Grip::Light) return;
     if (const vec3* place = lightPlace(light))
@@ -93,6 +100,13 @@ void Viewer::State::drag(vec2 position) {
         assign(&scene->environment->rotation,
                rounded(turnedMap(gripValue, turns, grip == Grip::Roll), degree));
         break;
+    case Grip::Water: {
+        const auto place = waterAt(*scene, lens(), position);
+        if (!place || glm::distance(position, gripStart) < kTrailStep) break;
+        gripStart = position;
+        (void)fall(*place, kTrailDepth);
+        break;
+    }
     case Grip::Orbit: {
         const float arm = glm::distance(gripCamera.eye, gripCamera.target);
         assign(&scene->camera.eye, rounded(orbited(gripCamera, turns), arm * glm::radians(degree)));
@@ -165,6 +179,26 @@ bool Viewer::State::arrow(vec2 step, Modifiers modifiers) {
     return true;
 }
 
+// A drop falls, and time runs: water that is touched moves. @param depth  of its radius
+bool Viewer::State::fall(WaterPlace place, float depth) {
+    if (!renderer) return false;
+    const vec2 size = std::get<scene::Water>(scene->objects[std::size_t(place.object)].shape).size;
+    const float radius = kDropRadius * std::max(size.x, size.y);
+    if (!renderer->drop(place.object, {place.at, radius, depth * radius})) return false;
+    if (!dropTime) dropTime = picture.view.time;
+    if (!play.playing) (void)togglePlaying();
+    changed();
+    return true;
+}
+
+bool Viewer::State::fallInTheMiddle() {
+    const Rect seen = picturePlace();
+    if (const auto place = waterAt(*scene, lens(), (seen.low + seen.high) / 2.0f)) return fall(*place);
+    for (std::size_t i = 0; i < scene->objects.size(); ++i)
+        if (std::holds_alternative<scene::Water>(scene->objects[i].shape)) return fall({int(i), vec2(0)});
+    return false;
+}
+
 void Viewer::State::nextCompareMode() {
     const std::span<const std::string_view> modes = compareParams()[0].choices;
     const auto next = (std::size_t(compare.mode) + 1) % modes.size();
@@ -186,6 +220,7 @@ bool Viewer::State::shortcut(const std::string& key, Modifiers modifiers) {
     if (key == "c" || key == "C") return nextCompareMode(), true;
     if (key == "0" || key == "Home") return resetPose(), true;
     if (key == " ") return togglePlaying();
+    if (key == "d" || key == "D") return fallInTheMiddle();
     return false;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lucent::viewer {
 
@@ -109,6 +110,27 @@ scene::Camera zoomed(scene::Camera camera, float factor) {
     else
         camera.eye = camera.target + (camera.eye - camera.target) / factor;
     return camera;
+}
+
+std::optional<WaterPlace> waterAt(const scene::Scene& scene, const Lens& lens, vec2 pixel) {
+    std::optional<WaterPlace> found;
+    float nearest = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const scene::Object& object = scene.objects[i];
+        const auto* water = std::get_if<scene::Water>(&object.shape);
+        if (!water || !object.visible) continue;
+        const mat4 worldFromObject = object.transform.worldFromObject();
+        const vec3 middle(worldFromObject[3]), up = glm::normalize(vec3(worldFromObject[1]));
+        const auto place = lens.onPlane(pixel, middle, up);
+        if (!place) continue;
+        const vec3 local(glm::inverse(worldFromObject) * vec4(*place, 1));
+        const float depth = glm::dot(*place - scene.camera.eye, lens.forward());
+        if (std::abs(local.x) > water->size.x / 2 || std::abs(local.z) > water->size.y / 2) continue;
+        if (depth >= nearest) continue;
+        nearest = depth;
+        found = WaterPlace{int(i), {local.x, local.z}};
+    }
+    return found;
 }
 
 float liftedLight(float z, float factor) {

@@ -57,6 +57,14 @@ vec3 orbited(const scene::Camera& camera, vec2 turns);
 /// Closer for factors above 1: shows 1 / `factor` of the height, or brings the eye to 1 / `factor` of its
 /// distance.
 scene::Camera zoomed(scene::Camera camera, float factor);
+/// A place on a sheet of water.
+struct WaterPlace {
+    int object = 0; ///< in the scene
+    vec2 at{0};     ///< along x and z from its middle, m of the object
+};
+/// The water that a pixel shows where it is still and nothing stands before it; the nearest sheet of several.
+std::optional<WaterPlace> waterAt(const scene::Scene& scene, const Lens& lens, vec2 pixel);
+
 /// `z` times `factor`; heights under a millimetre start at a millimetre, so that zero is no trap.
 float liftedLight(float z, float factor);
 

@@ -30,9 +30,11 @@ constexpr HelpLine kReliefHelp[] = {
     {"Arrows", "move the light, turn the environment"},
     {"Page up, Page down", "lift the light, or zoom"},
     {"Shift + arrows", "orbit the camera"},
+    {"Space", "plays what moves, or stops it"},
 };
 constexpr HelpLine kOrbitHelp[] = {
     {"Drag", "orbits the camera, moves a light by its dot"},
+    {"Drag on water, D", "drops; Ctrl + drag orbits there"},
     {"Alt + drag", "rolls the environment"},
     {"Shift + drag", "turns the environment, or moves the light"},
     {"Wheel, pinch", "zooms"},
@@ -88,13 +90,12 @@ void label(ImDrawList& list, const char* word, vec2 at, float right, Rect pictur
     list.AddText({x + 6, at.y + 3}, IM_COL32_WHITE, word);
 }
 
-// The colours of the error map with the differences at both ends.
-void drawScale(ImDrawList& list, vec2 at, float width, double full, const Theme& theme) {
-    char end[32];
-    std::snprintf(end, sizeof end, "%g", full);
-    const float left = at.x + 14, right = at.x + width - ImGui::CalcTextSize(end).x - 6;
-    list.AddText({at.x, at.y}, theme.muted, "0");
-    list.AddText({right + 6, at.y}, theme.muted, end);
+// The false colours with what their ends stand for.
+void drawScale(ImDrawList& list, vec2 at, float width, const ScaleEnds& ends, const Theme& theme) {
+    const auto widthOf = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+    const float left = at.x + widthOf(ends.low) + 6, right = at.x + width - widthOf(ends.high) - 6;
+    list.AddText({at.x, at.y}, theme.muted, ends.low.c_str());
+    list.AddText({right + 6, at.y}, theme.muted, ends.high.c_str());
     const auto ink = [](float share) {
         const vec3 color(measure::heatColor(double(share)));
         return ImGui::ColorConvertFloat4ToU32(
@@ -197,9 +198,10 @@ void drawDivider(float x, Rect picture, const char* right, bool lively, const Th
     label(list, right, {x + 10, picture.low.y + kMargin}, 0, picture);
 }
 
-void drawCompareCard(const std::string& text, double full, vec2 room, const Theme& theme) {
+void drawNumbersCard(const std::string& text, const std::optional<ScaleEnds>& scale, vec2 room,
+                     const Theme& theme) {
     const float most = room.x - 2 * kMargin - 20;
-    const float bar = full > 0 ? kScaleBar + 8 : 0;
+    const float bar = scale ? kScaleBar + 8 : 0;
     const ImVec2 measured = wrappedSize(text, most);
     const vec2 size(std::min(most, measured.x) + 20, measured.y + 16 + bar);
     const vec2 low(kMargin, room.y - kMargin - size.y);
@@ -207,7 +209,7 @@ void drawCompareCard(const std::string& text, double full, vec2 room, const Them
     list.AddRectFilled({low.x, low.y}, {low.x + size.x, low.y + size.y}, theme.card, kRound);
     list.AddText(nullptr, 0, {low.x + 10, low.y + 8 + bar}, theme.text, text.data(),
                  text.data() + text.size(), most);
-    if (full > 0) drawScale(list, low + vec2(10, 8), std::min(220.0f, size.x - 20), full, theme);
+    if (scale) drawScale(list, low + vec2(10, 8), std::min(220.0f, size.x - 20), *scale, theme);
 }
 
 void drawTooltip(std::string_view text, Rect control, vec2 canvas, const Theme& theme) {

@@ -5,6 +5,7 @@
 #include "frame/Renderer.h"
 #include "viewer/Panel.h"
 
+#include <optional>
 #include <string>
 
 namespace lucent::viewer {
@@ -26,8 +27,14 @@ void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme);
 /// The line between a picture and what stands right of it, with their names. `lively`: it is being moved.
 void drawDivider(float x, Rect picture, const char* right, bool lively, const Theme& theme);
 
-/// What the comparison found, at the bottom; with the error's colour scale up to `full` unless that is 0.
-void drawCompareCard(const std::string& text, double full, vec2 room, const Theme& theme);
+/// What the ends of a scale of false colours stand for.
+struct ScaleEnds {
+    std::string low, high;
+};
+
+/// Numbers about the picture, at the bottom; over them the false colours where it has them.
+void drawNumbersCard(const std::string& text, const std::optional<ScaleEnds>& scale, vec2 room,
+                     const Theme& theme);
 
 /// A sentence beside the control that it explains, inside the canvas.
 void drawTooltip(std::string_view text, Rect control, vec2 canvas, const Theme& theme);

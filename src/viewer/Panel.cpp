@@ -139,18 +139,36 @@ std::string colorText(const BoundParam& bound) {
     return inRange ? hexText(encoded(bound)) : numbers;
 }
 
-// Objects and lights share labels: the part of the path that tells them apart.
-std::string_view ownerOf(std::string_view path) {
-    const std::size_t first = path.find('.');
-    return path.substr(0, path.find('.', first + 1));
-}
-
-// Two objects, or two lights.
-bool isSibling(std::string_view a, std::string_view b) {
-    return ownerOf(a) != ownerOf(b) && a.substr(0, a.find('.')) == b.substr(0, b.find('.'));
+// Groups in the order in which their controls come.
+std::vector<Group> groupsOf(std::span<const Control> controls) {
+    std::vector<Group> groups;
+    for (const Control& control : controls) {
+        const Group group = control.bound.group();
+        if (group != Group::None && std::find(groups.begin(), groups.end(), group) == groups.end())
+            groups.push_back(group);
+    }
+    return groups;
 }
 
 } // namespace
+
+// "objects.coin" is called coin, "lights.1" is called light 2, a technique as its table says.
+std::string ownerOf(const BoundParam& bound) {
+    const std::string_view path = bound.path;
+    const std::size_t start = path.find('.') + 1;
+    const std::string name(path.substr(start, path.find('.', start) - start));
+    if (path.starts_with("objects.")) return name;
+    if (path.starts_with("lights.")) return "light " + std::to_string(std::atoi(name.c_str()) + 1);
+    return std::string(bound.label);
+}
+
+std::string headingOf(const Control& control, std::span<const Control> controls) {
+    const std::string owner = ownerOf(control.bound);
+    const bool several = std::any_of(controls.begin(), controls.end(), [&](const Control& other) {
+        return other.bound.group() == control.bound.group() && ownerOf(other.bound) != owner;
+    });
+    return several ? owner : "";
+}
 
 // --- one frame
 
@@ -165,7 +183,7 @@ private:
     void body(Rect place);
     bool groupHeading(Group group);
     void groupControls(Group group);
-    void ownerHeading(std::string_view owner);
+    void ownerHeading(const std::string& owner);
     void control(const Control& control);
     void editor(const Control& control);
 
@@ -287,11 +305,8 @@ void Panel::Frame::body(Rect place) {
     clip_ = {low, place.high};
     width_ = place.high.x - low.x - 2 * kPadding;
     ImGui::Indent(kPadding);
-    for (int group = int(Group::Light); group <= int(Group::View); ++group) {
-        const bool any = std::any_of(input_.controls.begin(), input_.controls.end(),
-                                     [&](const Control& c) { return int(c.bound.group()) == group; });
-        if (any && groupHeading(Group(group))) groupControls(Group(group));
-    }
+    for (const Group group : groupsOf(input_.controls))
+        if (groupHeading(group)) groupControls(group);
     take(kPadding);
     scrollByFinger();
     ImGui::EndChild();
@@ -319,29 +334,21 @@ bool Panel::Frame::groupHeading(Group group) {
 }
 
 void Panel::Frame::groupControls(Group group) {
-    std::string_view owner;
-    bool several = false;
+    std::string before;
     for (const Control& c : input_.controls) {
         if (c.bound.group() != group) continue;
-        several =
-            several || std::any_of(input_.controls.begin(), input_.controls.end(), [&](const Control& other) {
-                return other.bound.group() == group && isSibling(other.bound.path, c.bound.path);
-            });
-        const std::string_view now = ownerOf(c.bound.path);
-        if (several && now != owner) ownerHeading(now);
-        owner = now;
+        const std::string heading = headingOf(c, input_.controls);
+        if (heading != before && !heading.empty()) ownerHeading(heading);
+        before = heading;
         control(c);
     }
     const vec2 at = take(kGap);
     list_->AddLine({at.x, at.y + kGap - 1}, {at.x + width_, at.y + kGap - 1}, theme_.cardBorder);
 }
 
-// "objects.coin" is called coin, "lights.1" is called light 2.
-void Panel::Frame::ownerHeading(std::string_view owner) {
-    std::string label(owner.substr(owner.find('.') + 1));
-    if (owner.starts_with("lights.")) label = "light " + std::to_string(std::atoi(label.c_str()) + 1);
+void Panel::Frame::ownerHeading(const std::string& owner) {
     const vec2 at = take(kLine);
-    text({at.x, at.y + 4}, theme_.accent, label);
+    text({at.x, at.y + 4}, theme_.accent, owner);
 }
 
 void Panel::Frame::control(const Control& control) {
@@ -579,15 +586,15 @@ void Panel::Frame::toggle(const Control& control) {
 
 void Panel::Frame::choice(const Control& control) {
     const Param& param = *control.bound.param;
-    const auto chosen = std::size_t(getComponent(param, control.bound.data, 0));
+    const std::string chosen = getText(param, control.bound.data);
     labelLine(control, "", 0);
     vec2 at = glmVec(ImGui::GetCursorScreenPos());
     const vec2 start = at;
-    for (std::size_t i = 0; i < param.choices.size(); ++i) {
-        const std::string_view option = param.choices[i];
+    for (std::size_t i = 0; i < control.choices.size(); ++i) {
+        const std::string_view option = control.choices[i];
         const float width = textWidth(option) + 20;
         if (at.x > start.x && at.x + width > start.x + width_) at = {start.x, at.y + kChip + kChipGap};
-        const bool on = i == chosen;
+        const bool on = option == chosen;
         list_->AddRectFilled(im(at), {at.x + width, at.y + kChip}, on ? theme_.accent : theme_.track, kRound);
         ImGui::PushID(int(i));
         if (button("option", at, {width, kChip}) && !on) edit(control, std::string(option));

@@ -17,7 +17,15 @@ namespace lucent::viewer {
 struct Control {
     BoundParam bound;
     std::string loaded; ///< as text
+    std::vector<std::string_view> choices = {bound.param->choices.begin(),
+                                             bound.param->choices.end()}; ///< offered
 };
+
+/// Whose value a control shows, where several may have one of that label: "coin", "light 2"; "" for all
+/// others.
+std::string ownerOf(const BoundParam& bound);
+/// The same where its group has controls of several; else "".
+std::string headingOf(const Control& control, std::span<const Control> controls);
 
 /// What a person did in the panel: the parameter and its new value as text, not yet checked.
 struct Edit {
@@ -74,7 +82,7 @@ private:
     Rect place(vec2 canvas) const;
 
     bool visible_ = true, sheet_ = false, collapsed_ = false;
-    std::array<bool, std::size_t(Group::View) + 1> folded_{};
+    std::array<bool, std::size_t(Group::View) + 1> folded_{}; // by group
     Typing typing_;
     std::string picker_; ///< path of the colour whose picker is open
     vec3 pickerHsv_{0};

@@ -104,6 +104,7 @@ void Viewer::State::overlays() {
         list.PopClipRect();
     }
     compareOverlay();
+    energyOverlay();
     if (showStats && renderer && compare.mode == CompareMode::Off) // whose card holds the cost as well
         drawStats(renderer->stats(), openSize(), theme(dark));
     if (help && drawHelp(scene && !hasField(), size, theme(dark))) help = false;

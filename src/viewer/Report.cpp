@@ -12,22 +12,39 @@ std::string_view kindName(Kind kind) {
     return names[int(kind)];
 }
 
-void writeControl(JsonWriter& json, const Control& control) {
+void writeControl(JsonWriter& json, const Control& control, std::span<const Control> all) {
     const BoundParam& bound = control.bound;
     const Param& param = *bound.param;
     json.beginObject();
     json.key("path").value(bound.path).key("attribute").value(attributeName(bound));
     json.key("label").value(param.label).key("unit").value(param.unit);
     json.key("group").value(name(bound.group())).key("doc").value(param.doc);
+    json.key("owner").value(headingOf(control, all));
     json.key("kind").value(kindName(param.kind)).key("components").value(componentCount(param.kind));
     json.key("min").value(param.min).key("max").value(param.max);
     json.key("low").value(param.low).key("high").value(param.high);
     json.key("logarithmic").value(param.logarithmic);
     json.key("choices").beginArray();
-    for (const std::string_view choice : param.choices)
+    for (const std::string_view choice : control.choices)
         json.value(choice);
     json.end();
     json.key("value").value(getText(param, bound.data)).key("default").value(control.loaded);
+    json.end();
+}
+
+// W of each colour.
+void writeEnergy(JsonWriter& json, const caustics::Energy& energy) {
+    const auto write = [&](const char* name, dvec3 watts) {
+        const float numbers[] = {float(watts.r), float(watts.g), float(watts.b)};
+        json.key(name).value(std::span<const float>(numbers));
+    };
+    json.beginObject();
+    write("met", energy.met);
+    write("received", energy.received);
+    write("absorbed", energy.absorbed);
+    write("reflected", energy.reflected);
+    write("missed", energy.missed);
+    write("lost", energy.lost);
     json.end();
 }
 
@@ -42,7 +59,7 @@ std::string controlsJson(std::span<const Control> controls) {
     JsonWriter json;
     json.beginArray();
     for (const Control& control : controls)
-        writeControl(json, control);
+        writeControl(json, control, controls);
     json.end();
     return json.text();
 }
@@ -70,6 +87,11 @@ std::string statsJson(const StatsInput& input) {
         const float place[] = {input.light->x, input.light->y};
         json.key("light").value(std::span<const float>(place));
     }
+    json.key("modes").beginArray();
+    for (const Mode mode : input.modes)
+        json.value(nameOf(mode));
+    json.end();
+    if (input.energy) writeEnergy(json.key("energy"), *input.energy);
     json.key("panel").beginObject();
     for (const auto& [path, rect] : input.widgets)
         writeRect(json.key(path), rect);

@@ -6,11 +6,13 @@
 ///   Pictures.cpp  work on the picture and the screen
 ///   Playing.cpp   time that runs
 ///   Comparing.cpp the picture beside its truth
+///   Counting.cpp  where the light of a caustic map went
 
 #include "scene/Load.h"
 #include "viewer/Compare.h"
 #include "viewer/History.h"
 #include "viewer/Interaction.h"
+#include "viewer/Mode.h"
 #include "viewer/Overlays.h"
 #include "viewer/Playing.h"
 #include "viewer/Report.h"
@@ -33,7 +35,7 @@ struct Viewer::State {
     State(gl::Context& gl, gl::ImGuiHost& host) : context(&gl), imguiHost(&host) {}
 
     // What the pointer has gripped, and how things were then: drags add up without drift.
-    enum class Grip { None, Light, Map, Roll, Orbit, Divider };
+    enum class Grip { None, Light, Map, Roll, Orbit, Divider, Water };
     // The picture: a quick look first, so that something is seen while a hand moves; then the fine one.
     enum class Phase { Look, Refine, Done };
 
@@ -69,8 +71,14 @@ struct Viewer::State {
     double frameTime = 0, hoverTime = 0;
     std::string hovered, tooltip;
 
+    ModeSettings mode;
     PlaySettings play;
     double lastDraw = 0, due = 0; // s: of the page's clock; time that passed since the picture's moment
+    std::optional<float>
+        dropTime; // s: of the first drop that a person let fall; water then shows what no file knows
+
+    std::optional<caustics::Energy> energy; // of the caustic map that is shown
+    std::uint64_t energyOf = 0;             // picture that was measured
 
     CompareSettings compare;
     std::optional<Truth> truth;
@@ -135,6 +143,8 @@ struct Viewer::State {
     void lift(float factor);
     void zoom(float factor);
     void resetPose();
+    bool fall(WaterPlace place, float depth = 0.3f);
+    bool fallInTheMiddle();
     void nextCompareMode();
     bool shortcut(const std::string& key, Modifiers modifiers);
     bool arrow(vec2 step, Modifiers modifiers);
@@ -154,6 +164,9 @@ struct Viewer::State {
     frame::Beside beside();
     std::string compareText();
     void compareOverlay();
+    void measureEnergy();
+    std::string energyText() const;
+    void energyOverlay();
     ComparisonReport comparison();
 
     // --- ImGui

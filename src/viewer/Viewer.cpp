@@ -39,6 +39,7 @@ void Viewer::attach(gl::Context& context, gl::ImGuiHost& imgui) {
 
 void Viewer::release() {
     state_->renderer.reset();
+    state_->dropTime.reset();
     state_->shown = false;
     state_->stale = state_->scene != nullptr;
     state_->phase = State::Phase::Done;
@@ -139,6 +140,7 @@ bool Viewer::draw(double nowSeconds) {
     if (!s.settled) s.settle(); // the panel decides the picture's size
     const bool isNew = s.advance();
     s.measurePicture();
+    s.measureEnergy();
     if (!s.settled) s.settle();
     wait = std::max(wait, s.tooltipWait(nowSeconds));
     const std::uint64_t hash = s.frameHash();
@@ -213,6 +215,13 @@ bool Viewer::pinch(float factor) {
     return true;
 }
 
+bool Viewer::drop(vec2 position) {
+    State& s = *state_;
+    if (!s.scene) return false;
+    const auto place = waterAt(*s.scene, s.lens(), position);
+    return place && s.fall(*place);
+}
+
 bool Viewer::key(const std::string& key, Modifiers modifiers) {
     State& s = *state_;
     s.useImGui(modifiers);
@@ -279,6 +288,8 @@ std::string Viewer::stats() const {
     input.complete = s.complete();
     input.frames = s.drawCount;
     input.revision = s.revision;
+    if (s.scene) input.modes = modesOf(*s.scene);
+    input.energy = s.energy;
     if (s.scene && s.pixels.y > 0) input.light = s.dotOf(s.light);
     input.widgets = s.panel.widgets();
     return statsJson(input);

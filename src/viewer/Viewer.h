@@ -55,11 +55,13 @@ public:
     /// environment shines, a drag turns it, with Alt or the right button about z, and the light is gripped at
     /// its dot only. With Shift it leads the camera around its target. In a scene without height fields Shift
     /// swaps both: a drag is for the camera but at a light's dot, with Shift for the environment, else the
-    /// light.
+    /// light. On water it lets drops fall; there the camera is led with Control.
     bool pointer(PointerEvent event, vec2 position, int button, Modifiers modifiers, bool touch);
     /// Height of a relief's light; zoom with Control and where there is none to lift. @param delta CSS pixels
     bool wheel(vec2 position, float delta, Modifiers modifiers);
     bool pinch(float factor);
+    /// A drop falls where a pixel shows water, and time runs. @return false where it shows none
+    bool drop(vec2 position);
     /// `key` as in KeyboardEvent.key.
     bool key(const std::string& key, Modifiers modifiers);
 

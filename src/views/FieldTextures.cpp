@@ -187,12 +187,14 @@ Result<const FieldTextures*> ImageCache::field(const std::shared_ptr<const Image
     return entry.value.get();
 }
 
-Result<const MeshTextures*> ImageCache::mesh(const std::shared_ptr<const scene::Mesh>& mesh) {
+Result<const MeshTextures*> ImageCache::mesh(const std::shared_ptr<const scene::Mesh>& mesh,
+                                             bool refractive) {
     auto& entry = meshes_[mesh.get()];
     if (!entry.value) {
         entry.value = std::make_unique<MeshTextures>(context_, mesh);
         entry.source = mesh;
     }
+    if (refractive) entry.value->addTriangles(context_);
     entry.used = true;
     return entry.value.get();
 }

@@ -65,7 +65,9 @@ public:
     /// Error (Fault::Machine) when the map is larger than the GPU's textures.
     Result<const FieldTextures*> field(const std::shared_ptr<const Image>& heights);
     /// Error (Fault::Machine) when it has more vertices than a texture holds.
-    Result<const MeshTextures*> mesh(const std::shared_ptr<const scene::Mesh>& mesh);
+    ///
+    /// @param refractive  whether its triangles are needed
+    Result<const MeshTextures*> mesh(const std::shared_ptr<const scene::Mesh>& mesh, bool refractive);
     /// A colour map or alpha: 1 channel becomes R32F, 3 become RGBA16F filtered.
     Result<graph::TextureHandle> image(const std::shared_ptr<const Image>& image);
     /// Drops what was not asked for since the last trim().

@@ -53,7 +53,8 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye
     const TextureId before = done;
     graph.addPass("views.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("surface " + std::to_string(layer + 1) + " of the refractive objects behind each pixel");
-        samplePosed(pass, meshes);
+        for (const PosedMesh& mesh : meshes)
+            pass.sample(mesh.triangles.corners);
         if (!first) pass.sample(before);
         pass.write(images, layer);
         pass.clear(images, vec4(0));
@@ -66,7 +67,7 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye
             for (std::size_t i = 0; i < meshes.size(); ++i) {
                 graph::Draw draw{.depthTest = graph::DepthTest::Less};
                 if (!first) draw.textures.push_back({"uBefore", resources[before]});
-                drawMesh(commands, *program, resources, meshes[i], eye, size, int(i), std::move(draw));
+                drawTriangles(commands, *program, resources, meshes[i], eye, size, int(i), std::move(draw));
             }
         };
     });
@@ -155,6 +156,7 @@ Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, cons
                             const LayerQueries& queries) {
     Layers layers;
     layers.count = count;
+    if (!meshes.empty()) layers.triangles = meshes.front().triangles;
     layers.images =
         graph.create("views.layers", {.size = size, .format = Format::RGBA32F, .layers = arrayLayers(count)});
     TextureId done;
@@ -191,12 +193,14 @@ Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, cons
 
 void sampleLayers(graph::PassBuilder& pass, const Layers& layers) {
     pass.sample(layers.images);
+    sampleTriangles(pass, layers.triangles);
     for (const TextureId blocks : layers.blocks)
         pass.sample(blocks);
 }
 
 std::vector<graph::Binding> layerBindings(const graph::Resources& resources, const Layers& layers) {
-    std::vector<graph::Binding> list{{"uLayers", resources[layers.images]}};
+    std::vector<graph::Binding> list = triangleBindings(resources, layers.triangles);
+    list.push_back({"uLayers", resources[layers.images]});
     for (std::size_t level = 0; level < layers.blocks.size(); ++level)
         list.push_back({kBlockSamplers[level], resources[layers.blocks[level]]});
     return list;

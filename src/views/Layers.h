@@ -16,7 +16,8 @@ inline constexpr int kMostLayers = 32;
 struct Layers {
     graph::TextureId images; ///< RGBA32F array, shaders/views/layer_texel.glsl
     std::array<graph::TextureId, 3>
-        blocks; ///< nearest and farthest depth in blocks of 4, 16, 64 pixels a side
+        blocks;               ///< nearest and farthest depth in blocks of 4, 16, 64 pixels a side
+    TriangleImages triangles; ///< that the texels lead to
     int count = 0;
 };
 

@@ -19,7 +19,7 @@ constexpr int kWavedCells = 128; // along an edge that a wave bends
 struct MeshBlock {
     mat4 clipFromWorld, worldFromObject, normalFromObject;
     ViewBlock view;
-    int object, padding0 = 0, padding1 = 0, padding2 = 0;
+    int object, firstCorner = 0, padding0 = 0, padding1 = 0;
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
@@ -27,7 +27,8 @@ struct MeshBlock {
             list.insert(list.end(), {{"clipFromWorld", offsetof(MeshBlock, clipFromWorld)},
                                      {"worldFromObject", offsetof(MeshBlock, worldFromObject)},
                                      {"normalFromObject", offsetof(MeshBlock, normalFromObject)},
-                                     {"object", offsetof(MeshBlock, object)}});
+                                     {"object", offsetof(MeshBlock, object)},
+                                     {"firstCorner", offsetof(MeshBlock, firstCorner)}});
             return list;
         }();
         static const graph::BlockLayout layout{"MeshBlock", sizeof(MeshBlock), members};
@@ -176,9 +177,13 @@ MeshTextures::MeshTextures(gl::Context& context, std::shared_ptr<const scene::Me
     }
 }
 
+void MeshTextures::addTriangles(gl::Context& context) {
+    if (!triangles_) triangles_.emplace(context, *source_);
+}
+
 std::size_t MeshTextures::bytes() const {
     return positions_.desc().bytes() + normals_.desc().bytes() + 4 * std::size_t(indices_.count()) +
-           (pose_ ? pose_->bytes() : 0);
+           (pose_ ? pose_->bytes() : 0) + (triangles_ ? triangles_->bytes() : 0);
 }
 
 Result<DrawnMeshes> drawnMeshes(const scene::Scene& scene, ImageCache& images, bool hiddenToo,
@@ -187,7 +192,7 @@ Result<DrawnMeshes> drawnMeshes(const scene::Scene& scene, ImageCache& images, b
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
         if (object.isField() || !(object.visible || hiddenToo)) continue;
-        Result<const MeshTextures*> mesh = images.mesh(meshOf(object));
+        Result<const MeshTextures*> mesh = images.mesh(meshOf(object), object.material.isRefractive());
         if (!mesh) return mesh.error();
         (object.material.isRefractive() ? drawn.glass : drawn.solid)
             .push_back({&object, int(i), *mesh, waters ? waters->of(int(i)) : nullptr});
@@ -218,22 +223,38 @@ Result<std::vector<PosedMesh>> recordPose(graph::FrameGraph& graph, gl::Context&
         if (!images) return images.error();
         posed.push_back({drawn, images->positions, images->normals});
     }
+    if (Status s = recordTriangles(graph, context, posed); !s) return s.error();
     return posed;
 }
 
+namespace {
+void setMesh(graph::Draw& draw, const gl::Program& program, const graph::Indices& indices,
+             const PosedMesh& mesh, const Eye& eye, ivec2 size, int number) {
+    const scene::Transform& transform = mesh.drawn.object->transform;
+    draw.program = &program;
+    draw.indices = indices.handle();
+    draw.vertices = indices.count();
+    draw.block = MeshBlock{.clipFromWorld = eye.clipFromWorld,
+                           .worldFromObject = transform.worldFromObject(),
+                           .normalFromObject = mat4(rotationFromDegrees(transform.rotate)),
+                           .view = viewBlock(eye, size),
+                           .object = number,
+                           .firstCorner = mesh.firstCorner};
+}
+} // namespace
+
 void drawMesh(graph::Commands& commands, const gl::Program& program, const graph::Resources& resources,
               const PosedMesh& mesh, const Eye& eye, ivec2 size, int number, graph::Draw draw) {
-    const mat4 worldFromObject = mesh.drawn.object->transform.worldFromObject();
-    draw.program = &program;
-    draw.indices = mesh.drawn.mesh->indices().handle();
-    draw.vertices = mesh.drawn.mesh->indices().count();
-    draw.block = MeshBlock{.clipFromWorld = eye.clipFromWorld,
-                           .worldFromObject = worldFromObject,
-                           .normalFromObject = mat4(rotationFromDegrees(mesh.drawn.object->transform.rotate)),
-                           .view = viewBlock(eye, size),
-                           .object = number};
+    setMesh(draw, program, mesh.drawn.mesh->indices(), mesh, eye, size, number);
     draw.textures.push_back({"uPositions", resources[mesh.positions]});
     draw.textures.push_back({"uNormals", resources[mesh.normals]});
+    commands.draw(draw);
+}
+
+void drawTriangles(graph::Commands& commands, const gl::Program& program, const graph::Resources& resources,
+                   const PosedMesh& mesh, const Eye& eye, ivec2 size, int number, graph::Draw draw) {
+    setMesh(draw, program, mesh.drawn.mesh->triangles()->indices(), mesh, eye, size, number);
+    draw.textures.push_back({"uCorners", resources[mesh.triangles.corners]});
     commands.draw(draw);
 }
 

@@ -7,6 +7,7 @@
 #include "scene/Scene.h"
 #include "views/Eye.h"
 #include "views/Pose.h"
+#include "views/Triangles.h"
 #include "views/Water.h"
 
 #include <memory>
@@ -36,6 +37,9 @@ public:
     const graph::Indices& indices() const { return indices_; }
     /// Null for a mesh that does not move.
     const PoseTextures* pose() const { return pose_ ? &*pose_ : nullptr; }
+    /// Makes triangles() once: only refractive objects need them.
+    void addTriangles(gl::Context& context);
+    const TriangleTextures* triangles() const { return triangles_ ? &*triangles_ : nullptr; }
     std::size_t bytes() const;
 
 private:
@@ -43,6 +47,7 @@ private:
     graph::Texture positions_, normals_;
     graph::Indices indices_;
     std::optional<PoseTextures> pose_;
+    std::optional<TriangleTextures> triangles_;
 };
 
 /// A mesh of the scene.
@@ -67,10 +72,12 @@ Result<DrawnMeshes> drawnMeshes(const scene::Scene& scene, ImageCache& images, b
 struct PosedMesh {
     DrawnMesh drawn;
     graph::TextureId positions, normals; ///< object space
+    TriangleImages triangles{};          ///< of refractive meshes; the same for all
+    int firstCorner = 0;                 ///< where this one's begin in them
 };
 /// Moves the vertices of what moves, for all views of the frame alike: one pass a mesh (two with flat
-/// normals), none for what stands. The graph must run before this is called for another time: rigs are on the
-/// GPU in one pose.
+/// normals), none for what stands, and one for the triangles of all that is refractive. The graph must run
+/// before this is called for another time: rigs are on the GPU in one pose.
 Result<std::vector<PosedMesh>> recordPose(graph::FrameGraph& graph, gl::Context& context,
                                           const std::vector<DrawnMesh>& meshes, float time);
 
@@ -80,5 +87,8 @@ Result<std::vector<PosedMesh>> recordPose(graph::FrameGraph& graph, gl::Context&
 /// @param draw    how, and what else is bound
 void drawMesh(graph::Commands& commands, const gl::Program& program, const graph::Resources& resources,
               const PosedMesh& mesh, const Eye& eye, ivec2 size, int number, graph::Draw draw);
+/// The same for a refractive mesh with its numbered triangles (shaders/views/peel.vert).
+void drawTriangles(graph::Commands& commands, const gl::Program& program, const graph::Resources& resources,
+                   const PosedMesh& mesh, const Eye& eye, ivec2 size, int number, graph::Draw draw);
 
 } // namespace lucent::views

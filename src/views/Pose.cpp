@@ -11,8 +11,6 @@ using graph::Format;
 
 namespace {
 
-constexpr int kVerticesPerRow = 2048; // no GPU with WebGL2 has smaller textures
-
 struct PoseBlock {
     vec4 amplitude{0}, turns{0}; // turns: of the sine for each metre along its direction; w: at the origin
 
@@ -29,15 +27,11 @@ PoseBlock blockOf(const scene::Wave& wave, float time) {
             vec4(glm::normalize(wave.direction) / wave.wavelength, -std::fmod(time / wave.period, 1.0f))};
 }
 
-ivec2 sizeFor(std::size_t vertices) {
-    return {kVerticesPerRow, std::max(1, (int(vertices) + kVerticesPerRow - 1) / kVerticesPerRow)};
-}
-
 // Rows filled up to their end.
 template <class Texel, class Value>
 std::vector<Texel> rowsOf(const std::vector<Value>& values, const Texel& filling,
                           Texel (*texelOf)(const Value&)) {
-    const ivec2 size = sizeFor(values.size());
+    const ivec2 size = vertexImageSize(values.size());
     std::vector<Texel> texels(std::size_t(size.x) * std::size_t(size.y), filling);
     std::transform(values.begin(), values.end(), texels.begin(), texelOf);
     return texels;
@@ -59,8 +53,13 @@ bool isMoved(const scene::Rig& rig, std::size_t target) {
 
 } // namespace
 
+ivec2 vertexImageSize(std::size_t vertices) {
+    return {kVerticesPerRow, std::max(1, (int(vertices) + kVerticesPerRow - 1) / kVerticesPerRow)};
+}
+
 graph::Texture vertexTexture(gl::Device& device, const std::vector<vec3>& values, const char* label) {
-    graph::Texture texture(device, {.size = sizeFor(values.size()), .format = Format::RGBA32F}, label);
+    graph::Texture texture(device, {.size = vertexImageSize(values.size()), .format = Format::RGBA32F},
+                           label);
     device.upload(texture.handle(), 0, rowsOf(values));
     return texture;
 }
@@ -75,7 +74,8 @@ PoseTextures::PoseTextures(gl::Device& device, const scene::Mesh& mesh) {
 void PoseTextures::makeTargets(gl::Device& device, const scene::Mesh& mesh) {
     const int count = int(moved_.size());
     targets_ = graph::Texture(
-        device, {.size = sizeFor(mesh.positions.size()), .format = Format::RGBA32F, .layers = 2 * count},
+        device,
+        {.size = vertexImageSize(mesh.positions.size()), .format = Format::RGBA32F, .layers = 2 * count},
         "views.morphTargets");
     weights_ = graph::Texture(device, {.size = {count, 1}, .format = Format::R32F}, "views.morphWeights");
     const std::vector<vec3> unturned(mesh.positions.size(), vec3(0));
@@ -88,7 +88,7 @@ void PoseTextures::makeTargets(gl::Device& device, const scene::Mesh& mesh) {
 }
 
 void PoseTextures::makeJoints(gl::Device& device, const scene::Mesh& mesh) {
-    const ivec2 size = sizeFor(mesh.positions.size());
+    const ivec2 size = vertexImageSize(mesh.positions.size());
     joints_ = graph::Texture(device, {.size = size, .format = Format::RG32UI}, "views.joints");
     jointWeights_ = graph::Texture(device, {.size = size, .format = Format::RGBA32F}, "views.jointWeights");
     matrices_ = graph::Texture(device, {.size = {4, int(mesh.rig.joints.size())}, .format = Format::RGBA32F},

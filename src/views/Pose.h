@@ -12,6 +12,11 @@
 
 namespace lucent::views {
 
+/// Images with a texel a vertex are so wide: no GPU with WebGL2 has smaller textures.
+inline constexpr int kVerticesPerRow = 2048;
+/// Their size; the last row may not be full.
+ivec2 vertexImageSize(std::size_t vertices);
+
 /// A value for each vertex, RGBA32F: vertex i at (i % width, i / width), the last row filled up. What a row
 /// is filled up with has length 1, as every normal has.
 graph::Texture vertexTexture(gl::Device& device, const std::vector<vec3>& values, const char* label);

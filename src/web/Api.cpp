@@ -157,6 +157,7 @@ int viewer_wheel(int viewer, float x, float y, float delta, int modifiers) {
 }
 
 int viewer_pinch(int viewer, float factor) { return viewerOf(viewer).pinch(factor); }
+int viewer_drop(int viewer, float x, float y) { return viewerOf(viewer).drop({x, y}); }
 int viewer_key(int viewer, const char* key, int modifiers) {
     return viewerOf(viewer).key(key, modifiersOf(modifiers));
 }

@@ -1,6 +1,7 @@
 #pragma once
-/// The calls that JavaScript makes: C functions, numbers and UTF-8 strings only, so that no code is generated at
-/// run time and a strict content policy holds. Strings returned stay valid until the next call that returns one.
+/// The calls that JavaScript makes: C functions, numbers and UTF-8 strings only, so that no code is generated
+/// at run time and a strict content policy holds. Strings returned stay valid until the next call that
+/// returns one.
 ///
 /// A page makes one WebGL2 context on an OffscreenCanvas, makes it current, calls lucent_start once, and then
 /// one viewer an element. Before viewer_draw the canvas must have the viewer's size.
@@ -8,8 +9,8 @@
 #include <cstdint>
 
 extern "C" {
-/// Takes the current WebGL2 context. Returns "" or the message why it cannot be used. Called again after a lost
-/// context came back: viewers keep their scenes and rebuild what they had on the GPU.
+/// Takes the current WebGL2 context. Returns "" or the message why it cannot be used. Called again after a
+/// lost context came back: viewers keep their scenes and rebuild what they had on the GPU.
 const char* lucent_start();
 /// JSON: {"webgl": {...capabilities}, "fallbacks": [...]}
 const char* lucent_capabilities();
@@ -39,6 +40,7 @@ int viewer_draw_count(int viewer);
 int viewer_pointer(int viewer, int event, float x, float y, int button, int modifiers, int touch);
 int viewer_wheel(int viewer, float x, float y, float delta, int modifiers);
 int viewer_pinch(int viewer, float factor);
+int viewer_drop(int viewer, float x, float y); ///< 1: it fell on water
 int viewer_key(int viewer, const char* key, int modifiers);
 const char* viewer_get(int viewer, const char* path);
 const char* viewer_set(int viewer, const char* path, const char* value); ///< "" or the message
@@ -54,14 +56,15 @@ const char* viewer_title(int viewer);
 const char* viewer_caption(int viewer);
 /// JSON, see Viewer::comparison()
 const char* viewer_comparison(int viewer);
-/// JSON array of {"name", "at", "size"}: files of the scene that is showing, with its images, for the module of
-/// Truth.cpp. Their bytes stay valid until the next call for any viewer.
+/// JSON array of {"name", "at", "size"}: files of the scene that is showing, with its images, for the module
+/// of Truth.cpp. Their bytes stay valid until the next call for any viewer.
 const char* viewer_ask_truth(int viewer);
 /// The truth that was asked for: width x height x 4 floats. noise < 0: not known. "" or the message.
 const char* viewer_take_truth(int viewer, const std::uint8_t* floats, int size, int width, int height,
                               double noise);
 /// The truth of the scene as loaded, from a file. noise < 0: not known. "" or the message.
-const char* viewer_open_truth(int viewer, const char* name, const std::uint8_t* bytes, int size, double noise);
+const char* viewer_open_truth(int viewer, const char* name, const std::uint8_t* bytes, int size,
+                              double noise);
 double viewer_revision(int viewer);
 void viewer_release(int viewer);
 }

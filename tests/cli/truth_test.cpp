@@ -162,6 +162,47 @@ TEST_F(Truth, CausticsThatAreDrawnBelongToTheTruth) {
     EXPECT_EQ(estimator("lit.json --aov irradiance"), "light");
 }
 
+TEST_F(Truth, WhatScattersInsideIsSolvedByDipoleOrWalk) {
+    write("marble.json", std::string(R"({"lucent": 1, "size": [6, 6], "camera": {"height": 0.024},
+        "lights": [{"type": "distant", "direction": [-1, 0, 0]}], "objects": [
+        {"name": "ball", "shape": {"type": "sphere", "radius": 0.01}, "material": {"preset": "marble"}}]})"));
+    const auto fact = [&](const std::string& key) {
+        const std::string facts = text("out.pfm.json");
+        const std::size_t from = facts.find("\"" + key + "\": ") + key.size() + 4;
+        return facts.substr(from, facts.find_first_of(",\n", from) - from);
+    };
+    expectDone("truth marble.json -o out.pfm --samples 16");
+    EXPECT_EQ(fact("estimator"), "\"dipole\"");
+    const std::string planar = text("out.pfm");
+    expectDone("truth marble.json -o out.pfm --samples 16 --set technique.subsurface.dipoleGeometry=offset");
+    EXPECT_NE(text("out.pfm"), planar);
+    expectDone("truth marble.json -o out.pfm --samples 16 --aov radiosity");
+    EXPECT_EQ(fact("estimator"), "\"dipole\"");
+    for (const std::string estimator : {"dipole --samples 16", "walk --photons 2000"}) {
+        expectDone("truth marble.json -o out.pfm --threads 1 --estimator " + estimator);
+        const std::string whole = text("out.pfm");
+        expectDone("truth marble.json -o out.pfm --threads 3 --estimator " + estimator);
+        EXPECT_EQ(text("out.pfm"), whole);
+        for (const char* tile : {"1", "2"})
+            expectDone(std::string("truth marble.json -o ") + tile + ".tile --tile " + tile +
+                       "/2 --estimator " + estimator);
+        expectDone("merge 1.tile 2.tile -o merged.pfm");
+        if (estimator.starts_with("dipole")) {
+            EXPECT_EQ(text("merged.pfm"), whole);
+        }
+    }
+    EXPECT_EQ(fact("photons"), "2000");
+    expectRefusal(
+        "truth marble.json -o out.pfm --aov depth --estimator walk",
+        "--estimator: walk does not solve the AOV depth; must be glass, or --aov color or radiosity");
+    expectRefusal("truth marble.json -o out.pfm --aov radiosity --estimator glass",
+                  "--estimator: glass does not solve the AOV radiosity; must be dipole or walk");
+    expectRefusal("truth marble.json -o out.pfm --photons 5",
+                  "--photons: is of light, light-tree and walk; must be --samples for dipole");
+    expectRefusal("truth scene.json -o out.pfm --estimator walk",
+                  "truth: no object scatters light inside; must be one with material.scattering above 0");
+}
+
 TEST_F(Truth, ADamagedTileIsRefused) {
     expectDone("truth scene.json -o 1.tile --tile 1/1" + kFew);
     const std::string whole = text("1.tile");

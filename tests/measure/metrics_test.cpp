@@ -143,5 +143,23 @@ TEST(HeatMap, ShowsTheLargestChannelOfEachPixel) {
     }
 }
 
+TEST(Flux, InAnotherCellIsMisplacedOnceAndOutsideOfEveryCircle) {
+    Image reference(10, 5, 4), image(10, 5, 4), errors(10, 5, 3);
+    for (int channel = 0; channel < 3; ++channel) {
+        reference.at(2, 2)[channel] = 1;
+        image.at(7, 2)[channel] = 1;
+        errors.at(2, 2)[channel] = 0.1f;
+    }
+    const FluxErrors apart = compareFlux(image, reference, errors);
+    EXPECT_DOUBLE_EQ(apart.misplaced, 1);
+    EXPECT_DOUBLE_EQ(apart.encircled, 1);
+    // Half the mean of |x|, with x Gaussian and its deviation 0.3 of a flux of 3.
+    EXPECT_NEAR(apart.byNoise, 0.5 * 0.1 * std::sqrt(2 / 3.14159265), 1e-6);
+    Image beside(10, 5, 4); // within the same cell of 5 x 5 pixels
+    for (int channel = 0; channel < 3; ++channel)
+        beside.at(4, 4)[channel] = 1;
+    EXPECT_DOUBLE_EQ(compareFlux(beside, reference, errors).misplaced, 0);
+}
+
 } // namespace
 } // namespace lucent::measure

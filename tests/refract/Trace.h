@@ -53,7 +53,8 @@ struct Refraction : support::GlTest {
     }
 
     /// @param layers  how many are drawn; 0: as many as there are
-    Image trace(const scene::Scene& scene, ivec2 size, scene::Aov show = kDirection, int layers = 0) {
+    Image trace(const scene::Scene& scene, ivec2 size, scene::Aov show = kDirection, int layers = 0,
+                const Settings& settings = {}) {
         const graph::TextureDesc desc{.size = size, .format = graph::Format::RGBA32F};
         const graph::Texture surface(context->device(), desc, "surface"),
             places(context->device(), desc, "places"), target(context->device(), desc, "target");
@@ -85,7 +86,8 @@ struct Refraction : support::GlTest {
                             .ok());
             EXPECT_TRUE(views::recordSolid(graph, *context, eye, {}, *solids, surfaceId, solid, size).ok());
         }
-        const auto recorded = views::recordLayers(graph, *context, eye, *glass, size, layers, solid);
+        const int peeled = settings.layers == LayerMethod::Peel ? layers : 1;
+        const auto recorded = views::recordLayers(graph, *context, eye, *glass, size, peeled, solid);
         EXPECT_TRUE(recorded.ok());
         auto environment = graph::TextureHandle::None;
         if (scene.environment) environment = *images.image(scene.environment->map);
@@ -97,8 +99,9 @@ struct Refraction : support::GlTest {
                         .environment = environment,
                         .light = scene.environment ? &*scene.environment : nullptr,
                         .target = targetId,
-                        .show = show};
-        const Status done = Refract(*context).record(graph, in, size);
+                        .show = show,
+                        .count = layers};
+        const Status done = Refract(*context).record(graph, in, size, settings);
         EXPECT_TRUE(done.ok()) << (done ? "" : done.error().message);
         const Status compiled = graph.compile();
         EXPECT_TRUE(compiled.ok());

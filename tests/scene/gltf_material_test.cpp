@@ -85,6 +85,41 @@ TEST(GltfMaterial, ThinWallsBendNothingAndSayWhatIsMissing) {
     }
 }
 
+TEST(GltfMaterial, ScatteringVolumesAreReadInPhysicalTerms) {
+    std::string said;
+    const auto scattering = [&](const std::string& scatter, const std::string& volume) {
+        return materialOf(matt(R"(, "roughnessFactor": 0.25)") +
+                              R"(, "extensions": { "KHR_materials_diffuse_transmission":
+                                 { "diffuseTransmissionFactor": 1 }, "KHR_materials_volume": { )" +
+                              volume + R"( }, "KHR_materials_volume_scatter": { )" + scatter + " } }",
+                          &said);
+    };
+    const std::string volume =
+        R"("thicknessFactor": 1, "attenuationColor": [0.5, 0.25, 0.5], "attenuationDistance": 0.01)";
+    const Material m = scattering(R"("multiscatterColor": [0, 0.5, 1])", volume);
+    EXPECT_EQ(said, "");
+    EXPECT_EQ(m.roughness, 0.25f);
+    EXPECT_FALSE(m.isRefractive());
+    // The fit at a half space's albedo of 0, 1/2 and 1: s = 1, sqrt(0.1598), 0.
+    const double extinction = std::log(2) / 0.01;
+    EXPECT_NEAR(double(m.scattering.x), 0, 1e-3 * extinction);
+    EXPECT_NEAR(double(m.absorption().x), extinction, 1e-3 * extinction);
+    const double s = 4.09712 + 4.20863 / 2 - std::sqrt(9.59217 + 41.6808 / 2 + 17.7126 / 4);
+    EXPECT_NEAR(double(m.scattering.y), (1 - s * s) * 2 * extinction, 1e-4 * extinction);
+    EXPECT_NEAR(double(m.absorption().y), s * s * 2 * extinction, 1e-4 * extinction);
+    EXPECT_NEAR(double(m.scattering.z), extinction, 1e-3 * extinction);
+    // As much light comes back whatever the anisotropy: s² = (1 - a) / (1 - g a).
+    const Material forward =
+        scattering(R"("multiscatterColor": [0, 0.5, 1], "scatterAnisotropy": 0.5)", volume);
+    EXPECT_EQ(forward.anisotropy, 0.5f);
+    const double albedo = double(forward.scattering.y) / (2 * extinction);
+    EXPECT_NEAR((1 - albedo) / (1 - 0.5 * albedo), s * s, 1e-4);
+
+    EXPECT_FALSE(scattering(R"("multiscatterColor": [1, 1, 1])", R"("thicknessFactor": 1)").isScattering());
+    EXPECT_EQ(said, "not read: diffuseTransmissionFactor, multiscatterColor without a volume that attenuates "
+                    "light, roughnessFactor\n");
+}
+
 TEST(GltfMaterial, InfiniteIorAndSmoothMetalAreMirrors) {
     const Material infinite = materialOf(glass(kVolume, R"(, "KHR_materials_ior": { "ior": 0 })"));
     EXPECT_EQ(infinite.reflectance, vec3(1));

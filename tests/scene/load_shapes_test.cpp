@@ -1,6 +1,7 @@
 // Everything of a scene file that is not about height fields: shapes, lights, clear things and mirrors,
 // waves.
 #include "scene/Load.h"
+#include "scene/MaterialPresets.h"
 #include "scene/Mesh.h"
 #include "tests/scene/Files.h"
 
@@ -156,11 +157,20 @@ TEST(LoadShapes, KeysThatDoNothingOnTheObjectAreRefused) {
         "scenes/a.json:3: objects.ball.material.diffuseMap does nothing on a \"sphere\"; must stand on a "
         "height field");
     EXPECT_EQ(messageOf(sphereWith(R"("material": { "ior": 1.3 })")),
-              "scenes/a.json:3: objects.ball.material.ior does nothing where nothing is transmitted; must "
-              "stand beside a transmission above 0");
+              "scenes/a.json:3: objects.ball.material.ior does nothing where no light gets inside; must "
+              "stand beside a transmission or scattering above 0");
     EXPECT_EQ(messageOf(sphereWith(R"("material": { "absorption": 1, "transmission": 0 })")),
-              "scenes/a.json:3: objects.ball.material.absorption does nothing where nothing is transmitted; "
+              "scenes/a.json:3: objects.ball.material.absorption does nothing where no light gets inside; "
+              "must stand beside a transmission or scattering above 0");
+    EXPECT_EQ(messageOf(sphereWith(R"("material": { "anisotropy": 0.5, "transmission": 1 })")),
+              "scenes/a.json:3: objects.ball.material.anisotropy does nothing where nothing scatters; must "
+              "stand beside a scattering above 0");
+    EXPECT_EQ(messageOf(sphereWith(R"("material": { "dispersion": 0.3, "preset": "marble" })")),
+              "scenes/a.json:3: objects.ball.material.dispersion does nothing where nothing is transmitted; "
               "must stand beside a transmission above 0");
+    EXPECT_EQ(messageOf(sphereWith(R"("material": { "diffuse": [1, 0, 0], "preset": "marble" })")),
+              "scenes/a.json:3: objects.ball.material.diffuse does nothing beside a scattering above 0; must "
+              "stand on an opaque surface");
     EXPECT_EQ(
         messageOf(sphereWith(R"("material": { "diffuse": [1, 0, 0], "transmission": 1 })")),
         "scenes/a.json:3: objects.ball.material.diffuse does nothing beside a transmission above 0; must "
@@ -171,6 +181,52 @@ TEST(LoadShapes, KeysThatDoNothingOnTheObjectAreRefused) {
     EXPECT_EQ(messageOf(sphereWith(R"("material": { "transmission": 1, "reflectance": [0, 0, 1] })")),
               "scenes/a.json:3: objects.ball.material.reflectance is 0 0 1; must be 0 beside a transmission "
               "above 0");
+}
+
+TEST(LoadShapes, PresetsAreMeasuredCoefficientsPerMetre) {
+    const auto materialWith = [](const std::string& keys) {
+        const Result<Scene> scene = test::load({}, sphereWith("\"material\": { " + keys + " }"));
+        EXPECT_TRUE(scene) << scene.error().message;
+        return scene ? scene->objects[0].material : Material{};
+    };
+    const Material marble = materialWith(R"("preset": "marble")");
+    EXPECT_EQ(marble.scattering, vec3(2190, 2620, 3000));
+    EXPECT_EQ(marble.ior, 1.5f);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_FLOAT_EQ(marble.absorption()[i], vec3(2.1f, 4.1f, 7.1f)[i]);
+    EXPECT_EQ(materialWith(R"("preset": "spectralon")").absorption(), vec3(0));
+    EXPECT_EQ(materialPresets().size(), 12u);
+    for (const MaterialPreset& preset : materialPresets())
+        EXPECT_TRUE(materialWith("\"preset\": \"" + std::string(preset.name) + "\"").isScattering());
+
+    // What was measured is (1 - g) sigma_s.
+    EXPECT_FLOAT_EQ(materialWith(R"("preset": "marble", "anisotropy": 0.75)").scattering.x, 4 * 2190);
+    const Material other =
+        materialWith(R"("preset": "marble", "ior": 1.3, "absorption": 2, "roughness": 0.1)");
+    EXPECT_EQ(other.scattering, marble.scattering);
+    EXPECT_EQ(other.ior, 1.3f);
+    EXPECT_FLOAT_EQ(other.absorption().z, 2);
+    EXPECT_EQ(materialWith(R"("preset": "marble", "scattering": [1, 2, 3])").scattering, vec3(1, 2, 3));
+
+    EXPECT_EQ(
+        messageOf(sphereWith(R"("material": { "preset": "granite" })")),
+        "scenes/a.json:3: objects.ball.material.preset is \"granite\"; must be apple, chicken1, chicken2, "
+        "cream, ketchup, marble, potato, skimmilk, skin1, skin2, spectralon or wholemilk");
+}
+
+TEST(LoadShapes, WhatScattersIsNeitherClearNorAMirrorAndHasAnOrdinaryIndex) {
+    EXPECT_EQ(messageOf(sphereWith(R"("material": { "scattering": [0, 1, 0], "transmission": 1 })")),
+              "scenes/a.json:3: objects.ball.material.scattering is 0 1 0; must be 0 beside a transmission "
+              "above 0");
+    EXPECT_EQ(messageOf(sphereWith(R"("material": { "preset": "marble", "reflectance": [1, 1, 1] })")),
+              "scenes/a.json:3: objects.ball.material.scattering is 2190 2620 3000; must be 0 beside a "
+              "reflectance above 0");
+    EXPECT_EQ(
+        messageOf(sphereWith(R"("material": { "scattering": [1, 1, 1], "ior": 4 })")),
+        "scenes/a.json:3: objects.ball.material.ior is 4; must be in [0.3, 3] beside a scattering above "
+        "0");
+    EXPECT_EQ(messageOf(sphereWith(R"("material": { "scattering": [1, 1, 1], "anisotropy": 1 })")),
+              "scenes/a.json:3: objects.ball.material.anisotropy is 1; must be in [-0.999, 0.999]");
 }
 
 TEST(LoadShapes, AbsorptionIsAnotherWayToSayAttenuation) {

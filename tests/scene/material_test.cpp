@@ -28,7 +28,7 @@ TEST(Material, AbsorptionComesBackToFloatPrecision) {
         // A colour just below 1 is stored to 2^-25, and its logarithm is at least 13/100 here: 2.3e-7.
         for (int i = 0; i < 3; ++i)
             EXPECT_NEAR(glass.absorption()[i], sigma[i], 2.4e-7 * sigma[i]) << sigma.x;
-        for (const Param& param : refractionParams().params)
+        for (const Param& param : mediumParams().params)
             EXPECT_TRUE(checkRange(param, reinterpret_cast<const std::byte*>(&glass) + param.offset))
                 << param.id; // a file could say it as well
     }
@@ -42,15 +42,18 @@ TEST(Material, NoAbsorptionIsNoDistance) {
     EXPECT_EQ(glass.attenuationColor, vec3(1));
 }
 
-TEST(Material, IsOpaqueClearOrAMirror) {
+TEST(Material, IsOpaqueClearTranslucentOrAMirror) {
     Object ball;
     ball.shape = Sphere{};
     const auto tables = [&] { return materialTables(ball); };
     using Tables = std::vector<const ParamTable*>;
     EXPECT_EQ(tables(), (Tables{&colorParams(), &opticsParams()}));
     ball.material.transmission = 0.5f;
-    EXPECT_EQ(tables(), (Tables{&opticsParams(), &refractionParams()}));
+    EXPECT_EQ(tables(), (Tables{&opticsParams(), &mediumParams(), &refractionParams()}));
     ball.material.transmission = 0;
+    ball.material.scattering = {0, 0, 100};
+    EXPECT_EQ(tables(), (Tables{&opticsParams(), &mediumParams(), &scatteringParams()}));
+    ball.material.scattering = vec3(0);
     ball.material.reflectance = {0, 0, 0.1f};
     EXPECT_EQ(tables(), (Tables{&opticsParams()}));
     ball.shape = HeightField{};

@@ -50,6 +50,25 @@ std::string messageAfter(Change change) {
     return back ? "" : back.error().message;
 }
 
+TEST(MeshFile, KeepsWhatScattersUnderAnotherName) {
+    Mesh mesh = movingMesh();
+    Material& material = mesh.parts[0].values;
+    material.transmission = 0;
+    material.scattering = {1, 2, 3};
+    material.anisotropy = -0.5f;
+    material.roughness = 0.125f;
+    const Bytes file = encodeMesh(mesh);
+    EXPECT_TRUE(isMesh(file));
+    EXPECT_EQ(char(file[7]), '3'); // of LUCENTM3
+    EXPECT_EQ(char(encodeMesh(movingMesh())[7]), '2');
+    const Result<Mesh> back = decodeMesh(file, "a");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(encodeMesh(*back), file);
+    EXPECT_EQ(back->parts[0].values.scattering, vec3(1, 2, 3));
+    EXPECT_EQ(back->parts[0].values.anisotropy, -0.5f);
+    EXPECT_EQ(back->parts[0].values.roughness, 0.125f);
+}
+
 TEST(MeshFile, KeepsEveryBit) {
     const Mesh mesh = movingMesh();
     const Bytes file = encodeMesh(mesh);

@@ -170,11 +170,12 @@ TEST(Scene, OnlyTheMaterialParametersThatActAreBound) {
               (List{"base", "diffuse", "specular", "specularity", "forwardScatter", "depth",
                     "specularFalloff", "scatterFalloff"}));
     EXPECT_EQ(endingsOf(scene, "objects.floor.material."),
-              (List{"base", "diffuse", "reflectance", "transmission"}));
+              (List{"base", "diffuse", "reflectance", "scattering", "transmission"}));
     EXPECT_EQ(endingsOf(scene, "objects.ball.material."),
-              (List{"reflectance", "transmission", "ior", "attenuationDistance", "attenuationColor",
-                    "dispersion", "fresnel"}));
-    EXPECT_EQ(endingsOf(scene, "objects.ring.material."), (List{"reflectance", "transmission"}));
+              (List{"reflectance", "scattering", "transmission", "ior", "attenuationDistance",
+                    "attenuationColor", "dispersion", "fresnel"}));
+    EXPECT_EQ(endingsOf(scene, "objects.ring.material."),
+              (List{"reflectance", "scattering", "transmission"}));
 }
 
 TEST(Scene, EachShapeAndLightBindsItsOwnParameters) {
@@ -198,8 +199,8 @@ TEST(Scene, EachShapeAndLightBindsItsOwnParameters) {
 TEST(Scene, AnythingButAFieldCanBeMadeOfGlassByPath) {
     EXPECT_EQ(set("objects.block.material.transmission", "1"), "1");
     EXPECT_EQ(set("objects.block.material.ior", "1.3"),
-              "objects.block.material.ior does nothing where nothing is transmitted; must stand beside a "
-              "transmission above 0");
+              "objects.block.material.ior does nothing where no light gets inside; must stand beside a "
+              "transmission or scattering above 0");
     EXPECT_EQ(set("objects.ball.material.ior", "1.3"), "1.3");
     EXPECT_EQ(set("objects.ball.material.ior", "0"), "objects.ball.material.ior is 0; must be in (0, 100]");
     EXPECT_EQ(set("objects.ball.material.diffuse", "1 0 0"),
@@ -294,7 +295,9 @@ TEST(Scene, AovNamesAreThoseOfTheCommandLine) {
     EXPECT_EQ(aovNames()[int(Aov::Irradiance)], "irradiance");
     EXPECT_EQ(aovNames()[int(Aov::Direction)], "direction");
     EXPECT_EQ(aovNames()[int(Aov::Layers)], "layers");
-    EXPECT_EQ(aovNames().size(), std::size_t(Aov::Layers) + 1);
+    EXPECT_EQ(aovNames()[int(Aov::Lost)], "lost");
+    EXPECT_EQ(aovNames()[int(Aov::CausticMap)], "caustic-map");
+    EXPECT_EQ(aovNames().size(), std::size_t(Aov::Radiosity) + 1);
 }
 
 } // namespace

@@ -13,9 +13,10 @@ Result<Json> parse(std::string_view text) {
     return parseJson(std::as_bytes(std::span(text.data(), text.size())), "text");
 }
 
-// What makes a material clear or a mirror, and others act or not.
+// What makes a material clear, translucent or a mirror, and others act or not.
 bool decidesWhatActs(const BoundParam& bound) {
-    return bound.param->id == "transmission" || bound.param->id == "reflectance";
+    const std::string_view id = bound.param->id;
+    return id == "transmission" || id == "reflectance" || id == "scattering";
 }
 
 // Moves every other parameter away from its default, within its range.
@@ -77,7 +78,7 @@ TEST(ToJson, LoadsBackEveryShapeLightAndKindOfMaterial) {
         { "name": "block", "shape": { "type": "box" }, "material": { "transmission": 0.5 } },
         { "name": "ball", "shape": { "type": "sphere" }, "material": { "reflectance": [0.5, 0.6, 0.7] } },
         { "name": "ring", "shape": { "type": "torus" } },
-        { "name": "can", "shape": { "type": "cylinder" } },
+        { "name": "can", "shape": { "type": "cylinder" }, "material": { "preset": "ketchup" } },
         { "name": "pool", "shape": { "type": "water" }, "material": { "transmission": 1 } } ] })");
     ASSERT_TRUE(scene) << scene.error().message;
     changeEverything(*scene);

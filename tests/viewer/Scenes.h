@@ -37,10 +37,19 @@ inline constexpr const char* kGlassScene = R"({"lucent": 1, "title": "Glass", "s
             {"type": "area", "corner": [-0.5, 0.5, 0]},
             {"type": "distant", "direction": [0, -1, -1]}],
  "environment": {"source": "sky"},
+ "technique": {"caustics": {"grid": 32, "mapSize": 64, "lightSamples": 1}},
  "objects": [{"name": "block", "shape": {"type": "box", "size": [0.3, 0.4, 0.5]}, "material": {"transmission": 1}},
              {"name": "tent", "shape": {"type": "mesh", "source": "tent.mesh", "part": "cloth"}, "material": {},
               "wave": {"amplitude": [0.05, 0, 0]}},
              {"name": "floor", "shape": {"type": "plane"}, "transform": {"translate": [0, -0.4, 0]}}]})";
+
+/// Still water over a floor, both 1 m wide, seen from straight above, with 2 m of height shown.
+inline constexpr const char* kWaterScene = R"({"lucent": 1, "title": "Water", "size": [512, 512],
+ "camera": {"type": "orthographic", "eye": [0, 2, 0], "up": [0, 0, -1], "height": 2},
+ "lights": [{"type": "distant", "direction": [0.1, -1, 0]}],
+ "technique": {"caustics": {"grid": 32, "mapSize": 64}},
+ "objects": [{"name": "floor", "shape": {"type": "plane"}, "transform": {"translate": [0, -0.3, 0]}},
+             {"name": "water", "shape": {"type": "water", "cells": 32}, "material": {"transmission": 1, "ior": 1.33}}]})";
 
 /// Two triangles of two materials, 2 m wide, 1 m high and flat in z.
 inline scene::Mesh tentMesh() {

@@ -122,6 +122,29 @@ TEST(Zoomed, ShowsLessOfTheSceneAtTwiceTheSize) {
     expectNear(zoomed(perspective(), 2).eye, {0, 0, 1}, 1e-6f);
 }
 
+TEST(WaterAt, APixelShowsAPlaceOfTheNearestSheet) {
+    scene::Scene scene;
+    scene.camera.eye = {0, 2, 0};
+    scene.camera.up = {0, 0, -1};
+    scene.camera.height = 4;
+    scene::Object floor, water;
+    floor.shape = scene::Plane{{9, 9}};
+    water.shape = scene::Water{.size = {2, 1}};
+    water.transform = {.translate = {0.5f, 0, 0}, .rotate = {0, 90, 0}}; // its x axis lies along -z
+    scene.objects = {floor, water};
+    const Lens lens(scene.camera, {400, 400}); // 0.01 m a pixel, x to the right, -z up
+    const auto found = waterAt(scene, lens, {260, 130});
+    ASSERT_TRUE(found.has_value()); // world x = 0.6, z = -0.7
+    EXPECT_EQ(found->object, 1);
+    EXPECT_LT(glm::distance(found->at, vec2(0.7f, 0.1f)), 1e-5f);
+    EXPECT_FALSE(waterAt(scene, lens, {310, 130}).has_value()); // x = 1.1 lies beside it
+    scene.objects.push_back(water);
+    scene.objects.back().transform.translate.y = 0.5f;
+    EXPECT_EQ(waterAt(scene, lens, {260, 130})->object, 2);
+    scene.objects.back().visible = false;
+    EXPECT_EQ(waterAt(scene, lens, {260, 130})->object, 1);
+}
+
 TEST(LiftedLight, MovesByAFactorAndLeavesZero) {
     EXPECT_FLOAT_EQ(liftedLight(0.5f, 1.1f), 0.55f);
     EXPECT_FLOAT_EQ(liftedLight(-0.5f, 2), -1);

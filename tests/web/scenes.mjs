@@ -44,6 +44,19 @@ const banner = {
     { name: 'banner', shape: { type: 'box', size: [0.5, 1, 0.1] }, wave: { amplitude: [0.4, 0, 0], wavelength: 100 } },
   ],
 };
+/** Still water over a floor, both half as wide as the picture, seen from straight above. */
+const pond = {
+  lucent: 1,
+  title: 'A pond',
+  size: [200, 200],
+  camera: { type: 'orthographic', eye: [0, 2, 0], up: [0, 0, -1], height: 2 },
+  technique: { caustics: { grid: 32, mapSize: 64 } },
+  lights: [{ type: 'distant', direction: [0.1, -1, 0] }],
+  objects: [
+    { name: 'floor', shape: { type: 'plane' }, transform: { translate: [0, -0.3, 0] } },
+    { name: 'water', shape: { type: 'water', cells: 32 }, material: { transmission: 1, ior: 1.33 } },
+  ],
+};
 const broken = structuredClone(dome);
 broken.objects[0].shape.heightScale = 'tall';
 
@@ -52,6 +65,7 @@ export const kScenes = {
   'dome.json': JSON.stringify(dome),
   'dome.pfm': pfm((x, y) => Math.max(0, 1 - x * x - y * y)),
   'banner.json': JSON.stringify(banner),
+  'pond.json': JSON.stringify(pond),
   'ridge.json': JSON.stringify(scene('A ridge', 'ridge.pfm')),
   'ridge.pfm': pfm((x) => 1 - Math.abs(x)),
   'sky.json': JSON.stringify(

@@ -12,7 +12,8 @@ namespace lucent::scene {
 /// Names of extensions that readers understand wholly or in part.
 std::span<const std::string_view> knownGltfExtensions();
 
-/// Base colour, emission and the KHR extensions for transmission, ior, volume, dispersion, emissive strength.
+/// Base colour, emission and the KHR extensions for transmission, ior, volume, dispersion, emissive strength,
+/// and the draft of volume scatter (2025).
 ///
 /// - Only what is not metal lets light through: the transmission is transmissionFactor (1 - metallicFactor).
 /// - An `ior` of 0 stands for an infinite one, whose Fresnel reflectance is 1 at every angle: a mirror.
@@ -21,6 +22,11 @@ std::span<const std::string_view> knownGltfExtensions();
 /// - A transmissive material with thicknessFactor 0 is thin-walled: glTF lets light pass unbent, without way
 ///   through a medium. It becomes a medium of ior 1 without absorption; its reflection is left out and named
 ///   on stderr.
+/// - A volume with a thickness above 0, an attenuation and a multiscatterColor above 0 scatters light inside.
+/// Its
+///   attenuation is extinction then, and each channel's albedo of one collision that which gives a half space
+///   the albedo of the color (Kulla, Conty 2017, by s² = (1 - albedo) / (1 - g albedo) for any anisotropy).
+///   By which extension light enters makes no difference.
 /// - A colour beside a texture that is not read counts alone; emission beside one, which such a texture
 ///   mostly blackens, counts nothing.
 ///

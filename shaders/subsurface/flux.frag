@@ -1,0 +1,64 @@
+// subsurface/flux.frag: light that enters an object through each pixel of a view.
+//
+// in    uSurface  the nearest surfaces that the light sees; FROM_SKY: one layer of the object along an axis, with
+//                 outward normals
+// out   subsurface/points.glsl
+// model F_t(cos) times the flux of the pixel: the cosine at which light arrives and the slope of the surface in the
+//       pixel cancel. FROM_SKY: irradiance with F_t in it, times area, times cos² of the angle to the view, so that
+//       views along three axes count each place once and none divides by a small cosine
+#include "views/view.glsl"
+#include "lib/octahedral.glsl"
+#include "lib/fresnel.glsl"
+#include "views/surface_pixel.glsl"
+layout(std140) uniform FluxBlock {
+    View view;
+    vec4 color; // irradiance that faces the light, or that at 1 m; a: exponent of the cone
+    vec4 axis;  // unit: along which the light shines most; w: 1: it fades
+    vec4 sky[9];
+    vec2 cone;
+    int object;
+    float ior;
+} light;
+#include "subsurface/points.glsl"
+
+#ifdef FROM_SKY
+vec3 skyLight(vec3 n) {
+    return max(light.sky[0].rgb + n.y * light.sky[1].rgb + n.z * light.sky[2].rgb + n.x * light.sky[3].rgb +
+                   n.x * n.y * light.sky[4].rgb + n.y * n.z * light.sky[5].rgb +
+                   (3.0 * n.z * n.z - 1.0) * light.sky[6].rgb + n.x * n.z * light.sky[7].rgb +
+                   (n.x * n.x - n.y * n.y) * light.sky[8].rgb,
+               0.0);
+}
+#endif
+
+void main() {
+    noPoint();
+    SurfacePixel pixel = readSurface();
+    if (pixel.face != kMeshFace || pixel.object != light.object) return;
+
+    bool perspective = light.view.eye.w > 0.5;
+    float depth = pixel.z;
+    vec3 toPlace = placeFrom(light.view, gl_FragCoord.xy, depth);
+    vec3 ray = eyeRay(light.view, gl_FragCoord.xy);
+    vec3 normal = fromOctahedral(pixel.g);
+    float cosine = -dot(normal, ray);
+    float width = max(length(light.view.right.xyz), length(light.view.up.xyz)) * (perspective ? depth : 1.0);
+    float area = length(light.view.right.xyz) * length(light.view.up.xyz);
+    vec3 flux;
+#ifdef FROM_SKY
+    flux = area * abs(cosine) * skyLight(normal);
+#else
+    vec3 color = light.color.rgb;
+    if (perspective) {
+        float slant = dot(ray, light.view.forward.xyz);
+        area *= slant * slant * slant; // a solid angle
+        if (light.axis.w < 0.5) area *= dot(toPlace, toPlace);
+        color *= pow(clamp(light.cone.y + light.cone.x * dot(ray, light.axis.xyz), 0.0, 1.0), light.color.a);
+    }
+    flux = area * color * (1.0 - fresnelReflectance(max(cosine, 0.0), 1.0 / light.ior));
+#endif
+    float slope = sqrt(max(1.0 - cosine * cosine, 0.0)) / max(abs(cosine), 1e-3);
+    oPlace = vec4(light.view.eye.xyz + toPlace, depth - 0.5 * width * slope);
+    oFlux = vec4(flux, depth + 0.5 * width * slope);
+    oNormal = vec4(normal, length(vec2(width, width * slope)));
+}

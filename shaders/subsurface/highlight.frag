@@ -1,0 +1,66 @@
+// subsurface/highlight.frag: light of one point of a lamp that the surface of one object mirrors.
+//
+// in    uBefore  USE_BEFORE: the sum so far
+//       uShadow  USE_SHADOW: see views/shadow.glsl
+// out   oSum.rgb [W/(m² sr)]
+// model mirror facets (subsurface/ggx.glsl) with unpolarised Fresnel; roughness 0 shows no lamp, whose points are of no
+//       size
+#include "views/view.glsl"
+layout(std140) uniform HighlightBlock {
+    View view;
+    View faces[6];
+    vec4 place;  // world: point, 1; or unit direction to the light, 0
+    vec4 color;  // a: exponent of the cone
+    vec4 axis;   // unit: along which it shines most; w: 1: it fades
+    vec2 cone;   // scale and offset of the cosine to it
+    int faceCount;
+    int object;
+    float ior, roughness;
+    float padding0, padding1;
+} light;
+#include "lib/octahedral.glsl"
+#include "lib/fresnel.glsl"
+#include "subsurface/ggx.glsl"
+#include "views/surface_pixel.glsl"
+#ifdef USE_SHADOW
+#include "views/shadow.glsl"
+#endif
+#ifdef USE_BEFORE
+uniform sampler2D uBefore;
+#endif
+layout(location = 0) out vec4 oSum;
+
+// The light's direction, and its irradiance on what faces it.
+vec3 lightAt(vec3 place, out vec3 toLight) {
+    toLight = light.place.xyz;
+    if (light.place.w == 0.0) return light.color.rgb;
+    vec3 way = light.place.xyz - place;
+    float square = dot(way, way);
+    if (square == 0.0) return vec3(0.0);
+    toLight = way * inversesqrt(square);
+    float cone = pow(clamp(light.cone.y - light.cone.x * dot(toLight, light.axis.xyz), 0.0, 1.0), light.color.a);
+    return light.color.rgb * cone / (light.axis.w > 0.5 ? square : 1.0);
+}
+
+void main() {
+    SurfacePixel pixel = readSurface();
+    if (pixel.face != kMeshFace || pixel.object != light.object) discard;
+#ifdef USE_BEFORE
+    oSum = texelFetch(uBefore, ivec2(gl_FragCoord.xy), 0);
+#else
+    oSum = vec4(0.0);
+#endif
+    vec3 place = light.view.eye.xyz + placeFrom(light.view, gl_FragCoord.xy, pixel.z);
+    vec3 normal = fromOctahedral(pixel.g);
+    vec3 toEye = -eyeRay(light.view, gl_FragCoord.xy);
+    vec3 toLight;
+    vec3 arriving = lightAt(place, toLight);
+    float cosine = dot(normal, toLight);
+    if (cosine <= 0.0 || dot(normal, toEye) <= 0.0 || light.roughness == 0.0) return;
+#ifdef USE_SHADOW
+    arriving *= lightReaching(place, normal);
+#endif
+    float fresnel = fresnelReflectance(clamp(dot(toEye, normalize(toLight + toEye)), 0.0, 1.0), 1.0 / light.ior);
+    float alpha = light.roughness * light.roughness;
+    oSum.rgb += cosine * fresnel * facetShare(normal, toLight, toEye, alpha) * arriving;
+}

@@ -1,0 +1,46 @@
+// subsurface/merge.frag: four blocks of points as one.
+//
+// in    uPlace, uFlux, uNormal  the finer level (subsurface/points.glsl)
+// out   the coarser level
+// model a block is as wide as its pixels are apart, along the view and across: where surfaces lie behind each other
+//       in one block it is wide and is not used, as where the surface is steep
+layout(std140) uniform MergeBlock {
+    float width; // of a coarse block across the view [m], of a perspective view a metre deep
+    int perspective;
+    int padding0, padding1;
+} level;
+uniform sampler2D uPlace;
+uniform sampler2D uFlux;
+uniform sampler2D uNormal;
+#include "subsurface/points.glsl"
+
+void main() {
+    ivec2 last = textureSize(uPlace, 0) - 1;
+    vec3 first = vec3(0.0);
+    vec3 place = vec3(0.0);
+    vec3 flux = vec3(0.0);
+    vec3 normal = vec3(0.0);
+    vec2 depths = vec2(kNowhere, -kNowhere);
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = 2 * ivec2(gl_FragCoord.xy) + ivec2(i & 1, i >> 1);
+        if (any(greaterThan(texel, last))) continue;
+        vec4 fineFlux = texelFetch(uFlux, texel, 0);
+        float weight = fineFlux.r + fineFlux.g + fineFlux.b;
+        if (weight <= 0.0) continue;
+        vec4 finePlace = texelFetch(uPlace, texel, 0);
+        if (sum == 0.0) first = finePlace.xyz; // means of differences keep more digits
+        place += weight * (finePlace.xyz - first);
+        normal += weight * texelFetch(uNormal, texel, 0).xyz;
+        flux += fineFlux.rgb;
+        depths = vec2(min(depths.x, finePlace.w), max(depths.y, fineFlux.w));
+        sum += weight;
+    }
+    noPoint();
+    if (sum == 0.0) return;
+    float width = level.width * (level.perspective != 0 ? depths.x : 1.0);
+    float size = length(normal);
+    oPlace = vec4(first + place / sum, depths.x);
+    oFlux = vec4(flux, depths.y);
+    oNormal = vec4(size > 0.0 ? normal / size : vec3(0.0), length(vec2(width, depths.y - depths.x)));
+}

@@ -1,0 +1,22 @@
+// subsurface/peel.frag: the nearest surface of one object behind the layer before (depth peeling, Everitt 2001).
+//
+// in    uBefore   the layer before; PEEL_FIRST: none
+// out   oSurface  see views/surface_pixel.glsl, but with outward normals
+#include "views/mesh_block.glsl"
+#include "lib/octahedral.glsl"
+#include "views/surface_pixel.glsl"
+in vec3 vNormal;
+in float vDepth;
+#ifndef PEEL_FIRST
+uniform sampler2D uBefore;
+#endif
+layout(location = 0) out vec4 oSurface;
+
+void main() {
+#ifndef PEEL_FIRST
+    vec4 before = texelFetch(uBefore, ivec2(gl_FragCoord.xy), 0);
+    if (before.w == 0.0 || vDepth <= before.z) discard;
+#endif
+    oSurface = vec4(octahedralFrom(normalize(vNormal)), vDepth, packSurface(mesh.object, kMeshFace, 1.0));
+    gl_FragDepth = bufferDepth(mesh.view, vDepth);
+}

@@ -1,0 +1,2 @@
+// subsurface/peel.vert: see views/mesh_vertex.glsl.
+#include "views/mesh_vertex.glsl"

@@ -1,0 +1,20 @@
+// subsurface/splat_block.glsl: one level of points and the band of the profile that they leave around them.
+#include "views/view.glsl"
+layout(std140) uniform SplatBlock {
+    View view;        // the camera's, in pixels of what is drawn into
+    vec4 bounds;      // lowest and highest pixel that the object may cover
+    vec4 depths[32];  // rgb: of each pole below the place where light enters [m]; a: of depths[0]: how many
+    vec4 weights[32]; // rgb: [m]
+    vec4 transport;   // rgb: [1/m]
+    vec4 albedo;      // rgb
+    int columns;      // of the level
+    int object;
+    float widest;     // points that stand for more of the surface are not used [m]
+    float reach;      // of the band [m]
+    int isFinest;     // the level: its points are used however wide
+    int isCoarsest;
+    int first;        // of the points that are gathered
+    int count;
+    float unit;       // [W/m²] that counts as 1 where light is gathered
+    int padding0, padding1, padding2;
+} splat;

@@ -1,0 +1,69 @@
+// subsurface/volume_source.vert: light that entered at a point, laid down where it first scatters.
+//
+// in    uPlace, uFlux, uNormal  points (subsurface/points.glsl)
+//       uInside
+// out   vFlux   flat; for each cell of full share
+//       vPlace  flat
+// model exponential fall along the refracted ray, in kDepths parts of equal light. A place outside the body (thin parts,
+//       grazing rays) moves to the nearest cells inside that the point has; light without any is lost
+#include "subsurface/volume.glsl"
+uniform sampler2D uPlace;
+uniform sampler2D uFlux;
+uniform sampler2D uNormal;
+uniform sampler2D uInside;
+flat out vec3 vFlux;
+flat out vec3 vPlace;
+
+const int kDepths = 4;
+
+float insideShare(vec3 place) {
+    vec3 between;
+    ivec3 base = cellsAround(place, between);
+    float sum = 0.0;
+    for (int i = 0; i < 8; ++i)
+        sum += shareOf(cornerOf(i), between) * texelFetch(uInside, texelOf(base + cornerOf(i)), 0).r;
+    return sum;
+}
+
+void main() {
+    gl_PointSize = 2.0;
+    gl_Position = vec4(2.0, 2.0, 0.0, 1.0); // outside
+    int number = gl_VertexID / (2 * kDepths);
+    int part = (gl_VertexID >> 1) % kDepths;
+    ivec2 texel = ivec2(number % volume.columns, number / volume.columns);
+    vec3 flux = texelFetch(uFlux, texel, 0).rgb;
+    vFlux = vec3(0.0);
+    vPlace = vec3(0.0);
+    if (flux == vec3(0.0)) return;
+
+    vec3 place = texelFetch(uPlace, texel, 0).xyz;
+    vec3 normal = texelFetch(uNormal, texel, 0).xyz;
+    vec3 along = -normal;
+    if (volume.lamp.w > 0.0) along = normalize(place - volume.lamp.xyz);
+    else if (volume.lamp.xyz != vec3(0.0)) along = -volume.lamp.xyz;
+    along = refract(along, normal, 1.0 / volume.extinction.a);
+    if (along == vec3(0.0)) along = -normal;
+
+    // Optical depths between which this part of the light scatters, and their mean.
+    float from = -log(1.0 - float(part) / float(kDepths));
+    bool isLast = part == kDepths - 1;
+    float to = isLast ? 1e9 : -log(1.0 - float(part + 1) / float(kDepths));
+    float mean = isLast ? from + 1.0
+                        : float(kDepths) * ((from + 1.0) * exp(-from) - (to + 1.0) * exp(-to));
+    vec3 share = exp(-volume.extinction.rgb * (from / volume.albedo.a));
+    if (!isLast) share -= exp(-volume.extinction.rgb * (to / volume.albedo.a));
+
+    vPlace = place + mean / volume.albedo.a * along;
+    float inside = insideShare(vPlace);
+    for (int i = 1; i <= 3 && inside < 0.1; ++i) {
+        vPlace = place - 0.5 * float(i) * volume.low.w * normal;
+        inside = insideShare(vPlace);
+    }
+    if (inside <= 0.0) return;
+    vFlux = flux * volume.albedo.rgb * share / (inside * volume.low.w * volume.low.w);
+    vec3 between;
+    ivec3 base = cellsAround(vPlace, between);
+    base.z += gl_VertexID & 1;
+    vec2 size = vec2(textureSize(uInside, 0));
+    gl_Position = vec4(2.0 * vec2(texelOf(base) + 1) / size - 1.0, 0.0, 1.0);
+}

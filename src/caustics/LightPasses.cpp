@@ -1,0 +1,280 @@
+#include "caustics/LightPasses.h"
+
+#include "views/Glass.h"
+#include "views/Surface.h"
+
+#include <algorithm>
+
+namespace lucent::caustics {
+
+using graph::Format;
+using graph::TextureDesc;
+using graph::TextureId;
+
+// A few pixels for each ray, because surfaces stand in these pixels and because what no beam carries has a
+// ray for each of them. Their number for a ray is odd: it runs through the middle one.
+ivec2 viewSizeOf(int grid) {
+    constexpr int kLeast = 384;
+    const int pixels = std::max(3, (kLeast + grid - 1) / grid);
+    return ivec2(grid * (pixels | 1));
+}
+
+// --- what bends light
+
+LampBlock LightPasses::lampBlock() const {
+    return {.color = vec4(light_.lamp.color, light_.lamp.exponent),
+            .axis = vec4(light_.lamp.axis, light_.lamp.fades),
+            .cone = light_.lamp.cone,
+            .grid = vec2(float(settings_.grid))};
+}
+
+PhotonBlock LightPasses::photonBlock(const Plan::View& view, const Tint& tint) const {
+    PhotonBlock block{.view = views::viewBlock(view.eye, viewSize()),
+                      .lamp = lampBlock(),
+                      .glass = {},
+                      .tint = vec4(tint.color, 0),
+                      .count = view.layers,
+                      .channel = tint.channel,
+                      .border = view.border};
+    for (std::size_t i = 0; i < in_.glass.size(); ++i) {
+        views::GlassBlock& glass = block.glass[i];
+        glass = views::glassBlock(in_.glass[i].drawn.object->material);
+        if (tint.wavelength > 0) glass.ior.g = iorAt(vec3(glass.ior), tint.wavelength);
+    }
+    return block;
+}
+
+Result<views::Layers> LightPasses::layersOf(const Plan::View& view, TextureId& solid) {
+    const ivec2 size = viewSize();
+    if (!in_.solids.empty()) {
+        const TextureDesc desc{.size = size, .format = Format::RGBA32F};
+        const TextureId surface = graph_.create("caustics.surface", desc);
+        solid = graph_.create("caustics.solid", desc);
+        Status s = views::recordSurface(graph_, context_, view.eye, {}, in_.solids, surface, size);
+        if (s) s = views::recordSolid(graph_, context_, view.eye, {}, in_.solids, surface, solid, size);
+        if (!s) return s.error();
+    }
+    return views::recordLayers(graph_, context_, view.eye, in_.glass, size, view.layers, solid);
+}
+
+std::vector<std::string> LightPasses::Start::defines() const {
+    std::vector<std::string> list;
+    if (part == Part::Vertices) list.push_back("VERTICES");
+    if (part == Part::Rests) list.push_back("RESTS");
+    if (part == Part::Pixels) list.push_back("PIXELS");
+    if (book) list.push_back("WITH_BOOK");
+    return list;
+}
+
+Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views::Layers& layers,
+                          TextureId solid, const Start& start) {
+    std::vector<std::string> defines = start.defines();
+    if (solid) defines.push_back("USE_SOLID");
+    Result<const gl::Program*> traced = program("caustics/photon", defines);
+    if (!traced) return traced.error();
+    graph_.addPass("caustics.photon", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(start.book       ? "where their light stays"
+                    : start.isRest() ? "rays of one point of a light where no beam carries it"
+                                     : "rays of one point of a light through refractive objects");
+        views::sampleLayers(pass, layers);
+        if (solid) pass.sample(solid);
+        if (start.usesBeams()) pass.sample(start.beams);
+        for (const TextureId target : start.targets)
+            pass.write(target);
+        return [=, program = *traced, block = photonBlock(view, tint)](const graph::Resources& resources,
+                                                                       graph::Commands& commands) {
+            auto textures = views::layerBindings(resources, layers);
+            if (solid) textures.push_back({"uSolid", resources[solid]});
+            if (start.usesBeams()) textures.push_back({"uBeams", resources[start.beams]});
+            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+        };
+    });
+    return Done{};
+}
+
+MirrorBlock LightPasses::mirrorBlock(const Plan::View& view) const {
+    MirrorBlock block{
+        .view = views::viewBlock(view.eye, viewSize()), .lamp = lampBlock(), .border = view.border};
+    for (const views::PosedMesh& mesh : mirrorsOf(in_.solids))
+        block.mirrors[std::size_t(block.count++)] =
+            vec4(objectOf(mesh).material.reflectance, float(mesh.drawn.index));
+    return block;
+}
+
+// What the light meets first, mirrors or not: what refracts hides mirrors too.
+Result<TextureId> LightPasses::surfaceOf(const views::Eye& eye) {
+    std::vector<views::PosedMesh> everything = in_.solids;
+    everything.insert(everything.end(), in_.glass.begin(), in_.glass.end());
+    const TextureId surface =
+        graph_.create("caustics.surface", {.size = viewSize(), .format = Format::RGBA32F});
+    if (Status s = views::recordSurface(graph_, context_, eye, {}, everything, surface, viewSize()); !s)
+        return s.error();
+    return surface;
+}
+
+Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Start& start) {
+    Result<const gl::Program*> reflecting = program("caustics/mirror", start.defines());
+    if (!reflecting) return reflecting.error();
+    graph_.addPass("caustics.mirror", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(start.book       ? "where their light stays"
+                    : start.isRest() ? "rays of one point of a light where no beam carries it"
+                                     : "rays of one point of a light off mirrors");
+        pass.sample(surface);
+        if (start.usesBeams()) pass.sample(start.beams);
+        for (const TextureId target : start.targets)
+            pass.write(target);
+        return [=, program = *reflecting, block = mirrorBlock(view)](const graph::Resources& resources,
+                                                                     graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
+            if (start.usesBeams()) textures.push_back({"uBeams", resources[start.beams]});
+            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+        };
+    });
+    return Done{};
+}
+
+// --- rays
+
+// Begins rays and follows them to where they land.
+Result<LightPasses::Photons> LightPasses::send(Part part, TextureId beams, const Trace& trace) {
+    Photons photons{.count = part == Part::Pixels ? viewSize() : ivec2(settings_.grid)};
+    const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
+    photons.place = targets_.make("caustics.place", desc);
+    photons.direction = targets_.make("caustics.direction", desc);
+    photons.flux = targets_.make("caustics.flux", desc);
+    if (Status s = trace({part, beams, {photons.place, photons.direction, photons.flux}}); !s)
+        return s.error();
+    if (isInPicture()) return photons; // they land there
+    if (Status s = land(photons); !s) return s.error();
+    return photons;
+}
+
+// Where somebody reads it, what became of their light.
+Status LightPasses::keepBook(Part part, TextureId beams, const Photons& photons, const Trace& trace) {
+    if (!targets_.keeps()) return Done{};
+    const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
+    std::vector<TextureId> book;
+    for (const char* label : {"caustics.met", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
+        book.push_back(targets_.make(label, desc));
+    return trace({part, beams, std::move(book), true});
+}
+
+Status LightPasses::carry(const views::Eye& eye, const Trace& trace) {
+    const bool beams = settings_.deposit == Deposit::Beam;
+    const Part part = beams ? Part::Vertices : Part::Cells;
+    Sheet sheet{.eye = eye};
+    Result<Photons> grid = send(part, {}, trace);
+    if (!grid) return grid.error();
+    sheet.grid = *grid;
+    if (beams) {
+        Result<TextureId> mask = beamsOf(eye, *grid);
+        if (!mask) return mask.error();
+        sheet.beams = *mask;
+    }
+    if (Status s = keepBook(part, sheet.beams, *grid, trace); !s) return s;
+    if (beams) {
+        const Part rests = refines() ? Part::Pixels : Part::Rests;
+        Result<Photons> rest = send(rests, sheet.beams, trace);
+        if (!rest) return rest.error();
+        sheet.rest = *rest;
+        if (Status s = keepBook(rests, sheet.beams, *rest, trace); !s) return s;
+    }
+    sheets_.push_back(std::move(sheet));
+    return Done{};
+}
+
+// A little larger, so that flat ones have an inside.
+views::Bounds LightPasses::boxOfReceivers() const {
+    views::Bounds box = boundsOfAll(receivers_);
+    const float margin = 1e-3f * box.radius();
+    return {box.low - margin, box.high + margin};
+}
+
+Status LightPasses::land(Photons& photons) {
+    static const char* const kVariants[] = {nullptr, "FIXED_POINT", "NEWTON", "SECANT"};
+    const char* variant = kVariants[std::size_t(settings_.intersect)];
+    Result<const gl::Program*> landing =
+        program("caustics/land", variant ? std::vector<std::string>{variant} : std::vector<std::string>{});
+    if (!landing) return landing.error();
+    const views::Bounds box = boxOfReceivers();
+    photons.landing = targets_.make("caustics.landing", {.size = photons.count, .format = Format::RGBA32F});
+    const TextureId effort =
+        targets_.make("caustics.effort", {.size = photons.count, .format = Format::RG32F});
+    graph_.addPass("caustics.land", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("where these rays meet receivers, by " + std::string(nameOf(settings_.intersect)));
+        pass.sample(photons.place);
+        pass.sample(photons.direction);
+        pass.sample(depths_);
+        pass.write(photons.landing);
+        pass.write(effort);
+        const LandBlock block{.faces = Faces(light_.receivers),
+                              .low = vec4(box.low, 0),
+                              .high = vec4(box.high, 0),
+                              .faceCount = int(light_.receivers.faces.size()),
+                              .steps = settings_.steps};
+        return [=, program = *landing, depths = depths_](const graph::Resources& resources,
+                                                         graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uPlace", resources[photons.place]},
+                                        {"uDirection", resources[photons.direction]},
+                                        {"uShadow", resources[depths]}}});
+        };
+    });
+    return Done{};
+}
+
+Result<TextureId> LightPasses::beamsOf(const views::Eye& eye, const Photons& photons) {
+    Result<const gl::Program*> choosing = program(
+        "caustics/beams", refines() ? std::vector<std::string>{"REFINE"} : std::vector<std::string>{});
+    if (!choosing) return choosing.error();
+    TextureId beams;
+    graph_.addPass("caustics.beams", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("which triangles between rays carry the light between them");
+        pass.sample(photons.place);
+        pass.sample(photons.flux);
+        pass.sample(photons.landing);
+        beams = pass.createColor("caustics.beams", {.size = photons.count, .format = Format::RGBA32F});
+        const DepositBlock block = depositBlock(photons, 2 * eye.halfExtent.x / float(photons.count.x));
+        return [photons, block, program = *choosing](const graph::Resources& resources,
+                                                     graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uPlace", resources[photons.place]},
+                                        {"uFlux", resources[photons.flux]},
+                                        {"uLanding", resources[photons.landing]}}});
+        };
+    });
+    return beams;
+}
+
+// --- all of them
+
+Status LightPasses::record(TextureId& sum) {
+    Result<TextureId> depths =
+        views::recordShadow(graph_, context_, light_.receivers, receivers_, boundsOfAll(receivers_));
+    if (!depths) return depths.error();
+    depths_ = *depths;
+    const std::vector<Tint> light =
+        views::disperses(in_.glass) ? tints(settings_.wavelengths) : std::vector<Tint>{{}};
+    for (const Plan::View& view : light_.glass) {
+        TextureId solid;
+        Result<views::Layers> layers = layersOf(view, solid);
+        if (!layers) return layers.error();
+        for (const Tint& tint : light) {
+            const auto through = [&](const Start& start) { return trace(view, tint, *layers, solid, start); };
+            if (Status s = carry(view.eye, through); !s) return s;
+        }
+    }
+    for (const Plan::View& view : light_.mirrors) {
+        Result<TextureId> surface = surfaceOf(view.eye);
+        if (!surface) return surface.error();
+        const auto off = [&](const Start& start) { return reflect(view, *surface, start); };
+        if (Status s = carry(view.eye, off); !s) return s;
+    }
+    if (isInPicture()) return drawLines(sum);
+    if (Status s = deposit(); !s) return s;
+    return in_.surface ? lookUp(sum) : Status(Done{});
+}
+
+} // namespace lucent::caustics

@@ -1,0 +1,151 @@
+#pragma once
+/// The passes of one point of a light: its rays through glass and off mirrors, where they land, what they
+/// leave there, and what pixels see of that.
+
+#include "caustics/Blocks.h"
+#include "caustics/Caustics.h"
+#include "caustics/Spectrum.h"
+
+#include <functional>
+#include <string>
+
+namespace lucent::caustics {
+
+inline const scene::Object& objectOf(const views::DrawnMesh& mesh) { return *mesh.object; }
+inline const scene::Object& objectOf(const views::PosedMesh& mesh) { return *mesh.drawn.object; }
+
+template <class Mesh>
+views::Bounds boundsOfAll(const std::vector<Mesh>& meshes) {
+    views::Bounds all;
+    for (const Mesh& mesh : meshes) {
+        const views::Bounds one = views::boundsOf(objectOf(mesh));
+        all.add(one.low);
+        all.add(one.high);
+    }
+    return all;
+}
+
+template <class Mesh>
+std::vector<Mesh> receiversOf(std::vector<Mesh> solids) {
+    std::erase_if(solids, [](const Mesh& mesh) { return objectOf(mesh).material.isMirror(); });
+    return solids;
+}
+
+template <class Mesh>
+std::vector<Mesh> mirrorsOf(std::vector<Mesh> solids) {
+    std::erase_if(solids, [](const Mesh& mesh) { return !objectOf(mesh).material.isMirror(); });
+    return solids;
+}
+
+/// Pixels of a light's view of what bends its light, for a grid of rays.
+ivec2 viewSizeOf(int grid);
+
+/// Where textures of the passes come from: the graph, or from outside where somebody reads them afterwards.
+class Targets {
+public:
+    explicit Targets(graph::FrameGraph& graph, graph::Device* device = nullptr)
+        : graph_(graph), device_(device) {}
+    graph::TextureId make(const char* label, const graph::TextureDesc& desc) {
+        if (!device_) return graph_.create(label, desc);
+        kept_.emplace_back(*device_, desc, label);
+        const graph::TextureId id = graph_.import(kept_.back().handle(), desc, label);
+        graph_.keep(id);
+        return id;
+    }
+    bool keeps() const { return device_ != nullptr; }
+    const std::vector<graph::Texture>& kept() const { return kept_; }
+
+private:
+    graph::FrameGraph& graph_;
+    graph::Device* device_;
+    std::vector<graph::Texture> kept_;
+};
+
+class LightPasses {
+public:
+    LightPasses(graph::FrameGraph& graph, gl::Context& context, Targets& targets, const Inputs& in,
+                const Plan::Light& light, const Settings& settings)
+        : graph_(graph), context_(context), targets_(targets), in_(in), light_(light), settings_(settings),
+          receivers_(receiversOf(in.solids)) {}
+
+    /// @param sum  of what other points left on the pixels; becomes the sum with this one
+    Status record(graph::TextureId& sum);
+    /// Flux on a texel of the map that the light meets undisturbed: a number that 16-bit floats hold well.
+    float unit() const;
+    Map map() const { return {map_, depths_, light_.receivers.imageSize()}; }
+
+private:
+    struct Photons {
+        ivec2 count{0}; // of rays
+        graph::TextureId place{}, direction{}, flux{}, landing{};
+    };
+    // The rays of one view: those of a grid, the triangles between them that carry light, and rays of their
+    // own for the rest. Splats and lines are drawn of the grid's alone.
+    struct Sheet {
+        views::Eye eye; // of the light
+        Photons grid{}, rest{};
+        graph::TextureId beams{};
+    };
+    // Which rays a pass begins (shaders/caustics/photon.glsl).
+    enum class Part { Cells, Vertices, Rests, Pixels };
+    struct Start {
+        Part part = Part::Cells;
+        graph::TextureId beams{};
+        std::vector<graph::TextureId> targets{};
+        bool book = false; // else the rays themselves
+        std::vector<std::string> defines() const;
+        bool isRest() const { return part == Part::Rests || part == Part::Pixels; }
+        bool usesBeams() const { return isRest() || (part == Part::Vertices && book); }
+    };
+    using Trace = std::function<Status(const Start&)>;
+
+    Result<const gl::Program*> program(const char* stem, std::vector<std::string> defines = {}) {
+        return context_.program(stem, defines);
+    }
+    ivec2 viewSize() const { return viewSizeOf(settings_.grid); }
+    LampBlock lampBlock() const;
+
+    PhotonBlock photonBlock(const Plan::View& view, const Tint& tint) const;
+    Result<views::Layers> layersOf(const Plan::View& view, graph::TextureId& solid);
+    Status trace(const Plan::View& view, const Tint& tint, const views::Layers& layers,
+                 graph::TextureId solid, const Start& start);
+    MirrorBlock mirrorBlock(const Plan::View& view) const;
+    Result<graph::TextureId> surfaceOf(const views::Eye& eye);
+    Status reflect(const Plan::View& view, graph::TextureId surface, const Start& start);
+
+    Status carry(const views::Eye& eye, const Trace& trace);
+    Result<Photons> send(Part part, graph::TextureId beams, const Trace& trace);
+    Status keepBook(Part part, graph::TextureId beams, const Photons& photons, const Trace& trace);
+    Status land(Photons& photons);
+    Result<graph::TextureId> beamsOf(const views::Eye& eye, const Photons& photons);
+
+    float splatSize(const views::Eye& glass) const;
+    DepositBlock depositBlock(const Photons& photons, float size) const;
+    Status deposit();
+    Status lookUp(graph::TextureId& sum);
+
+    // Lines are drawn in the camera's picture; where that is not asked for, their rays are splats.
+    // The points of a lamp with a size blur each other's edges.
+    bool refines() const { return settings_.refine && !light_.lamp.isPart; }
+    bool isInPicture() const { return settings_.deposit == Deposit::Lines && in_.surface; }
+    Status drawLines(graph::TextureId& sum);
+    Status gather(graph::TextureId flux, graph::TextureId& sum);
+
+    views::Bounds boxOfReceivers() const;
+    // In which light adds up.
+    graph::Format sumFormat() const {
+        return context_.caps().floatBlend ? graph::Format::RGBA32F : graph::Format::RGBA16F;
+    }
+
+    graph::FrameGraph& graph_;
+    gl::Context& context_;
+    Targets& targets_;
+    const Inputs& in_;
+    const Plan::Light& light_;
+    const Settings& settings_;
+    std::vector<views::PosedMesh> receivers_;
+    std::vector<Sheet> sheets_;
+    graph::TextureId depths_, map_;
+};
+
+} // namespace lucent::caustics

@@ -1,0 +1,208 @@
+// From linear light to what is shown, alone or beside its truth.
+#include "frame/RendererState.h"
+
+#include "views/Surface.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace lucent::frame {
+
+using graph::Format;
+using graph::TextureDesc;
+using scene::Aov;
+
+namespace {
+
+struct DisplayBlock {
+    vec4 scale{1}, shift{0};
+    int isScalar = 0, encode = 0, isHeat = 0;
+    int padding = 0;
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {{"scale", offsetof(DisplayBlock, scale)},
+                                                             {"shift", offsetof(DisplayBlock, shift)},
+                                                             {"isScalar", offsetof(DisplayBlock, isScalar)},
+                                                             {"encode", offsetof(DisplayBlock, encode)},
+                                                             {"isHeat", offsetof(DisplayBlock, isHeat)}};
+        static const graph::BlockLayout layout{"DisplayBlock", sizeof(DisplayBlock), members};
+        return layout;
+    }
+};
+
+struct BesideBlock {
+    vec4 scale{1}, shift{0};
+    vec2 corner{0};
+    float pixelsPerTexel = 1, divider = 0, full = 1;
+    int encode = 0, right = 0;
+    int padding = 0;
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {
+            {"scale", offsetof(BesideBlock, scale)},
+            {"shift", offsetof(BesideBlock, shift)},
+            {"corner", offsetof(BesideBlock, corner)},
+            {"pixelsPerTexel", offsetof(BesideBlock, pixelsPerTexel)},
+            {"divider", offsetof(BesideBlock, divider)},
+            {"full", offsetof(BesideBlock, full)},
+            {"encode", offsetof(BesideBlock, encode)},
+            {"right", offsetof(BesideBlock, right)}};
+        static const graph::BlockLayout layout{"BesideBlock", sizeof(BesideBlock), members};
+        return layout;
+    }
+};
+
+// How a quantity is shown as a picture. Light is exposed and encoded; the rest is brought into [0, 1].
+DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
+    DisplayBlock block;
+    switch (scene.view.show) {
+    case Aov::Color:
+    case Aov::Irradiance:
+    case Aov::Radiosity:
+        block.scale = vec4(std::exp2(scene.view.exposure));
+        block.encode = 1;
+        break;
+    case Aov::Illumination:
+    case Aov::Visibility:
+        block.isScalar = 1;
+        block.encode = 1;
+        break;
+    case Aov::Iterations: // white at 128 steps
+        block.isScalar = 1;
+        block.scale = vec4(1.0f / 128);
+        break;
+    case Aov::Layers: // white at 16 interfaces
+        block.scale = vec4(1.0f / 16);
+        break;
+    case Aov::Lost:
+    case Aov::LayerObject:
+        break;
+    case Aov::CausticMap: // in false colours, by doublings
+        block.scale = vec4(1 / std::log2(kMapBrightest / kMapDarkest));
+        block.shift = -std::log2(kMapDarkest) * block.scale;
+        block.encode = block.isHeat = 1;
+        break;
+    case Aov::Normal:
+    case Aov::Direction:
+    case Aov::LayerNormal:
+        block.scale = vec4(0.5f);
+        block.shift = vec4(0.5f);
+        break;
+    case Aov::Depth:
+    case Aov::LayerDepth:
+    case Aov::Position: { // over the objects' extent: nearest or lowest black, farthest or highest white
+        views::Bounds bounds;
+        for (const scene::Object& object : scene.objects) {
+            const views::Bounds one = views::boundsOf(object);
+            bounds.add(one.low);
+            bounds.add(one.high);
+        }
+        vec3 low = bounds.low, high = bounds.high;
+        if (scene.view.show != Aov::Position) {
+            const float middle = glm::dot(bounds.center() - eye.position, eye.forward);
+            low = vec3(middle - bounds.radius());
+            high = vec3(middle + bounds.radius());
+        }
+        const vec3 extent = glm::max(high - low, vec3(1e-9f));
+        block.scale = vec4(1.0f / extent, 1);
+        block.shift = vec4(-low / extent, 0);
+        break;
+    }
+    }
+    return block;
+}
+
+} // namespace
+
+Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene,
+                                      graph::TextureId target, bool linear) {
+    std::vector<std::string> defines;
+    if (linear) defines.push_back("LINEAR");
+    if (composed) defines.push_back("COMPOSED");
+    Result<const gl::Program*> program = context.program("frame/display", defines);
+    if (!program) return program.error();
+    const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
+    DisplayBlock block = displayOf(scene, eye);
+    if (linear) {
+        block.scale = vec4(1);
+        block.shift = vec4(0);
+        block.isHeat = 0;
+    }
+    const graph::TextureId surfaceId =
+        graph.import(shownSurface.handle(), shownSurface.desc(), shownSurface.label());
+    const graph::TextureId shownId = graph.import(picture().handle(), picture().desc(), picture().label());
+    graph.addPass("frame.display", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(linear ? "linear values for a file" : "exposure, clamp and sRGB curve for the display");
+        pass.sample(surfaceId);
+        pass.sample(shownId);
+        pass.write(target);
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uSurface", resources[surfaceId]}, {"uSum", resources[shownId]}}});
+        };
+    });
+    graph.keep(target);
+    return Done{};
+}
+
+void Renderer::State::takeTruth(const Beside& beside) {
+    const TextureDesc desc{.size = beside.truth.size(), .format = Format::RGBA32F};
+    const bool fits = truth && truth.desc() == desc;
+    if (fits && truthNumber == beside.number) return;
+    if (!fits) truth = graph::Texture(context.device(), desc, "frame.truth");
+    context.device().upload(truth.handle(), 0, beside.truth.pixels);
+    truthNumber = beside.number;
+}
+
+Status Renderer::State::recordBeside(graph::FrameGraph& graph, const scene::Scene& scene,
+                                     const Beside& beside, const graph::Texture& linear) {
+    Result<const gl::Program*> program = context.program("frame/beside", {});
+    if (!program) return program.error();
+    const auto import = [&](const graph::Texture& texture) {
+        return graph.import(texture.handle(), texture.desc(), texture.label());
+    };
+    const graph::TextureId pictureId = import(linear), truthId = import(truth);
+    const TextureDesc screen{.size = beside.screen, .format = Format::RGBA8};
+    const graph::TextureId target = graph.import(graph::TextureHandle::Screen, screen, "screen");
+    if (Status recorded = recordDisplay(graph, scene, pictureId, true); !recorded) return recorded;
+
+    const DisplayBlock shown = displayOf(scene, views::makeEye(scene, float(size.x) / float(size.y)));
+    BesideBlock block;
+    block.scale = shown.scale;
+    block.shift = shown.shift;
+    block.encode = shown.encode;
+    block.corner = {beside.corner.x,
+                    float(beside.screen.y) - beside.corner.y - float(size.y) * beside.pixelsPerTexel};
+    block.pixelsPerTexel = beside.pixelsPerTexel;
+    block.divider = beside.divider;
+    block.full = beside.full;
+    block.right = int(beside.right);
+    graph.addPass("frame.beside", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("the picture beside its truth");
+        pass.sample(pictureId);
+        pass.sample(truthId);
+        pass.write(target);
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uPicture", resources[pictureId]}, {"uTruth", resources[truthId]}}});
+        };
+    });
+    graph.keep(target);
+    return Done{};
+}
+
+Result<Image> Renderer::State::display(const scene::Scene& scene, bool linear) {
+    const graph::Texture target(context.device(),
+                                {.size = size, .format = linear ? Format::RGBA32F : Format::RGBA8},
+                                "frame.picture");
+    const Status status = runGraph([&](graph::FrameGraph& graph) {
+        return recordDisplay(graph, scene, graph.import(target.handle(), target.desc(), target.label()),
+                             linear);
+    });
+    if (!status) return status.error();
+    return context.device().read(target.handle());
+}
+
+} // namespace lucent::frame

@@ -1,0 +1,43 @@
+#include "frame/SurfaceKey.h"
+
+#include "views/Surface.h"
+
+namespace lucent::frame {
+
+namespace {
+
+SurfaceKey::Object keyOf(const scene::Object& object, float time) {
+    SurfaceKey::Object key{nullptr, nullptr, {}, object.transform.worldFromObject(), object.visible};
+    if (object.isField()) {
+        const scene::HeightField& field = object.field();
+        key.shape = field.heights;
+        key.mask = field.alpha;
+        key.numbers = {field.width, field.heightScale};
+        return key;
+    }
+    const std::shared_ptr<const scene::Mesh> mesh = views::meshOf(object);
+    const scene::Wave& wave = object.wave;
+    const bool waved = wave.amplitude != vec3(0);
+    key.shape = mesh;
+    key.numbers = {float(object.material.isRefractive()), waved || mesh->moves() ? time : 0};
+    if (waved)
+        for (float value : {wave.amplitude.x, wave.amplitude.y, wave.amplitude.z, wave.direction.x,
+                            wave.direction.y, wave.direction.z, wave.wavelength, wave.period})
+            key.numbers.push_back(value);
+    return key;
+}
+
+} // namespace
+
+SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t waters) {
+    SurfaceKey key{{},
+                   views::makeEye(scene, float(size.x) / float(size.y)).clipFromWorld,
+                   size,
+                   isGeometric(scene.view.show),
+                   waters};
+    for (const scene::Object& object : scene.objects)
+        key.objects.push_back(keyOf(object, scene.view.time));
+    return key;
+}
+
+} // namespace lucent::frame

@@ -1,0 +1,32 @@
+#pragma once
+/// What the images of a view depend on: while it stays, only light has changed.
+
+#include "scene/Scene.h"
+
+namespace lucent::frame {
+
+struct SurfaceKey {
+    struct Object {
+        std::shared_ptr<const void> shape, mask;
+        std::vector<float> numbers;
+        mat4 worldFromObject;
+        bool visible;
+        bool operator==(const Object&) const = default;
+    };
+    std::vector<Object> objects;
+    mat4 clipFromWorld;
+    ivec2 size;
+    bool showsGlass;      // its surface, not what is behind
+    std::uint64_t waters; // Waters::changes()
+    bool operator==(const SurfaceKey&) const = default;
+};
+
+/// @param waters  views::Waters::changes()
+SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t waters);
+
+/// Whether a quantity is one of the surfaces alone, without light.
+inline bool isGeometric(scene::Aov aov) {
+    return aov == scene::Aov::Normal || aov == scene::Aov::Depth || aov == scene::Aov::Position;
+}
+
+} // namespace lucent::frame

@@ -1,0 +1,32 @@
+#include "scene/MaterialPresets.h"
+
+namespace lucent::scene {
+
+std::span<const MaterialPreset> materialPresets() {
+    // Compared with the table in pbrt-v4 (src/pbrt/media.cpp), which has the same 72 coefficients and no
+    // indices of refraction; those are the paper's 1.3 and 1.5.
+    static const MaterialPreset presets[] = {
+        {"apple", {2.29, 2.39, 1.97}, {0.0030, 0.0034, 0.046}, 1.3f},
+        {"chicken1", {0.15, 0.21, 0.38}, {0.015, 0.077, 0.19}, 1.3f},
+        {"chicken2", {0.19, 0.25, 0.32}, {0.018, 0.088, 0.20}, 1.3f},
+        {"cream", {7.38, 5.47, 3.15}, {0.0002, 0.0028, 0.0163}, 1.3f},
+        {"ketchup", {0.18, 0.07, 0.03}, {0.061, 0.97, 1.45}, 1.3f},
+        {"marble", {2.19, 2.62, 3.00}, {0.0021, 0.0041, 0.0071}, 1.5f},
+        {"potato", {0.68, 0.70, 0.55}, {0.0024, 0.0090, 0.12}, 1.3f},
+        {"skimmilk", {0.70, 1.22, 1.90}, {0.0014, 0.0025, 0.0142}, 1.3f},
+        {"skin1", {0.74, 0.88, 1.01}, {0.032, 0.17, 0.48}, 1.3f},
+        {"skin2", {1.09, 1.59, 1.79}, {0.013, 0.070, 0.145}, 1.3f},
+        {"spectralon", {11.6, 20.4, 14.9}, {0, 0, 0}, 1.3f},
+        {"wholemilk", {2.55, 3.21, 3.77}, {0.0011, 0.0024, 0.014}, 1.3f},
+    };
+    return presets;
+}
+
+void apply(const MaterialPreset& preset, Material& material) {
+    constexpr double kPerMetre = 1000;
+    material.scattering = vec3(kPerMetre * preset.scattering / (1 - double(material.anisotropy)));
+    material.setAbsorption(vec3(kPerMetre * preset.absorption));
+    material.ior = preset.ior;
+}
+
+} // namespace lucent::scene

@@ -1,0 +1,198 @@
+#include "subsurface/Points.h"
+
+#include "base/Log.h"
+#include "views/ShadowMap.h"
+#include "views/Surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace lucent::subsurface {
+
+using graph::Format;
+using graph::TextureId;
+
+namespace {
+
+struct FluxBlock {
+    views::ViewBlock view;
+    vec4 color{0}, axis{0};
+    vec4 sky[9] = {};
+    vec2 cone{0};
+    int object = 0;
+    float ior = 1;
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = views::viewMembers(offsetof(FluxBlock, view));
+            list.insert(list.end(), {{"color", offsetof(FluxBlock, color)},
+                                     {"axis", offsetof(FluxBlock, axis)},
+                                     {"sky", offsetof(FluxBlock, sky)},
+                                     {"cone", offsetof(FluxBlock, cone)},
+                                     {"object", offsetof(FluxBlock, object)},
+                                     {"ior", offsetof(FluxBlock, ior)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"FluxBlock", sizeof(FluxBlock), members};
+        return layout;
+    }
+};
+
+struct MergeBlock {
+    float width;
+    int perspective;
+    int padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {
+            {"width", offsetof(MergeBlock, width)}, {"perspective", offsetof(MergeBlock, perspective)}};
+        static const graph::BlockLayout layout{"MergeBlock", sizeof(MergeBlock), members};
+        return layout;
+    }
+};
+
+constexpr const char* kPlace = "subsurface.place";
+constexpr const char* kFlux = "subsurface.flux";
+constexpr const char* kNormal = "subsurface.normal";
+
+Level createLevel(graph::PassBuilder& pass, ivec2 size) {
+    const graph::TextureDesc desc{.size = size, .format = Format::RGBA32F};
+    return {pass.createColor(kPlace, desc), pass.createColor(kFlux, desc), pass.createColor(kNormal, desc),
+            size};
+}
+
+Result<Level> recordMerge(graph::FrameGraph& graph, gl::Context& context, const Level& fine,
+                          const MergeBlock& block) {
+    Result<const gl::Program*> program = context.program("subsurface/merge");
+    if (!program) return program.error();
+    Level level;
+    graph.addPass("subsurface.merge", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("points for four blocks each");
+        for (const TextureId id : {fine.place, fine.flux, fine.normal})
+            pass.sample(id);
+        level = createLevel(pass, (fine.size + 1) / 2);
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uPlace", resources[fine.place]},
+                                        {"uFlux", resources[fine.flux]},
+                                        {"uNormal", resources[fine.normal]}}});
+        };
+    });
+    return level;
+}
+
+Result<Points> recordPoints(graph::FrameGraph& graph, gl::Context& context, const FluxBlock& block,
+                            TextureId surface, bool fromSky, ivec2 size, int levels,
+                            const std::string& name) {
+    Result<const gl::Program*> program = context.program(
+        "subsurface/flux", fromSky ? std::vector<std::string>{"FROM_SKY"} : std::vector<std::string>{});
+    if (!program) return program.error();
+    Points points;
+    graph.addPass("subsurface.flux", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("light that enters object \"" + name + "\"");
+        pass.sample(surface);
+        points.push_back(createLevel(pass, size));
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw(
+                {.program = program, .block = block, .textures = {{"uSurface", resources[surface]}}});
+        };
+    });
+    float width = std::max(glm::length(vec3(block.view.right)), glm::length(vec3(block.view.up)));
+    while (int(points.size()) < levels && points.back().size != ivec2(1)) {
+        width *= 2;
+        Result<Level> level = recordMerge(graph, context, points.back(), {width, int(block.view.eye.w)});
+        if (!level) return level.error();
+        points.push_back(*level);
+    }
+    return points;
+}
+
+FluxBlock blockOf(const views::Eye& eye, ivec2 size, const views::PosedMesh& object) {
+    FluxBlock block{.view = views::viewBlock(eye, size)};
+    block.object = object.drawn.index;
+    block.ior = object.drawn.object->material.ior;
+    return block;
+}
+
+Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::Eye& eye,
+                  const views::PosedMesh& object, ivec2 size, TextureId before, TextureId& layer) {
+    Result<const gl::Program*> program = context.program(
+        "subsurface/peel", before ? std::vector<std::string>{} : std::vector<std::string>{"PEEL_FIRST"});
+    if (!program) return program.error();
+    graph.addPass("subsurface.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("a surface of object \"" + object.drawn.object->name + "\" that the environment lights");
+        pass.sample(object.positions);
+        pass.sample(object.normals);
+        if (before) pass.sample(before);
+        layer = pass.createColor("subsurface.layer", {.size = size, .format = Format::RGBA32F});
+        pass.clear(layer, vec4(0));
+        pass.clear(pass.createDepth("subsurface.depth", size, Format::Depth32F), 1.0f);
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{.depthTest = graph::DepthTest::Less};
+            if (before) draw.textures.push_back({"uBefore", resources[before]});
+            drawMesh(commands, *program, resources, object, eye, size, object.drawn.index, std::move(draw));
+        };
+    });
+    return Done{};
+}
+
+} // namespace
+
+ivec2 pixelsOf(const views::Eye& eye, const views::Bounds& object, const Grid& grid) {
+    const float farthest = glm::dot(object.center() - eye.position, eye.forward) + object.radius();
+    const vec2 extent = 2.0f * eye.halfExtent * (eye.perspective ? farthest : 1.0f);
+    const vec2 wanted = glm::ceil(extent / grid.pixel);
+    const float most = std::max(wanted.x, wanted.y);
+    if (most > float(grid.most))
+        warnOnce("subsurface: a light's view asks for " + std::to_string(std::int64_t(most)) +
+                 " pixels a side; " + std::to_string(grid.most) + " are drawn, and its light is patchy");
+    return glm::clamp(ivec2(glm::min(wanted, vec2(float(grid.most)))), ivec2(1), ivec2(grid.most));
+}
+
+Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const views::LampPoint& lamp,
+                         const views::Eye& face, const views::PosedMesh& object,
+                         const std::vector<views::PosedMesh>& casters, const Grid& grid) {
+    const ivec2 size = pixelsOf(face, views::boundsOf(*object.drawn.object), grid);
+    const TextureId surface = graph.create("subsurface.lit", {.size = size, .format = Format::RGBA32F});
+    if (Status s = views::recordSurface(graph, context, face, {}, casters, surface, size); !s)
+        return s.error();
+    FluxBlock block = blockOf(face, size, object);
+    block.color = vec4(lamp.color, lamp.exponent);
+    block.axis = vec4(lamp.axis, lamp.fades);
+    block.cone = lamp.cone;
+    return recordPoints(graph, context, block, surface, false, size, grid.levels, object.drawn.object->name);
+}
+
+Result<std::vector<Points>> recordSky(graph::FrameGraph& graph, gl::Context& context, const views::Eye& axis,
+                                      const views::PosedMesh& object, int layers,
+                                      const std::array<vec3, 9>& sky, const Grid& grid) {
+    const ivec2 size = pixelsOf(axis, views::boundsOf(*object.drawn.object), grid);
+    FluxBlock block = blockOf(axis, size, object);
+    std::transform(sky.begin(), sky.end(), block.sky, [](vec3 one) { return vec4(one, 0); });
+    std::vector<Points> list;
+    TextureId before;
+    for (int i = 0; i < layers; ++i) {
+        TextureId layer;
+        if (Status s = recordPeel(graph, context, axis, object, size, before, layer); !s) return s.error();
+        Result<Points> points =
+            recordPoints(graph, context, block, layer, true, size, grid.levels, object.drawn.object->name);
+        if (!points) return points.error();
+        list.push_back(std::move(*points));
+        before = layer;
+    }
+    return list;
+}
+
+std::array<views::Eye, 3> axesOf(const views::Bounds& object, int size) {
+    std::array<views::Eye, 3> axes;
+    for (int i = 0; i < 3; ++i) {
+        views::ShadowSource source{.place = vec4(0)};
+        source.place[i] = 1;
+        axes[std::size_t(i)] = views::shadowViews(source, object, object, size).faces.front();
+    }
+    return axes;
+}
+
+} // namespace lucent::subsurface

@@ -1,0 +1,50 @@
+#pragma once
+/// The surface of an object as a light sees it, or along an axis, as points that hold the light that entered
+/// there (shaders/subsurface/points.glsl).
+
+#include "views/Lamps.h"
+#include "views/Meshes.h"
+
+#include <array>
+#include <vector>
+
+namespace lucent::subsurface {
+
+/// Points that each stand for a block of a view's pixels.
+struct Level {
+    graph::TextureId place, flux, normal;
+    ivec2 size{0};
+};
+
+/// Levels of the same light, finest first; a block of one is four of the level before.
+using Points = std::vector<Level>;
+
+/// How finely a view is cut.
+struct Grid {
+    float pixel = 0; ///< m on a surface that faces the view: width of a block of the finest level
+    int levels = 1;  ///< at most; fewer where a level has one block
+    int most = 0;    ///< pixels a side
+};
+/// Pixels of the finest level, for an object in this view; more than grid.most are named in a warning.
+ivec2 pixelsOf(const views::Eye& eye, const views::Bounds& object, const Grid& grid);
+
+/// Points of an object that a lamp sees.
+///
+/// @param face     one of the lamp's views of the object
+/// @param casters  all that stands in the light's way, the object among them
+Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const views::LampPoint& lamp,
+                         const views::Eye& face, const views::PosedMesh& object,
+                         const std::vector<views::PosedMesh>& casters, const Grid& grid);
+
+/// Points of all surfaces of an object behind each other along an axis, one list a layer.
+///
+/// @param axis  a view of the object along an axis
+/// @param sky   what enters by the normal (Sky.h)
+Result<std::vector<Points>> recordSky(graph::FrameGraph& graph, gl::Context& context, const views::Eye& axis,
+                                      const views::PosedMesh& object, int layers,
+                                      const std::array<vec3, 9>& sky, const Grid& grid);
+
+/// Views of an object along x, y and z.
+std::array<views::Eye, 3> axesOf(const views::Bounds& object, int size);
+
+} // namespace lucent::subsurface

@@ -1,0 +1,101 @@
+#pragma once
+/// Light that enters objects, is scattered inside and leaves them around (image-space dissertation 2007, ch.
+/// 6): points of the surface that a light sees are splatted, in the camera's view, onto all that they reach
+/// of their object. Nothing is precomputed but tables of the material.
+
+#include "diffusion/Profile.h"
+#include "graph/FrameGraph.h"
+#include "scene/Scene.h"
+#include "views/Lamps.h"
+#include "views/Surface.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lucent::subsurface {
+
+enum class Method : int { Multires, Splat, Diffusion };
+enum class DipoleGeometry : int { Planar, Offset };
+enum class Splats : int { Bound, Paper };
+enum class Exit : int { Whole, Paper };
+
+struct Settings {
+    Method method = Method::Multires;
+    diffusion::Shape profile = diffusion::Shape::Dipole;
+    DipoleGeometry dipoleGeometry = DipoleGeometry::Planar;
+    float epsilon = 0.01f; ///< error of the integral over the surface
+    Splats splats = Splats::Bound;
+    int mostSplats = 256; ///< a side of a light's view
+    Exit exit = Exit::Whole;
+    int lightSamples = 16; ///< points that stand for a lamp with a size
+    int cells = 48;        ///< along the longest side of a body, of diffusion
+};
+
+struct Inputs {
+    const scene::Scene& scene;
+    const views::Eye& eye;
+    const std::vector<views::PosedMesh>& solids;  ///< visible ones; those that scatter are drawn
+    const std::vector<views::PosedMesh>& casters; ///< all that stands in the light's way, hidden or not:
+                                                  ///< opaque, scattering, mirrors and refractive
+    graph::TextureId surface;                     ///< views.surface
+    graph::TextureHandle environment;             ///< lat-long map of scene.environment; None without one
+    graph::TextureId target;                      ///< RGBA32F
+    bool radiosity = false;                       ///< shows what leaves, W/m², not radiance
+    ivec2 size{0};
+};
+
+struct Profiled;
+
+/// Profiles of the scene's materials as textures, and what is drawn for its environment. Made once for as
+/// long as objects and settings stay.
+class Plan {
+public:
+    struct State;
+    Plan();
+    Plan(Plan&&) noexcept;
+    Plan& operator=(Plan&&) noexcept;
+    ~Plan();
+
+private:
+    friend class Subsurface;
+    std::unique_ptr<State> state_;
+};
+
+/// Radiance B F_t / (pi mean F_t), and what the surface mirrors of lamps and environment. B, what leaves, is
+/// the sum over points of R_d(distance) times the flux that entered: past everything that stands in a lamp's
+/// way, which refractive objects do as if they were opaque (as for brdf); of the environment, which nothing
+/// stands in the way of.
+///
+/// Not drawn: light that scatters once (ch. 6 leaves it out), light of caustics on scattering objects, light
+/// that scattering objects send each other, and from lamps inside of them.
+class Subsurface {
+public:
+    static const ParamTable& params();
+    /// Why the scene needs this technique; nothing when it does not.
+    static std::optional<std::string> need(const scene::Scene& scene);
+
+    explicit Subsurface(gl::Context& context) : context_(context) {}
+
+    /// Makes the tables, and counts the layers of objects where an environment shines, which reads pictures
+    /// back.
+    ///
+    /// @param meshes  visible ones
+    Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene,
+                      const std::vector<views::DrawnMesh>& meshes, const Settings& settings);
+
+    /// Adds the passes that draw the pixels of scattering objects into the target and leave the others as
+    /// they are; a: 1.
+    ///
+    /// @return  Error (Fault::Machine) for images larger than the GPU's textures
+    Status record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
+                  const Settings& settings) const;
+
+private:
+    gl::Context& context_;
+    std::vector<std::shared_ptr<const Profiled>> profiles_; // of the last plan
+};
+
+} // namespace lucent::subsurface

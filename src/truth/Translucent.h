@@ -1,0 +1,90 @@
+#pragma once
+/// Objects that scatter light inside, for the estimators that know what becomes of it there.
+
+#include "base/Math.h"
+#include "base/Result.h"
+#include "scene/Scene.h"
+#include "truth/Glass.h"
+#include "truth/Optics.h"
+#include "truth/Picture.h"
+#include "truth/RayScene.h"
+#include "truth/Sight.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace lucent::truth {
+
+/// What one colour of light finds inside an object, 1/m.
+struct Inside {
+    double scattering = 0; ///< sigma_s
+    double anisotropy = 0; ///< g
+    double absorption = 0; ///< sigma_a
+    double ior = 1;        ///< over that of the outside
+    /// sigma_s' = (1 - g) sigma_s
+    double reducedScattering() const { return (1 - anisotropy) * scattering; }
+};
+
+/// An object that scatters light inside.
+struct Body {
+    int object;                    ///< its number in the scene
+    RayScene alone;                ///< it alone, as shape 0
+    std::array<Inside, 3> insides; ///< of red, green and blue light
+    double thickness;              ///< m, of the layer below its surface; 0: none
+    double meanTransmittance; ///< of its boundary for light from all around: the mean of F_t by the cosine
+
+    /// What a radiosity is as radiance towards a place: F_t(cosine) / (pi mean F_t), 1/sr. All that leaves is
+    /// seen from somewhere.
+    ///
+    /// @param cosine  of the angle outside, [0,1]
+    double lobe(double cosine) const;
+};
+
+/// A scene with its bodies.
+class Bodies {
+public:
+    /// @param scene  must outlive this
+    /// @return       Error when nothing scatters light, or Embree cannot hold the scene
+    static Result<Bodies> create(const scene::Scene& scene);
+
+    const Optics& optics() const { return *optics_; }
+    const std::vector<Body>& all() const { return bodies_; }
+    /// Null when the object is none.
+    const Body* of(int object) const;
+
+    /// A place of a body's outside.
+    struct Place {
+        const Body* body;
+        Hit hit;
+        dvec3 viewer; ///< unit, to the eye
+    };
+    /// What the middle of a pixel shows, if it is the outside of a body.
+    std::optional<Place> seenAt(const Eye& eye, ivec2 pixel) const;
+
+private:
+    explicit Bodies(Optics optics);
+    std::unique_ptr<Optics> optics_; ///< in one place
+    std::vector<Body> bodies_;
+};
+
+/// Pictures of everything else: black where the middle of a pixel shows the outside of a body. Of the AOV
+/// color what GlassEstimator shows, to which bodies that are seen through glass or in mirrors are matt (their
+/// diffuse colour); of radiosity nothing.
+class Surroundings : public Estimator {
+public:
+    /// @param bodies  must outlive this
+    /// @return        Error for another AOV than color and radiosity, or when Embree cannot hold the scene
+    static Result<Surroundings> create(const scene::Scene& scene, const Bodies& bodies, ivec2 size,
+                                       scene::Aov aov, int samples, std::uint64_t seed);
+    Pixel solve(ivec2 pixel) const override;
+
+private:
+    Surroundings(const scene::Scene& scene, const Bodies& bodies, ivec2 size);
+    const Bodies* bodies_;
+    Eye eye_;
+    std::optional<GlassEstimator> others_;
+};
+
+} // namespace lucent::truth

@@ -1,0 +1,229 @@
+#include "truth/Walk.h"
+
+#include "truth/Interface.h"
+#include "truth/Lamps.h"
+#include "truth/Photons.h"
+#include "truth/Translucent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace lucent::truth {
+
+namespace {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A direction after Henyey and Greenstein's phase function: cosines of mean g.
+dvec3 scattered(const dvec3& direction, double g, Random& random) {
+    const double u = random.next(), angle = 2 * std::numbers::pi * random.next();
+    double cosine = 1 - 2 * u;
+    if (std::abs(g) > 1e-3) { // below, 1 / g costs digits, and the second term of its series is 1e-6
+        const double part = (1 - g * g) / (1 + g * cosine);
+        cosine = std::clamp((1 + g * g - part * part) / (2 * g), -1.0, 1.0);
+    } else {
+        cosine += 1.5 * g * (1 - cosine * cosine);
+    }
+    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    const dvec3 aside = std::abs(direction.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+    const dvec3 first = glm::normalize(glm::cross(direction, aside));
+    const dvec3 second = glm::cross(direction, first);
+    return glm::normalize(cosine * direction + sine * (std::cos(angle) * first + std::sin(angle) * second));
+}
+
+/// What becomes of the light of one ray inside a body; shares of what entered.
+struct Fate {
+    double absorbed = 0, lost = 0;
+};
+
+/// Follows light that is inside.
+///
+/// @param direction  unit, away from `place` on the boundary
+/// @param leave      called with the place and the share that leaves there
+template <class Leave>
+Fate walk(const Body& body, const Inside& inside, dvec3 place, dvec3 direction, Random& random,
+          const Leave& leave) {
+    constexpr int kMostSteps = 10'000'000; // of ways that have left an open body
+    constexpr double kFaint = 0.05;        // below, few ways go on for all: chance, not bias
+    const auto* ball = std::get_if<Sphere>(&body.alone.shape(0));
+    Fate fate;
+    double share = 1;
+    Leaving leaving{0, body.alone.gap()};
+    for (int step = 0; step < kMostSteps; ++step) {
+        const double way =
+            inside.scattering > 0 ? -std::log1p(-random.next()) / inside.scattering : kInfinity;
+        // What is straight between two places of a ball meets no surface: there is none to look for.
+        const bool within = ball && glm::distance(place + way * direction, ball->center) < ball->radius;
+        const auto hit = within ? std::nullopt : body.alone.intersect({place, direction, way}, leaving);
+        if (!hit && way == kInfinity) break;
+        const double left = share * std::exp(-inside.absorption * (hit ? hit->distance : way));
+        fate.absorbed += share - left;
+        share = left;
+        if (hit) {
+            const double cosine = glm::dot(hit->normal, direction);
+            if (cosine <= 0) break; // it is outside
+            const double mirroredShare = reflectance(std::min(cosine, 1.0), inside.ior);
+            if (mirroredShare < 1) leave(*hit, share * (1 - mirroredShare));
+            share *= mirroredShare;
+            place = hit->position;
+            direction = mirrored(direction, hit->normal);
+            leaving = {0, body.alone.gap()};
+        } else {
+            place += way * direction;
+            direction = scattered(direction, inside.anisotropy, random);
+            leaving = {};
+        }
+        if (share == 0) return fate;
+        if (share < kFaint) {
+            const double goesOn = share / kFaint;
+            if (random.next() >= goesOn) {
+                fate.absorbed += share;
+                return fate;
+            }
+            fate.absorbed -= kFaint - share; // what others gave up
+            share = kFaint;
+        }
+    }
+    fate.lost = share;
+    return fate;
+}
+
+class Walker {
+public:
+    Walker(const Bodies& bodies, const Illumination& illumination, const Eye& eye, ivec2 size,
+           const WalkOptions& options)
+        : bodies_(bodies), illumination_(illumination), eye_(eye), size_(size), options_(options) {
+        for (const Body& body : bodies.all())
+            targets_.push_back(bodies.optics().rays().around(body.object));
+    }
+
+    bool hasWork() const { return illumination_.sources() > 0; }
+
+    /// For each pixel what a watt that leaves there adds to it; 0 where none can.
+    std::vector<dvec3> worthOfAWatt() const {
+        std::vector<dvec3> worth(std::size_t(size_.x) * std::size_t(size_.y), dvec3(0));
+        for (std::size_t pixel = 0; pixel < worth.size(); ++pixel) {
+            const ivec2 at(int(pixel) % size_.x, int(pixel) / size_.x);
+            if (const auto place = bodies_.seenAt(eye_, at))
+                worth[pixel] = dvec3(valueOf(*place->body, place->hit, place->viewer));
+        }
+        return worth;
+    }
+
+    void follow(std::int64_t number, Brought& brought) const {
+        Random random(options_.seed, kPhotonStream, std::uint64_t(number));
+        const auto count = double(illumination_.sources());
+        const auto source = std::min(std::size_t(random.next() * count), illumination_.sources() - 1);
+        const Emission emission = illumination_.emit(source, targets_, random);
+        if (emission.flux == dvec3(0)) return;
+        const auto hit = bodies_.optics().rays().intersect(
+            {emission.origin, emission.direction, kInfinity, emission.begin});
+        const Body* body = hit ? bodies_.of(hit->shape) : nullptr;
+        const double cosine = body ? -glm::dot(hit->normal, emission.direction) : 0;
+        if (cosine <= 0) return;
+
+        const int channel = std::min(int(random.next() * 3), 2);
+        const double growth = emission.fades ? 1 : hit->distance * hit->distance;
+        dvec3 flux(0);
+        flux[channel] = 3 * count * growth * emission.flux[channel];
+        brought.strongest = glm::max(brought.strongest, flux);
+        enter(*body, *hit, emission.direction, std::min(cosine, 1.0), channel, flux, random, brought);
+    }
+
+private:
+    void enter(const Body& body, const Hit& hit, const dvec3& direction, double cosine, int channel,
+               const dvec3& flux, Random& random, Brought& brought) const {
+        const Inside& inside = body.insides[std::size_t(channel)];
+        const double outside = reflectance(cosine, 1 / inside.ior);
+        brought.energy.met += flux;
+        brought.energy.reflected += outside * flux;
+        const auto inward = refracted(direction, hit.normal, 1 / inside.ior);
+        if (!inward || outside == 1) return;
+        std::vector<std::pair<std::size_t, double>> seen;
+        double escaped = 0;
+        const Fate fate =
+            walk(body, inside, hit.position, *inward, random, [&](const Hit& exit, double share) {
+                escaped += share;
+                count(body, exit, share, seen);
+            });
+        const dvec3 entered = (1 - outside) * flux;
+        brought.energy.escaped += escaped * entered;
+        brought.energy.absorbed += fate.absorbed * entered;
+        brought.energy.lost += fate.lost * entered;
+
+        // What one ray leaves in a pixel at several times is one sample.
+        std::sort(seen.begin(), seen.end());
+        for (std::size_t i = 0; i < seen.size();) {
+            const std::size_t pixel = seen[i].first;
+            double value = 0;
+            for (; i < seen.size() && seen[i].first == pixel; ++i)
+                value += seen[i].second;
+            brought.add(pixel, value * entered);
+        }
+    }
+
+    /// Adds light that leaves to the pixel that sees it, over the area that it shows.
+    void count(const Body& body, Hit exit, double share,
+               std::vector<std::pair<std::size_t, double>>& seen) const {
+        exit.shape = body.object;
+        const auto at = eye_.placeOf(exit.position);
+        if (!at || !bodies_.optics().object(body.object).visible) return;
+        const dvec3 viewer = eye_.directionFrom(exit.position);
+        if (glm::dot(exit.normal, viewer) <= 0) return;
+        WorldRay sight{exit.position, viewer, eye_.distanceFrom(exit.position)};
+        sight.meetsHidden = false;
+        if (bodies_.optics().rays().occluded(sight, leavingFrom(bodies_.optics(), exit, viewer))) return;
+        const ivec2 pixel(*at);
+        seen.emplace_back(std::size_t(pixel.y) * std::size_t(size_.x) + std::size_t(pixel.x),
+                          share * valueOf(body, exit, viewer));
+    }
+
+    /// Of a watt that leaves at a place.
+    double valueOf(const Body& body, const Hit& hit, const dvec3& viewer) const {
+        const double perArea = 1 / eye_.areaOfPixel(hit.position, hit.normal);
+        if (options_.aov != scene::Aov::Color) return perArea;
+        return perArea * body.lobe(glm::dot(normalTowards(hit, viewer), viewer));
+    }
+
+    const Bodies& bodies_;
+    const Illumination& illumination_;
+    const Eye& eye_;
+    ivec2 size_;
+    WalkOptions options_;
+    std::vector<Sphere> targets_;
+};
+} // namespace
+
+Result<Picture> traceWalks(const scene::Scene& scene, ivec2 size, const WalkOptions& options,
+                           const Tile& part, const Work& work, const std::atomic<bool>& cancel) {
+    const Result<Bodies> bodies = Bodies::create(scene);
+    if (!bodies) return bodies.error();
+    // Every part has samples of its own: seeds of the command line have 32 bits.
+    const std::uint64_t seed = options.seed + (std::uint64_t(part.index) << 32);
+    const auto surroundings = Surroundings::create(scene, *bodies, size, options.aov, options.samples, seed);
+    if (!surroundings) return surroundings.error();
+    // The bar is the rays' but for its beginning.
+    constexpr double kSurroundingShare = 0.1;
+    const auto stretch = [&](double from, double to) {
+        return Work{work.threads,
+                    [&work, from, to](double share) { work.progress(glm::mix(from, to, share)); }};
+    };
+    Result<Picture> picture = render(*surroundings, size, {}, stretch(0, kSurroundingShare), cancel);
+    if (!picture) return picture.error();
+
+    const Illumination illumination(scene, bodies->optics());
+    const Eye eye(scene.camera, size);
+    const Walker walker(*bodies, illumination, eye, size, options);
+    const std::int64_t photons = part.photons(options.photons);
+    const auto follow = [&](std::int64_t number, Brought& brought) { walker.follow(number, brought); };
+    const Brought brought =
+        walker.hasWork() ? followAll(follow, size, part, photons, stretch(kSurroundingShare, 1), cancel)
+                         : Brought(size);
+    if (cancel) return Error{"truth: stopped before the picture was complete", Fault::Machine};
+    addTo(*picture, brought, walker.worthOfAWatt(), double(photons));
+    picture->energy.emplace().add(brought.energy, 1 / double(photons));
+    work.progress(1);
+    return picture;
+}
+
+} // namespace lucent::truth

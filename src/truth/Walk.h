@@ -1,0 +1,46 @@
+#pragma once
+/// Light scattered inside objects, by random walks: the physics that profiles of diffusion stand for.
+
+#include "base/Result.h"
+#include "scene/Scene.h"
+#include "truth/Picture.h"
+
+#include <atomic>
+#include <cstdint>
+
+namespace lucent::truth {
+
+struct WalkOptions {
+    scene::Aov aov = scene::Aov::Color; ///< or Radiosity
+    std::int64_t photons = 1'000'000;   ///< of the whole picture, > 0
+    int samples = 256;                  ///< of each pixel of what scatters nothing; see GlassEstimator
+    std::uint64_t seed = 0;
+};
+
+/// Rays of light from lamps and environment that enter bodies by Fresnel's equations, are scattered inside
+/// (free ways by sigma_s, directions by Henyey and Greenstein 1941 with g, absorption by e^(-sigma_a length))
+/// and meet the refracting boundary from inside: what passes it leaves, the rest is mirrored and goes on.
+///
+/// What leaves through a place that the camera sees is counted in the pixel that shows it, over the area that
+/// a pixel covers there: radiosity B without any assumption about directions. A ray towards the eye would
+/// have to be found through the boundary, which bends it; therefore the color is B F_t(w) / (pi mean F_t), by
+/// the same lobe as DipoleEstimator's, and the difference of both pictures is that of the ways inside alone.
+///
+/// Each ray has one colour, chosen by chance. Light that has left a body is not followed to others, nor is
+/// what its boundary mirrors outside, nor light that reaches it by way of glass or mirrors; light that was
+/// never scattered inside leaves as well and is counted. Bodies end at their triangles, whose own normals
+/// count, and know no layers (material.thickness); from open ones light may be lost. Where bodies overlap the
+/// first surface met is entered and the others are not there.
+///
+/// Picture::energy: met is what arrives at bodies' outsides, reflected by them outside, absorbed inside,
+/// escaped out of them again, lost given up.
+///
+/// @param part    every part is a whole picture by its own rays; merge() takes their weighted mean
+/// @param cancel  set from elsewhere to stop
+/// @return        Error for another AOV, when nothing scatters, when cancelled, or when Embree cannot hold
+/// the
+///                scene
+Result<Picture> traceWalks(const scene::Scene& scene, ivec2 size, const WalkOptions& options,
+                           const Tile& part, const Work& work, const std::atomic<bool>& cancel);
+
+} // namespace lucent::truth

@@ -1,0 +1,37 @@
+#pragma once
+/// What a person works on: the mode decides which sliders stand first and which views are offered.
+
+#include "base/Param.h"
+#include "scene/Scene.h"
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace lucent::viewer {
+
+enum class Mode : int { Relief, Refraction, Caustics };
+
+/// Part of the view, not of the scene: no undo step, not in a scene file.
+struct ModeSettings {
+    Mode mode = Mode::Relief;
+};
+
+/// "mode", which is also its path and attribute. Shown where there is something to choose.
+std::span<const Param> modeParams();
+std::string_view nameOf(Mode mode);
+BoundParam bindMode(ModeSettings& settings, const scene::Scene& scene);
+
+/// Modes that have something to do in a scene; Relief where no other has.
+std::vector<Mode> modesOf(const scene::Scene& scene);
+/// The one that a scene begins with: what its light does, as the gallery sorts it.
+Mode modeFor(const scene::Scene& scene);
+
+/// Place of a group in the panel, from 0 on; Group::None stands last.
+int placeOf(Group group, Mode mode);
+
+/// What "show" offers, spelled as scene::aovNames(): what belongs to the mode or to all of them, and what is
+/// shown.
+std::vector<std::string_view> viewsOf(Mode mode, scene::Aov shown);
+
+} // namespace lucent::viewer

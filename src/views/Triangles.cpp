@@ -1,0 +1,204 @@
+#include "views/Triangles.h"
+
+#include "views/Meshes.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <tuple>
+
+namespace lucent::views {
+
+using graph::Format;
+
+namespace {
+
+constexpr std::uint32_t kNone = TriangleTable::kNone;
+
+// For each vertex the first one at its place.
+std::vector<std::uint32_t> placesOf(const std::vector<vec3>& positions) {
+    std::vector<std::uint32_t> order(positions.size()), places(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto key = [&](std::uint32_t i) {
+        return std::tuple(positions[i].x, positions[i].y, positions[i].z);
+    };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
+        places[order[i]] = same ? places[order[i - 1]] : order[i];
+    }
+    return places;
+}
+
+// A side of a triangle, from one place to another.
+struct Side {
+    std::uint32_t from, to, number;
+    int side;
+};
+
+void joinNeighbours(TriangleTable& table, const std::vector<vec3>& positions) {
+    const std::vector<std::uint32_t> places = placesOf(positions);
+    std::vector<Side> sides;
+    sides.reserve(table.indices.size());
+    for (std::size_t i = 0; i < table.indices.size(); i += 3) {
+        const std::uint32_t* corner = &table.indices[i];
+        const auto place = [&](int k) { return places[table.sources[corner[k % 3]]]; };
+        if (place(0) == place(1) || place(1) == place(2) || place(2) == place(0)) continue;
+        for (int k = 0; k < 3; ++k)
+            sides.push_back({place(k), place(k + 1), corner[2], k});
+    }
+    // Sides by where they begin; a neighbour's begins where this one ends.
+    std::vector<std::uint32_t> begin(positions.size() + 1, 0), slots(sides.size());
+    for (const Side& one : sides)
+        ++begin[one.from + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::size_t i = 0; i < sides.size(); ++i)
+        slots[next[sides[i].from]++] = std::uint32_t(i);
+    const auto across = [&](const Side& one) -> std::uint32_t& {
+        return table.triangles[one.number].across[std::size_t(one.side)];
+    };
+    for (const Side& one : sides)
+        for (std::uint32_t i = begin[one.to]; i < begin[one.to + 1] && across(one) == kNone; ++i) {
+            const Side& other = sides[slots[i]];
+            if (other.to != one.from || across(other) != kNone) continue;
+            across(one) = other.number;
+            across(other) = one.number;
+        }
+}
+
+struct TrianglesBlock {
+    mat4 worldFromObject, normalFromObject;
+    int first, count, padding0 = 0, padding1 = 0;
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {
+            {"worldFromObject", offsetof(TrianglesBlock, worldFromObject)},
+            {"normalFromObject", offsetof(TrianglesBlock, normalFromObject)},
+            {"first", offsetof(TrianglesBlock, first)},
+            {"count", offsetof(TrianglesBlock, count)}};
+        static const graph::BlockLayout layout{"TrianglesBlock", sizeof(TrianglesBlock), members};
+        return layout;
+    }
+};
+
+// Five numbers of three bytes in four of four: the last one is spread over the others' highest bytes.
+glm::uvec4 packed(const TriangleTable::Triangle& triangle) {
+    const std::uint32_t last = triangle.across[2];
+    return {triangle.corners[0] | last << 24, triangle.corners[1] | last >> 8 << 24,
+            triangle.across[0] | last >> 16 << 24, triangle.across[1]};
+}
+
+} // namespace
+
+TriangleTable tableOf(const scene::Mesh& mesh) {
+    TriangleTable table;
+    table.sources.resize(mesh.positions.size());
+    std::iota(table.sources.begin(), table.sources.end(), 0u);
+    table.triangles.resize(mesh.positions.size());
+    std::vector<bool> taken(mesh.positions.size());
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        std::array<std::uint32_t, 3> corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+        const auto free =
+            std::find_if(corners.begin(), corners.end(), [&](std::uint32_t c) { return !taken[c]; });
+        if (free != corners.end()) {
+            taken[*free] = true;
+            std::rotate(corners.begin(), free + 1, corners.end()); // the free one comes last
+        } else {
+            const auto copy = std::uint32_t(table.sources.size());
+            table.sources.push_back(corners[2]);
+            table.triangles.emplace_back();
+            corners[2] = copy;
+        }
+        table.triangles[corners[2]].corners = {corners[0], corners[1]};
+        table.indices.insert(table.indices.end(), corners.begin(), corners.end());
+    }
+    joinNeighbours(table, mesh.positions);
+    return table;
+}
+
+TriangleTextures::TriangleTextures(gl::Context& context, const scene::Mesh& mesh) {
+    gl::Device& device = context.device();
+    TriangleTable table = tableOf(mesh);
+    count_ = int(table.sources.size());
+    indices_ = graph::Indices(device, table.indices, "views.triangleIndices");
+    const ivec2 size = vertexImageSize(table.sources.size());
+    const std::size_t texels = std::size_t(size.x) * std::size_t(size.y);
+    sources_ = graph::Texture(device, {.size = size, .format = Format::R32UI}, "views.triangleSources");
+    links_ = graph::Texture(device, {.size = size, .format = Format::RGBA32UI}, "views.triangleLinks");
+    table.sources.resize(texels, 0);
+    table.triangles.resize(texels);
+    std::vector<glm::uvec4> links(texels);
+    std::transform(table.triangles.begin(), table.triangles.end(), links.begin(), packed);
+    device.upload(sources_.handle(), 0, table.sources);
+    device.upload(links_.handle(), 0, links);
+}
+
+std::size_t TriangleTextures::bytes() const {
+    return sources_.desc().bytes() + links_.desc().bytes() + 4 * std::size_t(indices_.count());
+}
+
+Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vector<PosedMesh>& meshes) {
+    int rows = 0;
+    for (PosedMesh& mesh : meshes)
+        if (const TriangleTextures* triangles = mesh.drawn.mesh->triangles()) {
+            mesh.firstCorner = rows * kVerticesPerRow;
+            rows += triangles->sources().desc().size.y;
+        }
+    if (rows == 0) return Done{};
+    const int most = std::min(context.caps().maxTextureSize, int(kNone) / kVerticesPerRow);
+    if (rows > most)
+        return Error{"views: refractive meshes of " + std::to_string(rows) + " rows of " +
+                         std::to_string(kVerticesPerRow) + " corners; must be at most " +
+                         std::to_string(most) + " on this GPU",
+                     Fault::Machine};
+    Result<const gl::Program*> program = context.program("views/triangles");
+    if (!program) return program.error();
+    graph.addPass("views.triangles", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("triangles of the refractive objects, which rays meet in the end");
+        const ivec2 size(kVerticesPerRow, rows);
+        const graph::TextureDesc floats{.size = size, .format = Format::RGBA32F};
+        const TriangleImages images{
+            pass.createColor("views.corners", floats), pass.createColor("views.cornerNormals", floats),
+            pass.createColor("views.links", {.size = size, .format = Format::RGBA32UI})};
+        for (PosedMesh& mesh : meshes) {
+            if (!mesh.drawn.mesh->triangles()) continue;
+            pass.sample(mesh.positions);
+            pass.sample(mesh.normals);
+            mesh.triangles = images;
+        }
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            for (const PosedMesh& mesh : meshes) {
+                const TriangleTextures* triangles = mesh.drawn.mesh->triangles();
+                if (!triangles) continue;
+                const scene::Transform& transform = mesh.drawn.object->transform;
+                const ivec2 part = triangles->sources().desc().size;
+                commands.draw({.program = program,
+                               .region = {0, mesh.firstCorner / kVerticesPerRow, part},
+                               .block = TrianglesBlock{transform.worldFromObject(),
+                                                       mat4(rotationFromDegrees(transform.rotate)),
+                                                       mesh.firstCorner, triangles->count()},
+                               .textures = {{"uPositions", resources[mesh.positions]},
+                                            {"uNormals", resources[mesh.normals]},
+                                            {"uSources", triangles->sources().handle()},
+                                            {"uTable", triangles->links().handle()}}});
+            }
+        };
+    });
+    return Done{};
+}
+
+void sampleTriangles(graph::PassBuilder& pass, const TriangleImages& images) {
+    pass.sample(images.corners);
+    pass.sample(images.normals);
+    pass.sample(images.links);
+}
+
+std::vector<graph::Binding> triangleBindings(const graph::Resources& resources,
+                                             const TriangleImages& images) {
+    return {{"uCorners", resources[images.corners]},
+            {"uCornerNormals", resources[images.normals]},
+            {"uLinks", resources[images.links]}};
+}
+
+} // namespace lucent::views

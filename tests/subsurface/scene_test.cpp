@@ -1,0 +1,134 @@
+// Whole scenes in which light scatters: only the passes that they need, and scattering objects among others.
+#include "frame/Renderer.h"
+#include "tests/support/Gl.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lucent::frame {
+namespace {
+
+struct Scattering : support::GlTest {
+    scene::Scene scene;
+
+    Scattering() {
+        scene.size = {48, 48};
+        scene.camera.eye = {0, 0, 1};
+        scene.camera.height = 0.05f;
+        for (const ParamTable* table : techniques())
+            scene.technique.emplace(std::string(table->name), Settings(*table));
+        scene.lights = {scene::DistantLight{.direction = {-0.3f, -1, -0.5f}}};
+        add("ball", scene::Sphere{0.01f}).material.scattering = vec3(2000);
+        scene.objects[0].material.setAbsorption(vec3(100));
+    }
+    scene::Object& add(const char* name, scene::Shape shape, vec3 centre = vec3(0)) {
+        scene::Object object;
+        object.name = name;
+        object.shape = std::move(shape);
+        object.transform.translate = centre;
+        scene.objects.push_back(object);
+        return scene.objects.back();
+    }
+    std::string explained() {
+        Renderer renderer(*context);
+        const Result<std::string> text = renderer.explain(scene, scene.size);
+        EXPECT_TRUE(text.ok()) << text.error().message;
+        return *text;
+    }
+    bool runs(const std::string& pass) { return explained().find("\n  " + pass + ":") != std::string::npos; }
+    Image picture(scene::Aov aov = scene::Aov::Radiosity) {
+        Renderer renderer(*context);
+        scene.view.show = aov;
+        EXPECT_TRUE(renderer.finish(scene, 1, scene.size).ok());
+        Result<Image> image = renderer.read(scene, aov);
+        EXPECT_TRUE(image.ok());
+        return std::move(*image);
+    }
+};
+
+float sumOf(const Image& image) {
+    float sum = 0;
+    for (std::size_t i = 1; i < image.pixels.size(); i += 4)
+        sum += image.pixels[i];
+    return sum;
+}
+
+TEST_F(Scattering, ABallRunsNoPassOfOpaqueSurfaces) {
+    EXPECT_TRUE(runs("subsurface.splat"));
+    EXPECT_TRUE(runs("subsurface.shade"));
+    EXPECT_TRUE(runs("subsurface.highlight"));
+    EXPECT_FALSE(runs("brdf.shade"));
+    EXPECT_FALSE(runs("subsurface.peel")); // no environment
+    EXPECT_NE(explained().find("subsurface: light scatters inside object \"ball\""), std::string::npos);
+}
+
+TEST_F(Scattering, AFloorBesideItIsShadedAsEverAndABallThatIsHiddenStillCastsItsShadow) {
+    scene::Object& floor = add("floor", scene::Plane{{0.04f, 0.04f}}, {0, -0.012f, 0});
+    floor.transform.rotate = {60, 0, 0};
+    EXPECT_TRUE(runs("brdf.shade"));
+    EXPECT_GT(sumOf(picture()), 0);
+    scene.objects[0].visible = false;
+    EXPECT_FALSE(runs("subsurface.shade"));
+    EXPECT_EQ(sumOf(picture()), 0);
+    const float shadowed = sumOf(picture(scene::Aov::Color));
+    scene.objects.erase(scene.objects.begin());
+    EXPECT_LT(shadowed, sumOf(picture(scene::Aov::Color)));
+}
+
+TEST_F(Scattering, WhatALampDoesNotSeeStaysDark) {
+    // A spot that shines past the ball.
+    scene.lights = {scene::SpotLight{.position = {0.1f, 0, 0}, .direction = {0, 1, 0}}};
+    EXPECT_EQ(sumOf(picture()), 0);
+    scene.lights = {scene::SpotLight{.position = {0.1f, 0, 0}, .direction = {-1, 0, 0}}};
+    EXPECT_GT(sumOf(picture()), 0);
+    // Something opaque before it.
+    add("blind", scene::Box{{0.005f, 0.05f, 0.05f}}, {0.04f, 0, 0});
+    EXPECT_EQ(sumOf(picture()), 0);
+}
+
+TEST_F(Scattering, AWaveMovesItsLightAlong) {
+    scene.objects[0].wave = {
+        .amplitude = {0, 0.004f, 0}, .direction = {1, 0, 0}, .wavelength = 0.02f, .period = 1};
+    const Image still = picture();
+    scene.view.time = 0.25f;
+    const Image moved = picture();
+    EXPECT_GT(sumOf(still), 0);
+    EXPECT_NE(still.pixels, moved.pixels);
+    EXPECT_NEAR(sumOf(moved) / sumOf(still), 1, 0.5); // the same body in another shape
+}
+
+TEST_F(Scattering, TwoMaterialsAtOnceAreEachAsTheyAreAlone) {
+    // Side by side along the light, which comes from above.
+    scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
+    scene.objects[0].transform.translate = {-0.012f, 0, 0};
+    scene::Object& other = add("other", scene::Box{vec3(0.016f)}, {0.012f, 0, 0});
+    other.material.scattering = {500, 1500, 4000};
+    other.material.setAbsorption({300, 50, 10});
+    const Image both = picture();
+    scene.objects.pop_back();
+    const Image ball = picture();
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 24; ++x)
+            EXPECT_NEAR(both.at(x, y)[1], ball.at(x, y)[1], 1e-6);
+    EXPECT_GT(sumOf(both), 1.1f * sumOf(ball));
+}
+
+TEST_F(Scattering, AnEnvironmentPeelsItsSurfacesAlongThreeAxes) {
+    scene.environment.emplace();
+    auto map = std::make_shared<Image>(8, 4, 3);
+    std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);
+    scene.environment->map = map;
+    scene.lights.clear();
+    const std::string text = explained();
+    int layers = 0;
+    for (std::size_t at = text.find("\n  subsurface.peel:"); at != std::string::npos;
+         at = text.find("\n  subsurface.peel:", at + 1))
+        ++layers;
+    EXPECT_EQ(layers, 6); // the front and the back of a ball, three times
+    const Image image = picture(scene::Aov::Color);
+    EXPECT_GT(image.at(24, 24)[1], 0.1f);
+    EXPECT_NEAR(image.at(1, 1)[1], 0.5f, 1e-3); // behind it the environment itself
+}
+
+} // namespace
+} // namespace lucent::frame
