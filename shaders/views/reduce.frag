@@ -21,10 +21,9 @@ layout(location = 0) out vec2 oBlock;
 // By how much a surface's depth differs between the middle and the corner of a pixel. A surface seen edge-on ends
 // before that: at most so many pixels deep.
 const float kDeepest = 16.0;
-float depthWithin(ivec2 pixel, vec4 texel) {
-    vec3 n = normalOf(texel);
+float depthWithin(ivec2 pixel, float depth, vec3 n) {
     bool perspective = reduction.view.eye.w > 0.5;
-    float scale = perspective ? texel.x : 1.0;
+    float scale = perspective ? depth : 1.0;
     vec3 ray = placeFrom(reduction.view, vec2(pixel) + 0.5, 1.0);
     float facing = abs(dot(n, perspective ? ray : reduction.view.forward.xyz));
     float across = 0.5 * scale * (abs(dot(n, reduction.view.right.xyz)) + abs(dot(n, reduction.view.up.xyz)));
@@ -41,12 +40,12 @@ void main() {
 #if defined(FROM_LAYERS)
         vec4 value = texelFetch(uFine, ivec3(texel, reduction.layer), 0);
         if (value.w == 0.0) continue;
-        float within = depthWithin(texel, value);
+        float within = depthWithin(texel, value.x, normalOf(value));
         range = vec2(min(range.x, value.x - within), max(range.y, value.x + within));
 #elif defined(FROM_SOLID)
         vec4 value = texelFetch(uFine, texel, 0);
         if (value.w == 0.0) continue;
-        float within = depthWithin(texel, value);
+        float within = depthWithin(texel, value.x, fromOctahedral(value.yz));
         range = vec2(min(range.x, value.x - within), max(range.y, value.x + within));
 #else
         vec2 value = texelFetch(uFine, ivec3(texel, reduction.layer), 0).xy;

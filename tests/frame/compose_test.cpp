@@ -131,6 +131,38 @@ TEST_F(Composed, ABallHidesNothingOfTheFieldBesideIt) {
     EXPECT_GT(seen, 100);
 }
 
+TEST_F(Composed, RaysOutOfGlassMeetTheTableRightBelowIt) {
+    // A ball on a wide table that glows red, under a blue sky: whatever leaves the ball steeply downwards is
+    // red.
+    scene.size = {360, 360};
+    scene.camera.eye = {0, 1.15f, 3.1f};
+    scene.camera.target = {0, 0.42f, 0};
+    addBall();
+    scene.objects[0].shape = scene::Sphere{.radius = 0.5f};
+    scene.objects[0].transform.translate = {0, 0.501f, 0};
+    scene::Object table;
+    table.name = "table";
+    table.shape = scene::Plane{{8, 8}};
+    table.material.base = {1, 0, 0};
+    table.material.diffuse = vec3(0);
+    scene.objects.push_back(table);
+    auto sky = std::make_shared<Image>(8, 4, 3);
+    for (std::size_t i = 2; i < sky->pixels.size(); i += 3)
+        sky->pixels[i] = 1;
+    scene.environment->map = sky;
+    scene.objects[0].material.fresnel = false;
+    const Image color = picture(), direction = picture(scene::Aov::Direction);
+    int steep = 0, missed = 0;
+    for (int y = 0; y < 360; ++y)
+        for (int x = 0; x < 360; ++x)
+            if (direction.at(x, y)[3] > 0 && direction.at(x, y)[1] < -0.5f) {
+                ++steep;
+                missed += color.at(x, y)[0] < 0.9f;
+            }
+    EXPECT_GT(steep, 4000);
+    EXPECT_EQ(missed, 0);
+}
+
 TEST_F(Composed, GeometryIsThatOfTheFirstThingGlassToo) {
     addFloor();
     addBall();
