@@ -332,11 +332,13 @@ Status bench(const BenchOptions& options) {
         if (Status proved = proveCaustics(**context, options, report); !proved) return proved;
     report.ratios.push_back({"MB resident with a relief of 512^2 texels", peakMB, 256, false});
     std::fputs(report.text().c_str(), stdout);
+    // The figures first: minutes of measuring are not lost with a page that cannot be made.
     const std::string json = report.json();
+    if (Status written = writeAll({{(folder / "bench.json").string(), toBytes(json)}}); !written)
+        return written;
     const Result<std::string> page = reportPage({json});
     if (!page) return page.error();
-    return writeAll({{(folder / "bench.json").string(), toBytes(json)},
-                     {(folder / "report.html").string(), toBytes(*page)}});
+    return writeAll({{(folder / "report.html").string(), toBytes(*page)}});
 }
 
 } // namespace
