@@ -69,16 +69,6 @@ struct ShadeBlock {
     }
 };
 
-views::Bounds boundsOfAll(const std::vector<views::PosedMesh>& meshes) {
-    views::Bounds all;
-    for (const views::PosedMesh& mesh : meshes) {
-        const views::Bounds one = views::boundsOf(*mesh.drawn.object);
-        all.add(one.low);
-        all.add(one.high);
-    }
-    return all;
-}
-
 IrradianceBlock blockOf(const views::LampPoint& lamp, const views::ShadowViews& shadow, const Inputs& in) {
     IrradianceBlock block{.view = views::viewBlock(in.eye, in.size),
                           .faces = {},

@@ -15,17 +15,6 @@ inline const scene::Object& objectOf(const views::DrawnMesh& mesh) { return *mes
 inline const scene::Object& objectOf(const views::PosedMesh& mesh) { return *mesh.drawn.object; }
 
 template <class Mesh>
-views::Bounds boundsOfAll(const std::vector<Mesh>& meshes) {
-    views::Bounds all;
-    for (const Mesh& mesh : meshes) {
-        const views::Bounds one = views::boundsOf(objectOf(mesh));
-        all.add(one.low);
-        all.add(one.high);
-    }
-    return all;
-}
-
-template <class Mesh>
 std::vector<Mesh> receiversOf(std::vector<Mesh> solids) {
     std::erase_if(solids, [](const Mesh& mesh) { return objectOf(mesh).material.isMirror(); });
     return solids;

@@ -92,16 +92,6 @@ struct SpreadBlock {
     }
 };
 
-views::Bounds boundsOfAll(const std::vector<views::PosedMesh>& meshes) {
-    views::Bounds all;
-    for (const views::PosedMesh& mesh : meshes) {
-        const views::Bounds one = views::boundsOf(*mesh.drawn.object);
-        all.add(one.low);
-        all.add(one.high);
-    }
-    return all;
-}
-
 // Lowest and highest pixel that a box may cover in a picture.
 vec4 pixelsOf(const views::Eye& eye, const views::Bounds& box, ivec2 size) {
     const vec4 whole(0, 0, vec2(size));

@@ -89,16 +89,6 @@ std::vector<views::PosedMesh> scattering(const std::vector<views::PosedMesh>& so
     return list;
 }
 
-views::Bounds boundsOfAll(const std::vector<views::PosedMesh>& meshes) {
-    views::Bounds all;
-    for (const views::PosedMesh& mesh : meshes) {
-        const views::Bounds one = views::boundsOf(*mesh.drawn.object);
-        all.add(one.low);
-        all.add(one.high);
-    }
-    return all;
-}
-
 bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
 
 // Adds the highlights of one point of a lamp on all objects to those before it; or to none.

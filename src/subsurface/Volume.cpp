@@ -46,16 +46,6 @@ struct VolumeBlock {
     }
 };
 
-views::Bounds boundsOfAll(const std::vector<views::PosedMesh>& meshes) {
-    views::Bounds all;
-    for (const views::PosedMesh& mesh : meshes) {
-        const views::Bounds one = views::boundsOf(*mesh.drawn.object);
-        all.add(one.low);
-        all.add(one.high);
-    }
-    return all;
-}
-
 // 2 A of the mixed condition phi = 2 A D dphi/dn.
 double mixedCondition(double ior) {
     const double reflected = diffusion::diffuseReflectance(ior);

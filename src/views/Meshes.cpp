@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 
 namespace lucent::views {
@@ -256,6 +257,23 @@ void drawTriangles(graph::Commands& commands, const gl::Program& program, const 
     setMesh(draw, program, mesh.drawn.mesh->triangles()->indices(), mesh, eye, size, number);
     draw.textures.push_back({"uCorners", resources[mesh.triangles.corners]});
     commands.draw(draw);
+}
+
+Bounds boundsOfAll(const std::vector<DrawnMesh>& meshes) {
+    Bounds all;
+    for (const DrawnMesh& mesh : meshes) {
+        const Bounds one = boundsOf(*mesh.object);
+        all.add(one.low);
+        all.add(one.high);
+    }
+    return all;
+}
+
+Bounds boundsOfAll(const std::vector<PosedMesh>& meshes) {
+    std::vector<DrawnMesh> drawn;
+    std::transform(meshes.begin(), meshes.end(), std::back_inserter(drawn),
+                   [](const PosedMesh& mesh) { return mesh.drawn; });
+    return boundsOfAll(drawn);
 }
 
 } // namespace lucent::views

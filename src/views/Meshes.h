@@ -81,6 +81,10 @@ struct PosedMesh {
 Result<std::vector<PosedMesh>> recordPose(graph::FrameGraph& graph, gl::Context& context,
                                           const std::vector<DrawnMesh>& meshes, float time);
 
+/// The box around all of them in world space, at any time.
+Bounds boundsOfAll(const std::vector<DrawnMesh>& meshes);
+Bounds boundsOfAll(const std::vector<PosedMesh>& meshes);
+
 /// Draws one mesh with shaders/views/mesh_vertex.glsl.
 ///
 /// @param number  by which the shader calls it
