@@ -24,6 +24,9 @@ function readLink() {
 }
 
 function writeLink() {
+  // A person has just gone to another scene: that link is to be followed, not written over.
+  const { scene = current } = readLink();
+  if (scene !== current) return;
   const link = new URLSearchParams({ scene: current, ...viewer.changes });
   history.replaceState(null, '', '#' + link);
 }
@@ -36,7 +39,10 @@ function writeLinkSoon() {
 function followLink() {
   const { scene, changes } = readLink();
   const wanted = gallery.find(({ id }) => id === scene) ?? gallery[0];
-  if (scene && wanted.id !== scene) note(`There is no scene "${scene}" here`);
+  if (scene && wanted.id !== scene) {
+    note(`There is no scene "${scene}" here`);
+    history.replaceState(null, '', '#' + new URLSearchParams({ scene: wanted.id, ...changes }));
+  }
   if (wanted.id === current && viewer.loaded) {
     viewer.reset();
     applyChanges(changes);

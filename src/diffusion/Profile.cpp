@@ -10,18 +10,6 @@ namespace lucent::diffusion {
 namespace {
 constexpr double kPi = std::numbers::pi;
 
-/// Refractive share of unpolarised light through a smooth boundary (Fresnel).
-///
-/// @param cosine  of the angle outside
-double transmitted(double cosine, double ior) {
-    const double square = 1 - (1 - cosine * cosine) / (ior * ior);
-    if (square <= 0) return 0;
-    const double other = std::sqrt(square);
-    const double across = (cosine - ior * other) / (cosine + ior * other);
-    const double along = (ior * cosine - other) / (ior * cosine + other);
-    return 1 - 0.5 * (across * across + along * along);
-}
-
 /// sinh(x) / sinh(y) for 0 <= x <= y, of which both may be 0 or far beyond what exp() holds.
 double sinhRatio(double x, double y) {
     if (y == 0) return 0;
@@ -206,6 +194,15 @@ double diffuseReflectance(double ior) {
     return -0.4399 + 0.7099 * inverse - 0.3319 * inverse * inverse + 0.0636 * inverse * inverse * inverse;
 }
 
+double transmittedShare(double cosine, double ior) {
+    const double square = 1 - (1 - cosine * cosine) / (ior * ior);
+    if (square <= 0) return 0;
+    const double other = std::sqrt(square);
+    const double across = (cosine - ior * other) / (cosine + ior * other);
+    const double along = (ior * cosine - other) / (ior * cosine + other);
+    return 1 - 0.5 * (across * across + along * along);
+}
+
 double meanTransmittance(double ior) {
     // Simpson's rule; squares take the root at grazing angles, or at the critical one, out of the integrand.
     constexpr int kSteps = 256;
@@ -214,7 +211,7 @@ double meanTransmittance(double ior) {
     for (int i = 0; i <= kSteps; ++i) {
         const double t = double(i) / kSteps, cosine = first + (1 - first) * t * t;
         const double weight = i == 0 || i == kSteps ? 1 : i % 2 ? 4 : 2;
-        sum += weight * transmitted(cosine, ior) * cosine * 2 * t;
+        sum += weight * transmittedShare(cosine, ior) * cosine * 2 * t;
     }
     return 2 * (1 - first) * sum / (3 * kSteps);
 }

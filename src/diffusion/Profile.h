@@ -33,6 +33,12 @@ std::array<Medium, 3> mediaOf(const scene::Material& material);
 /// @param ior  [0.3, 3] (scene::kLeastScatteringIor and kMostScatteringIor), where the fit stays in (0, 1)
 double diffuseReflectance(double ior);
 
+/// Share of unpolarised light that a smooth boundary lets through (Fresnel's equations).
+///
+/// @param cosine  of the angle outside, [0,1]
+/// @param ior     as diffuseReflectance(), > 0
+double transmittedShare(double cosine, double ior);
+
 /// Share of light from all around outside that a smooth boundary lets through: 2 integral of F_t(c) c dc over
 /// the cosine c, with Fresnel's equations. What leaves with radiosity B is seen as B F_t(c) / (pi times
 /// this).

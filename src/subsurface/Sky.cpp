@@ -1,5 +1,6 @@
 #include "subsurface/Sky.h"
 
+#include "diffusion/Profile.h"
 #include "views/EnvironmentLights.h"
 
 #include <cmath>
@@ -15,23 +16,13 @@ std::array<float, 9> basis(vec3 n) {
     return {1, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3 * n.z * n.z - 1, n.x * n.z, n.x * n.x - n.y * n.y};
 }
 
-// Share of light that passes a smooth surface into a medium (Fresnel).
-double entering(double cosine, double ior) {
-    const double square = 1 - (1 - cosine * cosine) / (ior * ior);
-    if (square <= 0) return 0;
-    const double inside = std::sqrt(square);
-    const double across = (cosine - ior * inside) / (cosine + ior * inside);
-    const double along = (ior * cosine - inside) / (ior * cosine + inside);
-    return 1 - 0.5 * (across * across + along * along);
-}
-
 // 2 pi times the integral of F_t(c) c P_l(c) over c in [0, 1], for l = 0, 1, 2.
 std::array<double, 3> lobe(double ior) {
     constexpr int kSteps = 1024;
     std::array<double, 3> sums{};
     for (int i = 0; i < kSteps; ++i) {
         const double c = (i + 0.5) / kSteps;
-        const double weight = 2 * std::numbers::pi * entering(c, ior) * c / kSteps;
+        const double weight = 2 * std::numbers::pi * diffusion::transmittedShare(c, ior) * c / kSteps;
         sums[0] += weight;
         sums[1] += weight * c;
         sums[2] += weight * (1.5 * c * c - 0.5);
