@@ -7,7 +7,7 @@ layout(std140) uniform VolumeBlock {
     vec4 low;        // world; w: width of a cell [m]
     ivec4 cells;     // along x, y, z; w: slices in a row of the image
     ivec4 layers;    // surfaces behind each other along x, y, z
-    vec4 diffusion;  // rgb: D over the width; a: 2 A
+    vec4 diffusion;  // rgb: D over the width; a: 2 A of phi = 2 A D dphi/dn at the surface
     vec4 absorption; // rgb: sigma_a times the width
     vec4 extinction; // rgb: sigma_t' [1/m]; a: index of refraction
     vec4 albedo;     // rgb: alpha'; a: extinction by which the depths of sources are chosen [1/m]
@@ -43,4 +43,17 @@ float shareOf(ivec3 corner, vec3 between) {
     return share.x * share.y * share.z;
 }
 
+// Of light that is laid down between middles, the part of a cell that has so much volume: by distance alone, so that
+// the light keeps its place.
+float takes(float volumeInside) { return volumeInside > 0.0 ? 1.0 : 0.0; }
+
 ivec3 cornerOf(int number) { return ivec3(number & 1, (number >> 1) & 1, number >> 2); }
+
+// Flux through the surface over the fluence at a depth of so many widths below it: linear towards it, with the mixed
+// condition there. A middle may lie outside of its cell's part of the body, at a depth below 0: there what is linear
+// could change its sign, and only its slope at the surface is kept.
+vec3 leavingFrom(float depth) {
+    vec3 way = depth / volume.diffusion.rgb;
+    if (depth >= 0.0) return 1.0 / (volume.diffusion.a + way);
+    return (volume.diffusion.a - way) / (volume.diffusion.a * volume.diffusion.a);
+}

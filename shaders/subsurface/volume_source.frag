@@ -2,7 +2,7 @@
 //
 // out   oSource  [W/m²] over a face of the cell, added up
 #include "subsurface/volume.glsl"
-uniform sampler2D uInside;
+uniform sampler2D uCell;
 flat in vec3 vFlux;
 flat in vec3 vPlace;
 layout(location = 0) out vec4 oSource;
@@ -13,5 +13,5 @@ void main() {
     ivec3 base = cellsAround(vPlace, between);
     ivec3 corner = cellAt(texel) - base;
     if (any(lessThan(corner, ivec3(0))) || any(greaterThan(corner, ivec3(1)))) discard;
-    oSource = vec4(vFlux * shareOf(corner, between) * texelFetch(uInside, texel, 0).r, 1.0);
+    oSource = vec4(vFlux * shareOf(corner, between) * takes(texelFetch(uCell, texel, 0).r), 1.0);
 }

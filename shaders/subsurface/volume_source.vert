@@ -1,29 +1,34 @@
 // subsurface/volume_source.vert: light that entered at a point, laid down where it first scatters.
 //
 // in    uPlace, uFlux, uNormal  points (subsurface/points.glsl)
-//       uInside
+//       uCell
 // out   vFlux   flat; for each cell of full share
 //       vPlace  flat
 // model exponential fall along the refracted ray, in kDepths parts of equal light. A place outside the body (thin parts,
-//       grazing rays) moves to the nearest cells inside that the point has; light without any is lost
+//       grazing rays) moves back along the ray, to where the light entered at last
 #include "subsurface/volume.glsl"
 uniform sampler2D uPlace;
 uniform sampler2D uFlux;
 uniform sampler2D uNormal;
-uniform sampler2D uInside;
+uniform sampler2D uCell;
 flat out vec3 vFlux;
 flat out vec3 vPlace;
 
 const int kDepths = 4;
 
-float insideShare(vec3 place) {
+// x: what the cells around a place would take of light there; y: how much of them lies in the body.
+vec2 insideShares(vec3 place) {
     vec3 between;
     ivec3 base = cellsAround(place, between);
-    float sum = 0.0;
-    for (int i = 0; i < 8; ++i)
-        sum += shareOf(cornerOf(i), between) * texelFetch(uInside, texelOf(base + cornerOf(i)), 0).r;
+    vec2 sum = vec2(0.0);
+    for (int i = 0; i < 8; ++i) {
+        float volumeInside = texelFetch(uCell, texelOf(base + cornerOf(i)), 0).r;
+        sum += shareOf(cornerOf(i), between) * vec2(takes(volumeInside), volumeInside);
+    }
     return sum;
 }
+
+const float kWithin = 0.3; // a flat surface has half of the cells around it inside
 
 void main() {
     gl_PointSize = 2.0;
@@ -53,17 +58,19 @@ void main() {
     vec3 share = exp(-volume.extinction.rgb * (from / volume.albedo.a));
     if (!isLast) share -= exp(-volume.extinction.rgb * (to / volume.albedo.a));
 
-    vPlace = place + mean / volume.albedo.a * along;
-    float inside = insideShare(vPlace);
-    for (int i = 1; i <= 3 && inside < 0.1; ++i) {
-        vPlace = place - 0.5 * float(i) * volume.low.w * normal;
-        inside = insideShare(vPlace);
+    vec3 way = mean / volume.albedo.a * along;
+    vPlace = place + way;
+    vec2 inside = insideShares(vPlace);
+    for (int i = 0; i < 4 && inside.y < kWithin; ++i) {
+        way *= i == 3 ? 0.0 : 0.5;
+        vPlace = place + way;
+        inside = insideShares(vPlace);
     }
-    if (inside <= 0.0) return;
-    vFlux = flux * volume.albedo.rgb * share / (inside * volume.low.w * volume.low.w);
+    if (inside.x <= 0.0) return;
+    vFlux = flux * volume.albedo.rgb * share / (inside.x * volume.low.w * volume.low.w);
     vec3 between;
     ivec3 base = cellsAround(vPlace, between);
     base.z += gl_VertexID & 1;
-    vec2 size = vec2(textureSize(uInside, 0));
+    vec2 size = vec2(textureSize(uCell, 0));
     gl_Position = vec4(2.0 * vec2(texelOf(base) + 1) / size - 1.0, 0.0, 1.0);
 }

@@ -46,20 +46,29 @@ struct VolumeBlock {
     }
 };
 
-// 2 A of the mixed condition phi = 2 A D dphi/dn.
+// 2 A of the mixed condition phi = 2 A D dphi/dn, by what the boundary mirrors of the fluence and of the flux
+// of light that is even but for a drift (Haskell et al. 1994, eq. 2.3.5 to 2.3.7).
 double mixedCondition(double ior) {
-    const double reflected = diffusion::diffuseReflectance(ior);
-    return 2 * (1 + reflected) / (1 - reflected);
+    constexpr int kSteps = 1024;
+    double ofFluence = 0, ofFlux = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double inside = (i + 0.5) / kSteps; // cosine
+        const double square = 1 - (1 - inside * inside) * ior * ior;
+        const double mirrored = square > 0 ? 1 - diffusion::transmittedShare(std::sqrt(square), ior) : 1;
+        ofFluence += 2 * inside * mirrored / kSteps;
+        ofFlux += 3 * inside * inside * mirrored / kSteps;
+    }
+    return 2 * (1 + ofFlux) / (1 - ofFluence);
 }
 
-// Looks along an axis, a pixel a line of cells.
-views::Eye eyeAlong(const Cells& cells, int axis) {
+// Looks along an axis at all cells and so much more around them.
+views::Eye eyeAlong(const Cells& cells, int axis, float around = 0) {
     const vec3 extent = vec3(cells.count) * cells.width;
     views::Eye eye;
     eye.forward[axis] = 1;
     eye.right[(axis + 1) % 3] = 1;
     eye.up[(axis + 2) % 3] = 1;
-    eye.halfExtent = vec2(extent[(axis + 1) % 3], extent[(axis + 2) % 3]) / 2.0f;
+    eye.halfExtent = vec2(extent[(axis + 1) % 3], extent[(axis + 2) % 3]) / 2.0f + around;
     eye.position = cells.low + (eye.right * extent + eye.up * extent) / 2.0f;
     eye.nearest = 0;
     eye.farthest = extent[axis];
@@ -98,7 +107,7 @@ private:
         return {.size = cells_.imageSize(), .format = format};
     }
     Status columns(int axis);
-    Status find();
+    Status cut();
     Status bind();
     Status lay(const Points& points, vec4 lamp);
     Status light();
@@ -114,7 +123,7 @@ private:
     const views::Bounds bounds_;
     const Cells cells_;
     std::array<TextureId, 3> along_;
-    TextureId inside_, cell_, source_, fluence_;
+    TextureId cell_, faces_, lower_, upper_, diagonal_, source_, fluence_;
 };
 
 VolumeBlock Body::block() const {
@@ -139,8 +148,9 @@ VolumeBlock Body::block() const {
 }
 
 Status Body::columns(int axis) {
-    const views::Eye eye = eyeAlong(cells_, axis);
-    const ivec2 size(cells_.count[(axis + 1) % 3], cells_.count[(axis + 2) % 3]);
+    // A line a pixel, half a cell apart, the first and the last on the outermost edges.
+    const views::Eye eye = eyeAlong(cells_, axis, cells_.width / 4);
+    const ivec2 size = 2 * ivec2(cells_.count[(axis + 1) % 3], cells_.count[(axis + 2) % 3]) + 1;
     const int count = plan_.layers[std::size_t(axis)];
     const TextureId images = graph_.create(
         "subsurface.columns", {.size = size, .format = Format::RGBA32F, .layers = std::max(2, count)});
@@ -174,17 +184,18 @@ Status Body::columns(int axis) {
     return Done{};
 }
 
-// Which cells lie inside.
-Status Body::find() {
+// What of each cell lies inside.
+Status Body::cut() {
     for (int axis = 0; axis < 3; ++axis)
         if (Status s = columns(axis); !s) return s;
-    Result<const gl::Program*> program = context_.program("subsurface/volume_inside");
+    Result<const gl::Program*> program = context_.program("subsurface/volume_cells");
     if (!program) return program.error();
-    graph_.addPass("subsurface.inside", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("cells inside object \"" + mesh_.drawn.object->name + "\"");
+    graph_.addPass("subsurface.cells", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("cells of object \"" + mesh_.drawn.object->name + "\", cut by its surface");
         for (const TextureId id : along_)
             pass.sample(id);
-        inside_ = pass.createColor("subsurface.inside", imageDesc(Format::R32F));
+        cell_ = pass.createColor("subsurface.cells", imageDesc(Format::RGBA32F));
+        faces_ = pass.createColor("subsurface.faces", imageDesc(Format::RGBA32F));
         return [block = block(), along = along_, program = *program](const graph::Resources& resources,
                                                                      graph::Commands& commands) {
             commands.draw({.program = program, .block = block, .textures = columnBindings(resources, along)});
@@ -194,19 +205,20 @@ Status Body::find() {
 }
 
 Status Body::bind() {
-    Result<const gl::Program*> program = context_.program("subsurface/volume_cells");
+    Result<const gl::Program*> program = context_.program("subsurface/volume_bind");
     if (!program) return program.error();
-    graph_.addPass("subsurface.cells", [&](graph::PassBuilder& pass) -> graph::Execute {
+    graph_.addPass("subsurface.bind", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how cells give each other light, and the world outside");
-        for (const TextureId id : along_)
-            pass.sample(id);
-        pass.sample(inside_);
-        cell_ = pass.createColor("subsurface.cells", imageDesc(Format::RGBA32F));
-        return [block = block(), along = along_, inside = inside_,
+        pass.sample(cell_);
+        pass.sample(faces_);
+        lower_ = pass.createColor("subsurface.lower", imageDesc(Format::RGBA32F));
+        upper_ = pass.createColor("subsurface.upper", imageDesc(Format::RGBA32F));
+        diagonal_ = pass.createColor("subsurface.diagonal", imageDesc(Format::RGBA32F));
+        return [block = block(), cell = cell_, faces = faces_,
                 program = *program](const graph::Resources& resources, graph::Commands& commands) {
-            auto textures = columnBindings(resources, along);
-            textures.push_back({"uInside", resources[inside]});
-            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uCell", resources[cell]}, {"uFaces", resources[faces]}}});
         };
     });
     return Done{};
@@ -218,7 +230,7 @@ Status Body::lay(const Points& points, vec4 lamp) {
     const Level& level = points.front();
     graph_.addPass("subsurface.source", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("where light that entered object \"" + mesh_.drawn.object->name + "\" first scatters");
-        for (const TextureId id : {level.place, level.flux, level.normal, inside_})
+        for (const TextureId id : {level.place, level.flux, level.normal, cell_})
             pass.sample(id);
         if (source_) {
             pass.write(source_);
@@ -231,8 +243,8 @@ Status Body::lay(const Points& points, vec4 lamp) {
         VolumeBlock block = this->block();
         block.lamp = lamp;
         block.columns = level.size.x;
-        return [level, block, inside = inside_, program = *program](const graph::Resources& resources,
-                                                                    graph::Commands& commands) {
+        return [level, block, cell = cell_, program = *program](const graph::Resources& resources,
+                                                                graph::Commands& commands) {
             commands.draw({.program = program,
                            .vertices = 2 * kDepths * level.size.x * level.size.y,
                            .topology = graph::Topology::Points,
@@ -241,15 +253,15 @@ Status Body::lay(const Points& points, vec4 lamp) {
                            .textures = {{"uPlace", resources[level.place]},
                                         {"uFlux", resources[level.flux]},
                                         {"uNormal", resources[level.normal]},
-                                        {"uInside", resources[inside]}}});
+                                        {"uCell", resources[cell]}}});
         };
     });
     return Done{};
 }
 
-// Two points along a cell: then no cell that the light meets gets none.
+// Four points along a cell: with two the lattice shows where light grazes the surface.
 Status Body::light() {
-    const Grid grid{.pixel = cells_.width / 2, .levels = 1, .most = context_.caps().maxTextureSize};
+    const Grid grid{.pixel = cells_.width / 4, .levels = 1, .most = context_.caps().maxTextureSize};
     for (const views::LampPoint& lamp : views::lampPoints(in_.scene, settings_.lightSamples)) {
         if (lamp.color == vec3(0)) continue;
         const views::ShadowViews views =
@@ -288,18 +300,23 @@ Status Body::solve() {
         graph_.addPass("subsurface.diffuse", [&](graph::PassBuilder& pass) -> graph::Execute {
             pass.reason("light on its way through the cells, round " + std::to_string(round + 1) + " of " +
                         std::to_string(rounds.count));
-            for (const TextureId id : {cell_, source_})
+            for (const TextureId id : {diagonal_, source_})
                 pass.sample(id);
-            if (round > 0) pass.sample(now);
+            if (round > 0)
+                for (const TextureId id : {lower_, upper_, now})
+                    pass.sample(id);
             if (round > 1) pass.sample(before);
             fluence_ = pass.createColor("subsurface.fluence", imageDesc(Format::RGBA32F));
             VolumeBlock block = this->block();
             block.omega = vec4(vec3(omega), 0);
-            return [=, cell = cell_, source = source_, program = *program](const graph::Resources& resources,
-                                                                           graph::Commands& commands) {
-                std::vector<graph::Binding> textures{{"uCell", resources[cell]},
+            return [=, lower = lower_, upper = upper_, diagonal = diagonal_, source = source_,
+                    program = *program](const graph::Resources& resources, graph::Commands& commands) {
+                std::vector<graph::Binding> textures{{"uDiagonal", resources[diagonal]},
                                                      {"uSource", resources[source]}};
-                if (round > 0) textures.push_back({"uNow", resources[now]});
+                if (round > 0)
+                    textures.insert(textures.end(), {{"uLower", resources[lower]},
+                                                     {"uUpper", resources[upper]},
+                                                     {"uNow", resources[now]}});
                 if (round > 1) textures.push_back({"uBefore", resources[before]});
                 commands.draw({.program = program, .block = block, .textures = std::move(textures)});
             };
@@ -314,15 +331,15 @@ Status Body::leave(TextureId target) {
     if (!program) return program.error();
     graph_.addPass("subsurface.leave", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("what leaves object \"" + mesh_.drawn.object->name + "\" where the camera sees it");
-        for (const TextureId id : {in_.surface, inside_, fluence_})
+        for (const TextureId id : {in_.surface, cell_, fluence_})
             pass.sample(id);
         pass.write(target);
-        return [block = block(), surface = in_.surface, inside = inside_, fluence = fluence_,
+        return [block = block(), surface = in_.surface, cell = cell_, fluence = fluence_,
                 program = *program](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uSurface", resources[surface]},
-                                        {"uInside", resources[inside]},
+                                        {"uCell", resources[cell]},
                                         {"uFluence", resources[fluence]}}});
         };
     });
@@ -330,7 +347,7 @@ Status Body::leave(TextureId target) {
 }
 
 Status Body::record(TextureId target) {
-    if (Status s = find(); !s) return s;
+    if (Status s = cut(); !s) return s;
     if (Status s = bind(); !s) return s;
     if (Status s = light(); !s) return s;
     if (!source_) return Done{}; // no light meets it
@@ -343,7 +360,9 @@ Status Body::record(TextureId target) {
 Cells cellsOf(const views::Bounds& body, int along) {
     const vec3 extent = glm::max(body.high - body.low, vec3(1e-9f));
     Cells cells;
-    cells.width = std::max({extent.x, extent.y, extent.z}) / float(std::max(1, along - 2));
+    // A third of a cell less than fits: no side of a box then lies on the edges of cells, where lines may or
+    // may not meet it.
+    cells.width = std::max({extent.x, extent.y, extent.z}) / (float(std::max(2, along - 2)) - 0.3f);
     cells.count = glm::ivec3(glm::ceil(extent / cells.width)) + 2;
     cells.low = body.center() - 0.5f * vec3(cells.count) * cells.width;
     cells.across =

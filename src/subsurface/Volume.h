@@ -9,9 +9,10 @@ namespace lucent::subsurface {
 /// What leaves at each pixel of scattering objects, W/m². Each object is cut into cells, in which the
 /// diffusion equation -div(D grad phi) + sigma_a phi = Q is solved for the light that enters, with phi = 2 A
 /// D dphi/dn at its surface (Haskell et al. 1994). Light first scatters along the refracted ray, not at one
-/// depth.
+/// depth. Cells at the surface hold what of them lies inside, so that it shows no steps.
 ///
-/// Parts of a body that are thinner than a cell are dark.
+/// Parts of a body that are thinner than a cell are as bright on both sides, which thicker ones than some
+/// mean free paths are not.
 Result<Radiosity> recordVolumes(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
                                 const Plan::State& plan, const Settings& settings);
 
