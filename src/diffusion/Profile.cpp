@@ -1,9 +1,12 @@
 #include "diffusion/Profile.h"
 
+#include "diffusion/Stack.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace lucent::diffusion {
 
@@ -67,6 +70,11 @@ class Profile {
 public:
     Profile(const Medium& medium, Shape shape, double thickness)
         : medium_(medium), isBurley_(shape == Shape::Burley) {
+        if (shape == Shape::Multipole && medium.isLayered()) {
+            stack_.emplace(medium, thickness);
+            total_ = stack_->total();
+            return;
+        }
         if (medium.albedo() == 0) return;
         if (shape != Shape::Multipole) thickness = 0;
         const Layer layer(medium, thickness);
@@ -81,6 +89,7 @@ public:
 
     double at(double r) const {
         if (total_ == 0) return 0;
+        if (stack_) return stack_->at(r);
         if (isBurley_)
             return total_ * burley_ / (8 * kPi * r) * (std::exp(-burley_ * r) + std::exp(-burley_ * r / 3));
         double sum = 0;
@@ -91,6 +100,7 @@ public:
 
     double within(double r) const {
         if (total_ == 0) return 0;
+        if (stack_) return stack_->within(r);
         if (isBurley_)
             return -total_ * (0.25 * std::expm1(-burley_ * r) + 0.75 * std::expm1(-burley_ * r / 3));
         // A pole leaves -e^(-sigma d) / d as the integral of its d fall(d).
@@ -111,7 +121,23 @@ private:
     double total_ = 0;
     double burley_ = 0; ///< s over the mean free path, 1/m
     std::vector<Pole> poles_;
+    std::optional<Stack> stack_;
 };
+
+/// Integral of F_t(c) c weight(c) dc.
+template <class Weight>
+double transmitted(double ior, const Weight& weight) {
+    // Simpson's rule; squares take the root at grazing angles, or at the critical one, out of the integrand.
+    constexpr int kSteps = 256;
+    const double first = ior < 1 ? std::sqrt(1 - ior * ior) : 0;
+    double sum = 0;
+    for (int i = 0; i <= kSteps; ++i) {
+        const double t = double(i) / kSteps, cosine = first + (1 - first) * t * t;
+        const double share = i == 0 || i == kSteps ? 1 : i % 2 ? 4 : 2;
+        sum += share * transmittedShare(cosine, ior) * cosine * weight(cosine) * 2 * t;
+    }
+    return (1 - first) * sum / (3 * kSteps);
+}
 
 /// Integral over the plane of what is linear in i between the values of a table, over pi reach². The ring of
 /// r = reach u², u = (i + t) h, has the area 4 pi reach² u³ du.
@@ -178,12 +204,21 @@ double Medium::albedo() const { return extinction() > 0 ? scattering / extinctio
 
 double Medium::transport() const { return std::sqrt(3 * absorption * extinction()); }
 
+bool Medium::isLayered() const {
+    return std::any_of(above.begin(), above.end(), [](const Slab& slab) { return slab.thickness > 0; });
+}
+
 std::array<Medium, 3> mediaOf(const scene::Material& material) {
     const vec3 absorption = material.absorption();
     std::array<Medium, 3> media;
     for (int i = 0; i < 3; ++i)
         media[std::size_t(i)] = {(1 - double(material.anisotropy)) * double(material.scattering[i]),
                                  double(absorption[i]), double(material.ior)};
+    for (const scene::MediumLayer& layer : material.stackedLayers())
+        for (int i = 0; i < 3; ++i)
+            media[std::size_t(i)].above.push_back(
+                {(1 - double(layer.anisotropy)) * double(layer.scattering[i]), double(layer.absorption[i]),
+                 double(layer.ior), double(layer.thickness)});
     return media;
 }
 
@@ -204,16 +239,11 @@ double transmittedShare(double cosine, double ior) {
 }
 
 double meanTransmittance(double ior) {
-    // Simpson's rule; squares take the root at grazing angles, or at the critical one, out of the integrand.
-    constexpr int kSteps = 256;
-    const double first = ior < 1 ? std::sqrt(1 - ior * ior) : 0;
-    double sum = 0;
-    for (int i = 0; i <= kSteps; ++i) {
-        const double t = double(i) / kSteps, cosine = first + (1 - first) * t * t;
-        const double weight = i == 0 || i == kSteps ? 1 : i % 2 ? 4 : 2;
-        sum += weight * transmittedShare(cosine, ior) * cosine * 2 * t;
-    }
-    return 2 * (1 - first) * sum / (3 * kSteps);
+    return transmitted(ior, [](double) { return 2; });
+}
+
+double fluxTransmittance(double ior) {
+    return transmitted(ior, [](double cosine) { return 3 * cosine; });
 }
 
 std::vector<Pole> polesOf(const Medium& medium, double thickness, double epsilon) {
@@ -255,6 +285,7 @@ double reflectanceWithin(const Medium& medium, Shape shape, double thickness, do
 }
 
 double transmittance(const Medium& medium, double thickness, double r) {
+    if (medium.isLayered()) return Stack(medium, thickness, Stack::Side::Other).at(r);
     if (!isSlab(thickness) || medium.albedo() == 0) return 0;
     double sum = 0;
     for (const Pole& pole : polesOf(medium, thickness, 1e-6)) {
@@ -266,9 +297,16 @@ double transmittance(const Medium& medium, double thickness, double r) {
 }
 
 double totalTransmittance(const Medium& medium, double thickness) {
+    if (medium.isLayered()) return Stack(medium, thickness, Stack::Side::Other).total();
     if (!isSlab(thickness) || medium.albedo() == 0) return 0;
     const Layer layer(medium, thickness);
     return medium.albedo() * layer.share * layer.leaving(thickness - layer.depth);
+}
+
+double sourceDepth(const Medium& medium, Shape shape, double thickness) {
+    if (shape == Shape::Multipole && medium.isLayered()) return Stack(medium, thickness).depth();
+    if (medium.extinction() == 0) return 0;
+    return Layer(medium, shape == Shape::Multipole ? thickness : 0).depth;
 }
 
 double reach(const Medium& medium, Shape shape, double thickness, double epsilon, double most) {
@@ -288,8 +326,10 @@ Table tableOf(const std::array<Medium, 3>& media, Shape shape, double thickness,
               bool whole) {
     Table table{reach, {vec3(0), vec3(0)}, 0};
     if (reach == 0) return table;
-    for (const Medium& medium : media) {
-        const Profile profile(medium, shape, thickness);
+    std::vector<Profile> profiles;
+    for (const Medium& medium : media)
+        profiles.emplace_back(medium, shape, thickness);
+    for (const Profile& profile : profiles) {
         std::size_t count = 32;
         double reached = 0;
         const auto fits = [&](const Column& column) {
@@ -302,7 +342,7 @@ Table tableOf(const std::array<Medium, 3>& media, Shape shape, double thickness,
         table.values.resize(std::max(table.values.size(), count));
     }
     for (int i = 0; i < 3; ++i) {
-        const Profile profile(media[std::size_t(i)], shape, thickness);
+        const Profile& profile = profiles[std::size_t(i)];
         const Column column(profile, reach, table.values.size());
         const std::vector<double> values = column.scaledTo(whole ? profile.total() : profile.within(reach));
         for (std::size_t k = 0; k < values.size(); ++k)

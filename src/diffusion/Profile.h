@@ -12,19 +12,30 @@
 
 namespace lucent::diffusion {
 
+/// A layer of another medium.
+struct Slab {
+    double scattering = 0, absorption = 0; ///< as Medium's, 1/m
+    double ior = 1.5;                      ///< over that of the outside
+    double thickness = 0;                  ///< m; 0: not there
+};
+
 /// One colour of light in a medium; 1/m.
 struct Medium {
     double scattering = 0; ///< reduced: sigma_s' = (1 - g) sigma_s
     double absorption = 0; ///< sigma_a
     double ior = 1.5;      ///< of the inside over that of the outside, as diffuseReflectance() has it
+    /// What lies on it, the top first: of account in profiles of Shape::Multipole only, see Stack.
+    std::vector<Slab> above = {};
     double extinction() const { return scattering + absorption; } ///< sigma_t'
     /// alpha', of one collision; 0 where nothing collides.
     double albedo() const;
     /// Effective transport coefficient sqrt(3 sigma_a sigma_t').
     double transport() const;
+    /// Whether something lies on it.
+    bool isLayered() const;
 };
 
-/// The medium inside an object of this material, red, green and blue.
+/// The medium inside an object of this material, red, green and blue, and its layers.
 std::array<Medium, 3> mediaOf(const scene::Material& material);
 
 /// The share that diffuse light inside loses to reflection at the boundary, on average (Egan and Hilgeman's
@@ -46,6 +57,9 @@ double transmittedShare(double cosine, double ior);
 /// @param ior  as diffuseReflectance(), > 0
 double meanTransmittance(double ior);
 
+/// The same of a flux that changes with the cosine: 3 integral of F_t(c) c² dc.
+double fluxTransmittance(double ior);
+
 /// A source of diffuse light below (depth > 0) or above the place where light enters.
 struct Pole {
     double depth = 0;  ///< m
@@ -64,7 +78,7 @@ struct Pole {
 /// counts as no less than |depth|, as on a plane: otherwise thin sheets, whose other side may touch the pole,
 /// would have no finite answer.
 ///
-/// @param medium     which scatters or absorbs
+/// @param medium     which scatters or absorbs; layers on it have no poles and are not there
 /// @param thickness  m; 0 or infinite: a half space
 /// @param epsilon    error over the profile's largest value, (0,1)
 std::vector<Pole> polesOf(const Medium& medium, double thickness, double epsilon);
@@ -73,7 +87,8 @@ std::vector<Pole> polesOf(const Medium& medium, double thickness, double epsilon
 /// alpha' / (4 pi) (1 + sigma_tr d) e^(-sigma_tr d) / d³.
 double kernel(const Medium& medium, double d);
 
-/// Dipole and multipole as polesOf() has them; of a multipole with thickness 0 a dipole remains. Burley:
+/// Dipole and multipole as polesOf() has them; of a multipole with thickness 0 a dipole remains. A multipole
+/// with layers on the medium is Stack's; `thickness` is that of the medium below them. Burley:
 /// normalised diffusion for a beam from above (Christensen and Burley 2015, s = 1.85 - A + 7 |A - 0.8|³, with
 /// 1 / sigma_t' as the mean free path), whose A is the dipole's totalReflectance(), so that both hold the
 /// same light and only its spread differs; it knows no thickness.
@@ -88,11 +103,15 @@ double totalReflectance(const Medium& medium, Shape shape, double thickness);
 /// Its integral over a disc of radius r around the place where light enters, in closed form.
 double reflectanceWithin(const Medium& medium, Shape shape, double thickness, double r);
 
-/// What leaves a slab at the other side, 1/m²: the poles, seen from there. 0 for a half space.
+/// What leaves a slab, and what lies on it, at the other side, 1/m². 0 for a half space.
 double transmittance(const Medium& medium, double thickness, double r);
 /// Its integral over the plane in closed form. With totalReflectance() and what is absorbed it adds up to the
 /// share that collides in the slab; the rest passes straight and is no part of the profiles.
 double totalTransmittance(const Medium& medium, double thickness);
+
+/// m, of the source of diffuse light that is nearest to the surface: profiles have no detail much finer. 0
+/// where nothing collides.
+double sourceDepth(const Medium& medium, Shape shape, double thickness);
 
 /// The distance within which all but `epsilon` of the profile's integral lies (dissertation 2007, eq. 6.16
 /// with the 2 pi r that an area integral has), m; 0 where nothing scatters. Profiles that reach further

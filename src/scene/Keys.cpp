@@ -71,8 +71,14 @@ constexpr Key kMaterial[] = {
     {"absorption", KeyType::Coefficient,
      "Instead of attenuationColor and attenuationDistance: light falls by e^(-absorption * metres) [1/m]."},
     {"baseMap", KeyType::File, "Picture that multiplies the base colour."},
+    {"layers", KeyType::Content,
+     "Layers of other media on top of what scatters, the top first; the profile multipole knows them."},
     {"diffuseMap", KeyType::File, "Picture that multiplies the diffuse colour."},
     {"specularMap", KeyType::File, "Picture that multiplies the specular colour."},
+};
+constexpr Key kLayer[] = {
+    {"preset", KeyType::Preset,
+     "A measured material, for scattering, absorption and ior; keys beside it replace its values."},
 };
 
 } // namespace
@@ -145,6 +151,11 @@ const KeySet& materialKeys() {
     static const KeySet keys{{&colorParams(), &reliefParams(), &opticsParams(), &mediumParams(),
                               &refractionParams(), &scatteringParams()},
                              kMaterial};
+    return keys;
+}
+
+const KeySet& layerKeys() {
+    static const KeySet keys{{&layerParams()}, kLayer};
     return keys;
 }
 

@@ -59,6 +59,7 @@ const KeySet& viewKeys();
 const KeySet& environmentKeys();
 const KeySet& objectKeys();
 const KeySet& materialKeys();
+const KeySet& layerKeys();
 const KeySet& transformKeys();
 const KeySet& waveKeys();
 const KeySet& qualityKeys();

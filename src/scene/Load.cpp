@@ -353,8 +353,9 @@ private:
         const std::initializer_list<void*> tables = {&material, &material, &material,
                                                      &material, &material, &material};
         return readKeys(place, materialKeys(), tables) && readAbsorption(place, material) &&
-               readPreset(place, material) && keepStatus(place, check(material)) &&
-               refuseIdleKeys(place, object) &&
+               readPreset(place, material) &&
+               optional(place, "layers", &Loader::readLayers, material.layers) &&
+               keepStatus(place, check(material)) && refuseIdleKeys(place, object) &&
                readMap(place, "baseMap", material.baseMapFile, material.baseMap) &&
                readMap(place, "diffuseMap", material.diffuseMapFile, material.diffuseMap) &&
                readMap(place, "specularMap", material.specularMapFile, material.specularMap);
@@ -388,11 +389,32 @@ private:
         material.setAbsorption(read.three);
         return true;
     }
+    bool readLayers(const Place& place, std::vector<MediumLayer>& layers) {
+        const std::string expected = "a list of at most " + std::to_string(kMostMediumLayers) + " layers";
+        if (!expect(place, Json::Type::Array, expected)) return false;
+        if (place.json.items.size() > kMostMediumLayers)
+            return fail(place,
+                        " has " + std::to_string(place.json.items.size()) + " layers; must be " + expected);
+        for (std::size_t i = 0; i < place.json.items.size(); ++i)
+            if (!readLayer(place.at(place.json.items[i], std::to_string(i)), layers.emplace_back()))
+                return false;
+        return true;
+    }
     // Keys beside the preset replace its values.
-    bool readPreset(const Place& place, Material& material) {
+    bool readLayer(const Place& place, MediumLayer& layer) {
+        if (!readKeys(place, layerKeys(), {&layer})) return false;
         const Json* json = place.json.find("preset");
         if (!json) return true;
-        const Place member = place.at(*json, "preset");
+        const MaterialPreset* preset = nullptr;
+        if (!readPresetName(place.at(*json, "preset"), preset)) return false;
+        MediumLayer measured = layer;
+        apply(*preset, measured);
+        if (!place.json.find("scattering")) layer.scattering = measured.scattering;
+        if (!place.json.find("absorption")) layer.absorption = measured.absorption;
+        if (!place.json.find("ior")) layer.ior = measured.ior;
+        return true;
+    }
+    bool readPresetName(const Place& member, const MaterialPreset*& preset) {
         std::string name;
         if (!readText(member, name)) return false;
         const auto presets = materialPresets();
@@ -404,8 +426,17 @@ private:
                 (known += known.empty() ? "" : &preset == &presets.back() ? " or " : ", ") += preset.name;
             return wrongType(member, known);
         }
+        preset = &*found;
+        return true;
+    }
+    // Keys beside the preset replace its values.
+    bool readPreset(const Place& place, Material& material) {
+        const Json* json = place.json.find("preset");
+        if (!json) return true;
+        const MaterialPreset* preset = nullptr;
+        if (!readPresetName(place.at(*json, "preset"), preset)) return false;
         Material measured = material;
-        apply(*found, measured);
+        apply(*preset, measured);
         if (!place.json.find("scattering")) material.scattering = measured.scattering;
         if (!place.json.find("ior")) material.ior = measured.ior;
         if (!place.json.find("absorption") && !place.json.find("attenuationDistance")) {

@@ -224,6 +224,79 @@ const ParamTable& scatteringParams() {
     return table;
 }
 
+const ParamTable& layerParams() {
+    static const Param params[] = {
+        declare(&MediumLayer::thickness, {.id = "thickness",
+                                          .label = "Thickness",
+                                          .unit = "m",
+                                          .min = 0,
+                                          .max = kLargest,
+                                          .high = 0.005,
+                                          .group = Group::Material,
+                                          .doc = "Of the layer; 0: it is not there."}),
+        declare(&MediumLayer::order,
+                {.id = "order",
+                 .label = "Order",
+                 .min = 1,
+                 .max = kMostMediumLayers,
+                 .low = 1,
+                 .high = kMostMediumLayers,
+                 .group = Group::Material,
+                 .doc = "Layers lie from the top by rising order, those of one as they are listed."}),
+        declare(&MediumLayer::scattering,
+                {.id = "scattering",
+                 .label = "Scattering",
+                 .unit = "1/m",
+                 .min = 0,
+                 .max = kFar,
+                 .high = 5e3,
+                 .group = Group::Material,
+                 .doc = "How often light is scattered on a metre of its way, red, green and blue."}),
+        declare(&MediumLayer::absorption,
+                {.id = "absorption",
+                 .label = "Absorption",
+                 .unit = "1/m",
+                 .min = 0,
+                 .max = kFar,
+                 .high = 5e3,
+                 .group = Group::Material,
+                 .doc = "Light falls by e^(-absorption * metres), red, green and blue."}),
+        declare(&MediumLayer::anisotropy,
+                {.id = "anisotropy",
+                 .label = "Anisotropy",
+                 .min = -kMostAnisotropy,
+                 .max = kMostAnisotropy,
+                 .low = -kMostAnisotropy,
+                 .high = kMostAnisotropy,
+                 .group = Group::Material,
+                 .doc = "Mean cosine of the angle by which scattered light turns."}),
+        declare(&MediumLayer::ior,
+                {.id = "ior",
+                 .label = "Index of refraction",
+                 .min = double(kLeastScatteringIor),
+                 .max = double(kMostScatteringIor),
+                 .low = 1,
+                 .high = 2,
+                 .group = Group::Material,
+                 .doc = "Of the layer over that of vacuum; the top layer's is that of the surface."}),
+    };
+    static const ParamTable table = tableOf<MediumLayer>("layer", params);
+    return table;
+}
+
+std::vector<MediumLayer> Material::stackedLayers() const {
+    std::vector<MediumLayer> stacked = layers;
+    std::erase_if(stacked, [](const MediumLayer& layer) { return layer.thickness == 0; });
+    std::stable_sort(stacked.begin(), stacked.end(),
+                     [](const MediumLayer& a, const MediumLayer& b) { return a.order < b.order; });
+    return stacked;
+}
+
+float Material::surfaceIor() const {
+    const std::vector<MediumLayer> stacked = stackedLayers();
+    return stacked.empty() ? ior : stacked.front().ior;
+}
+
 vec3 Material::absorption() const {
     if (attenuationDistance == 0) return vec3(0);
     const auto sigma = [&](float color) {
@@ -256,7 +329,7 @@ std::string whyIdle(const Object& object, std::string_view key) {
         return " does nothing on height fields and water; must stand on another shape";
     const bool inside = holds(mediumParams(), key) || key == "absorption";
     const bool refracts = holds(refractionParams(), key);
-    const bool scatters = holds(scatteringParams(), key);
+    const bool scatters = holds(scatteringParams(), key) || key == "layers" || key.starts_with("layers.");
     if (object.isField()) {
         if (!inside && !refracts && !scatters && !holds(opticsParams(), key) && key != "preset") return {};
         return " does nothing on a height field; must stand on another shape";

@@ -22,8 +22,17 @@ std::span<const MaterialPreset> materialPresets() {
     return presets;
 }
 
+namespace {
+constexpr double kPerMetre = 1000;
+}
+
+void apply(const MaterialPreset& preset, MediumLayer& layer) {
+    layer.scattering = vec3(kPerMetre * preset.scattering / (1 - double(layer.anisotropy)));
+    layer.absorption = vec3(kPerMetre * preset.absorption);
+    layer.ior = preset.ior;
+}
+
 void apply(const MaterialPreset& preset, Material& material) {
-    constexpr double kPerMetre = 1000;
     material.scattering = vec3(kPerMetre * preset.scattering / (1 - double(material.anisotropy)));
     material.setAbsorption(vec3(kPerMetre * preset.absorption));
     material.ior = preset.ior;

@@ -181,10 +181,21 @@ struct Binder {
                                  table.label});
     }
 
+    void addLayers(const std::string& path, std::vector<MediumLayer>& layers) {
+        constexpr std::string_view kLabels[kMostMediumLayers] = {"layer 1", "layer 2", "layer 3", "layer 4"};
+        for (std::size_t i = 0; i < layers.size(); ++i) {
+            const std::size_t start = bound.size();
+            add(path + std::to_string(i), "", layerParams(), &layers[i]);
+            for (std::size_t k = start; k < bound.size(); ++k)
+                bound[k].label = kLabels[i];
+        }
+    }
+
     void addObject(Object& object, bool first) {
         const std::string path = "objects." + object.name;
         for (const ParamTable* table : materialTables(object))
             add(path + ".material", first ? "material" : "", *table, &object.material);
+        if (object.material.isScattering()) addLayers(path + ".material.layers.", object.material.layers);
         add(path + ".shape", first ? "shape" : "", *typeOf(object.shape).keys.tables[0],
             dataOf(object.shape));
         if (whyIdle(object, "wave").empty()) {

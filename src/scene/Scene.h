@@ -111,6 +111,17 @@ struct Wave {
 /// Of what scatters: beyond, the fit of what its boundary reflects inside (Egan and Hilgeman's) is no share.
 inline constexpr float kLeastScatteringIor = 0.3f, kMostScatteringIor = 3;
 
+/// A layer of another medium on top of what a scattering material is made of.
+struct MediumLayer {
+    float thickness = 0.001f; ///< m, >= 0; 0: not there
+    vec3 scattering{1000};    ///< sigma_s, 1/m
+    vec3 absorption{0};       ///< sigma_a, 1/m
+    float anisotropy = 0;     ///< g, as Material's
+    float ior = 1.5f;         ///< over that of vacuum
+    int order = 1;            ///< layers lie from the top by rising order, those of one as they are listed
+};
+inline constexpr std::size_t kMostMediumLayers = 4;
+
 /// What the surface does with light. The relief model's colours and factors (height-field thesis 2017, 3.5)
 /// hold for height fields. Other shapes are either opaque, with `base` and `diffuse` as their own radiance
 /// and albedo, or refractive, or mirrors.
@@ -137,6 +148,7 @@ struct Material {
     float anisotropy = 0;   ///< g, mean cosine of a scattered ray, [-0.999,0.999]
     float thickness = 0;    ///< m, of a slab that the surface is the upper side of; 0: as thick as the object
     float roughness = 0.3f; ///< of the surface, [0,1]: its highlight; not of height fields
+    std::vector<MediumLayer> layers; ///< on top of it, kMostMediumLayers at most, in no order
     // Mirrors, where reflectance > 0; not of height fields, and not beside transmission.
     vec3 reflectance{0}; ///< share of mirrored light at any angle, [0,1]
 
@@ -146,6 +158,10 @@ struct Material {
     /// Absorption coefficient sigma [1/m]: light falls by exp(-sigma l) on a way of l metres. It is
     /// -ln(attenuationColor) / attenuationDistance; 0 where the distance is 0.
     vec3 absorption() const;
+    /// The layers that are there, the top first.
+    std::vector<MediumLayer> stackedLayers() const;
+    /// Index of refraction inside the surface: that of the top layer, or ior.
+    float surfaceIor() const;
     /// Sets attenuationColor and attenuationDistance so that absorption() gives `sigma` [1/m, >= 0 and
     /// finite] back, to float precision in channels of a hundredth of the largest or more.
     void setAbsorption(vec3 sigma);
@@ -306,6 +322,7 @@ const ParamTable& opticsParams();     ///< every other shape: what makes it clea
 const ParamTable& mediumParams();     ///< what is clear or translucent
 const ParamTable& refractionParams(); ///< what is clear
 const ParamTable& scatteringParams(); ///< what is translucent
+const ParamTable& layerParams();      ///< a layer of what is translucent
 const ParamTable& transformParams();
 const ParamTable& pointLightParams();
 const ParamTable& distantLightParams();

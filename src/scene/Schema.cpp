@@ -179,6 +179,8 @@ private:
             writeTypes(shapeTypes());
         else if (id == "material")
             writeObject(materialKeys());
+        else if (id == "layers")
+            writeLayers();
         else if (id == "transform")
             writeObject(transformKeys());
         else if (id == "wave")
@@ -214,6 +216,13 @@ private:
     void writeObjects() {
         json_.key("type").value("array").key("minItems").value(1).key("items").beginObject();
         writeObject(objectKeys(), {"shape"});
+        json_.end();
+    }
+
+    void writeLayers() {
+        json_.key("type").value("array").key("maxItems").value(int(kMostMediumLayers));
+        json_.key("items").beginObject();
+        writeObject(layerKeys());
         json_.end();
     }
 

@@ -91,6 +91,15 @@ void writeMaterial(JsonWriter& json, const Object& object) {
     const std::string_view always = material.attenuationColor == vec3(1) ? "" : "attenuationDistance";
     for (const ParamTable* table : materialTables(object))
         writeParams(json, *table, &material, always);
+    if (material.isScattering() && !material.layers.empty()) {
+        json.key("layers").beginArray();
+        for (const MediumLayer& layer : material.layers) {
+            json.beginObject();
+            writeParams(json, layerParams(), &layer);
+            json.end();
+        }
+        json.end();
+    }
     writeText(json, "baseMap", material.baseMapFile);
     writeText(json, "diffuseMap", material.diffuseMapFile);
     writeText(json, "specularMap", material.specularMapFile);

@@ -152,12 +152,14 @@ std::vector<Group> groupsOf(std::span<const Control> controls) {
 
 } // namespace
 
-// "objects.coin" is called coin, "lights.1" is called light 2, a technique as its table says.
+// "objects.coin" is called coin, its first layer "coin, layer 1", "lights.1" is called light 2, a technique
+// as its table says.
 std::string ownerOf(const BoundParam& bound) {
     const std::string_view path = bound.path;
     const std::size_t start = path.find('.') + 1;
     const std::string name(path.substr(start, path.find('.', start) - start));
-    if (path.starts_with("objects.")) return name;
+    if (path.starts_with("objects."))
+        return bound.label.empty() ? name : name + ", " + std::string(bound.label);
     if (path.starts_with("lights.")) return "light " + std::to_string(std::atoi(name.c_str()) + 1);
     return std::string(bound.label);
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 /// Red, green and blue of the measured marble (Jensen et al. 2001), 1/m.
-constexpr Medium kMarble[] = {{2190, 2.1, 1.5}, {2620, 4.1, 1.5}, {3000, 7.1, 1.5}};
+const Medium kMarble[] = {{2190, 2.1, 1.5}, {2620, 4.1, 1.5}, {3000, 7.1, 1.5}};
 
 /// Integral of f over r, 2 pi r dr, in steps that grow with r: the trapezium rule over the logarithm of r,
 /// whose error falls exponentially for what is smooth over the whole axis.

@@ -214,6 +214,41 @@ TEST(LoadShapes, PresetsAreMeasuredCoefficientsPerMetre) {
         "cream, ketchup, marble, potato, skimmilk, skin1, skin2, spectralon or wholemilk");
 }
 
+TEST(LoadShapes, LayersLieInTheirOrderAndAreSetByPath) {
+    const auto ballOf = [](const std::string& layers) {
+        return sphereWith(R"("material": { "preset": "marble", "layers": )" + layers + " }");
+    };
+    Result<Scene> scene = test::load({}, ballOf(R"([ { "preset": "skin1", "thickness": 0.0005, "ior": 1.4 },
+        { "scattering": [1, 2, 3], "absorption": [4, 5, 6], "anisotropy": 0.5, "thickness": 0.002 } ])"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Material& material = scene->objects[0].material;
+    ASSERT_EQ(material.layers.size(), 2u);
+    EXPECT_EQ(material.layers[0].scattering, vec3(740, 880, 1010));
+    EXPECT_EQ(material.layers[0].absorption, vec3(32, 170, 480));
+    EXPECT_EQ(material.layers[1].absorption, vec3(4, 5, 6));
+    EXPECT_EQ(material.surfaceIor(), 1.4f);
+    ASSERT_TRUE(setParam(*scene, "objects.ball.material.layers.0.order", "2"));
+    EXPECT_EQ(material.stackedLayers()[0].scattering, vec3(1, 2, 3));
+    EXPECT_EQ(material.surfaceIor(), 1.5f);
+    ASSERT_TRUE(setParam(*scene, "objects.ball.material.layers.1.thickness", "0"));
+    EXPECT_EQ(material.stackedLayers().size(), 1u);
+    EXPECT_EQ(setParam(*scene, "objects.ball.material.layers.0.ior", "9").error().message,
+              "objects.ball.material.layers.0.ior is 9; must be in [0.3, 3]");
+    EXPECT_EQ(setParam(*scene, "objects.ball.material.layers.2.ior", "1.3").error().message,
+              "objects.ball.material.layers.2.ior is not a parameter; the nearest is "
+              "objects.ball.material.layers.0.ior");
+
+    EXPECT_EQ(messageOf(sphereWith(R"("material": { "layers": [ {} ] })")),
+              "scenes/a.json:3: objects.ball.material.layers does nothing where nothing scatters; must stand "
+              "beside a scattering above 0");
+    EXPECT_EQ(
+        messageOf(ballOf("[ {}, {}, {}, {}, {} ]")),
+        "scenes/a.json:3: objects.ball.material.layers has 5 layers; must be a list of at most 4 layers");
+    EXPECT_EQ(messageOf(ballOf(R"([ { "thick": 1 } ])")),
+              "scenes/a.json:3: objects.ball.material.layers.0.thick is an unknown key; the nearest is "
+              "\"thickness\"");
+}
+
 TEST(LoadShapes, WhatScattersIsNeitherClearNorAMirrorAndHasAnOrdinaryIndex) {
     EXPECT_EQ(messageOf(sphereWith(R"("material": { "scattering": [0, 1, 0], "transmission": 1 })")),
               "scenes/a.json:3: objects.ball.material.scattering is 0 1 0; must be 0 beside a transmission "

@@ -78,7 +78,8 @@ TEST(ToJson, LoadsBackEveryShapeLightAndKindOfMaterial) {
         { "name": "block", "shape": { "type": "box" }, "material": { "transmission": 0.5 } },
         { "name": "ball", "shape": { "type": "sphere" }, "material": { "reflectance": [0.5, 0.6, 0.7] } },
         { "name": "ring", "shape": { "type": "torus" } },
-        { "name": "can", "shape": { "type": "cylinder" }, "material": { "preset": "ketchup" } },
+        { "name": "can", "shape": { "type": "cylinder" }, "material": { "preset": "ketchup",
+            "layers": [ { "preset": "skin1" }, { "thickness": 0.002 } ] } },
         { "name": "pool", "shape": { "type": "water" }, "material": { "transmission": 1 } } ] })");
     ASSERT_TRUE(scene) << scene.error().message;
     changeEverything(*scene);
