@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
+#include <utility>
 
 namespace lucent {
 namespace {
@@ -17,7 +19,7 @@ bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 struct Header {
     std::string_view text;
-    std::size_t at = 2; // behind "PF"
+    std::size_t at; // behind the type
 
     // Next word of the header; empty when there is none.
     std::string word() {
@@ -36,6 +38,16 @@ bool parseNumber(const std::string& word, double& number) {
     return !word.empty() && !*end;
 }
 
+// Which the type says: "Pf", "PF" or "PF4"; 0 for other files.
+int channelsOf(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                                std::min<std::size_t>(bytes.size(), 4));
+    for (const auto& [type, channels] : {std::pair<std::string_view, int>{"Pf", 1}, {"PF", 3}, {"PF4", 4}})
+        if (text.starts_with(type) && text.size() > type.size() && isBlank(text[type.size()]))
+            return channels;
+    return 0;
+}
+
 void swapBytes(float& value) {
     auto* bytes = reinterpret_cast<std::byte*>(&value);
     std::reverse(bytes, bytes + sizeof value);
@@ -43,20 +55,17 @@ void swapBytes(float& value) {
 
 } // namespace
 
-bool isPfm(std::span<const std::byte> bytes) {
-    if (bytes.size() < 3 || char(bytes[0]) != 'P') return false;
-    return (char(bytes[1]) == 'F' || char(bytes[1]) == 'f') && isBlank(char(bytes[2]));
-}
+bool isPfm(std::span<const std::byte> bytes) { return channelsOf(bytes) != 0; }
 
 Result<Image> decodePfm(std::span<const std::byte> bytes, const std::string& name) {
     const std::size_t length = std::min(bytes.size(), kLongestHeader);
-    Header header{{reinterpret_cast<const char*>(bytes.data()), length}};
+    const int channels = channelsOf(bytes);
+    Header header{{reinterpret_cast<const char*>(bytes.data()), length}, channels == 4 ? std::size_t(3) : 2};
     double width, height, scale;
     if (!parseNumber(header.word(), width) || !parseNumber(header.word(), height) ||
         !parseNumber(header.word(), scale) || scale == 0)
         return Error{name + ": the PFM header is damaged; must be PF or Pf, width, height, scale"};
     if (Status size = checkImageSize(width, height, name); !size) return size.error();
-    const int channels = char(bytes[1]) == 'F' ? 3 : 1;
     const std::size_t row = std::size_t(width) * std::size_t(channels) * sizeof(float);
     const std::size_t start = header.at + 1, needed = row * std::size_t(height); // one blank ends the header
     if (bytes.size() < start + needed)
@@ -75,8 +84,9 @@ Result<Image> decodePfm(std::span<const std::byte> bytes, const std::string& nam
 
 Bytes encodePfm(const Image& image) {
     char header[64];
-    const int length = std::snprintf(header, sizeof header, "P%c\n%d %d\n-1.0\n",
-                                     image.channels == 3 ? 'F' : 'f', image.width, image.height);
+    const char* type = image.channels == 4 ? "PF4" : image.channels == 3 ? "PF" : "Pf";
+    const int length =
+        std::snprintf(header, sizeof header, "%s\n%d %d\n-1.0\n", type, image.width, image.height);
     const std::size_t row = std::size_t(image.width) * std::size_t(image.channels) * sizeof(float);
     Bytes bytes(std::size_t(length) + row * std::size_t(image.height));
     std::memcpy(bytes.data(), header, std::size_t(length));

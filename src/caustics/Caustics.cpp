@@ -25,7 +25,7 @@ views::ShadowSource aimedAt(views::ShadowSource source, const std::vector<views:
     for (const views::DrawnMesh& mesh : meshes) {
         if (scene::moves(*mesh.object)) return source;
         const mat4 worldFromObject = mesh.object->transform.worldFromObject();
-        for (const vec3& position : views::meshOf(*mesh.object)->positions) {
+        for (const vec3& position : scene::meshOf(*mesh.object)->positions) {
             const vec3 v = vec3(worldFromObject * vec4(position, 1)) - place;
             const float depth = glm::dot(v, axis);
             if (depth <= 0) return source;

@@ -21,6 +21,7 @@ Command addCompare(CLI::App& program);
 Command addExplain(CLI::App& program);
 Command addList(CLI::App& program);
 Command addConvert(CLI::App& program);
+Command addPaint(CLI::App& program);
 Command addSchema(CLI::App& program);
 Command addBench(CLI::App& program);
 Command addReport(CLI::App& program);

@@ -15,7 +15,7 @@ SurfaceKey::Object keyOf(const scene::Object& object, float time) {
         key.numbers = {field.width, field.heightScale};
         return key;
     }
-    const std::shared_ptr<const scene::Mesh> mesh = views::meshOf(object);
+    const std::shared_ptr<const scene::Mesh> mesh = scene::meshOf(object);
     const scene::Wave& wave = object.wave;
     const bool waved = wave.amplitude != vec3(0);
     key.shape = mesh;

@@ -1,5 +1,7 @@
 #include "scene/Keys.h"
 
+#include "scene/Painting.h"
+
 namespace lucent::scene {
 namespace {
 
@@ -32,6 +34,7 @@ constexpr Key kObject[] = {
     {"material", KeyType::Content, "What the surface does with light."},
     {"transform", KeyType::Content, "Where the object stands: scaled, turned, then moved."},
     {"wave", KeyType::Content, "A wave that runs through it; not through height fields and water."},
+    {"paint", KeyType::Content, "What is painted on it, where its material scatters."},
     {"visible", KeyType::Toggle, "False hides it from the camera only."},
 };
 constexpr Key kHeightField[] = {
@@ -79,6 +82,27 @@ constexpr Key kMaterial[] = {
 constexpr Key kLayer[] = {
     {"preset", KeyType::Preset,
      "A measured material, for scattering, absorption and ior; keys beside it replace its values."},
+};
+
+constexpr Key kPaint[] = {
+    {"entering", KeyType::File,
+     "Picture on the object's atlas, taken where light enters: red, green, blue multiply it, alpha sharpens "
+     "(its "
+     "inverse blurs)."},
+    {"leaving", KeyType::File,
+     "Picture as large, taken where light leaves: red, green, blue multiply it, alpha is the translucency; "
+     "the rest "
+     "is matt with the colour diffuse."},
+    {"strokes", KeyType::Strokes, "Strokes on top of them: a file, or a list."},
+};
+constexpr Key kStroke[] = {
+    {"value", KeyType::Coefficient,
+     "Aimed at: translucency [0, 1] and blur [1/16, 16] take a number, glow and outgoing three; left out "
+     "with erase."},
+    {"dabs", KeyType::Content,
+     "Touches of the brush, [x, y, z, normal x, y, z, pressure] each, in the object's space at rest."},
+    {"fill", KeyType::Content,
+     "Instead of dabs: all between low and high, whose numbers may be null for no bound."},
 };
 
 } // namespace
@@ -161,6 +185,23 @@ const KeySet& layerKeys() {
 
 const KeySet& waveKeys() {
     static const KeySet keys{{&waveParams()}, {}};
+    return keys;
+}
+
+const KeySet& paintKeys() {
+    static const Param params[] = {declare(&PaintSource::side, {.id = "side",
+                                                                .label = "Side",
+                                                                .unit = "texels",
+                                                                .min = kLeastPaintSide,
+                                                                .max = kMostPaintSide,
+                                                                .doc = "Of the maps that strokes paint."})};
+    static const ParamTable table = tableOf<PaintSource>("paint", params);
+    static const KeySet keys{{&table}, kPaint};
+    return keys;
+}
+
+const KeySet& strokeKeys() {
+    static const KeySet keys{{&brushParams()}, kStroke};
     return keys;
 }
 

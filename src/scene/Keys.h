@@ -20,6 +20,7 @@ enum class KeyType {
     Toggle,      ///< true unless it says false
     Size,        ///< two integers in [1, kMaxPictureSide]
     Preset,      ///< name of a measured material
+    Strokes,     ///< name of a file, or what stands in it
     Coefficient, ///< one number in [0, kFar], or three for red, green and blue
     Content,     ///< objects and lists with keys of their own
 };
@@ -63,6 +64,8 @@ const KeySet& layerKeys();
 const KeySet& transformKeys();
 const KeySet& waveKeys();
 const KeySet& qualityKeys();
+const KeySet& paintKeys();  ///< of an object's "paint"
+const KeySet& strokeKeys(); ///< of one stroke
 
 /// The struct that a shape or light holds, as the tables address it.
 template <class Variant>

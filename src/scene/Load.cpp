@@ -5,9 +5,12 @@
 #include "scene/HeightSource.h"
 #include "scene/ImageUse.h"
 #include "scene/Json.h"
+#include "scene/JsonReading.h"
 #include "scene/Keys.h"
 #include "scene/MaterialPresets.h"
 #include "scene/Mesh.h"
+#include "scene/Painting.h"
+#include "scene/Strokes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,62 +52,22 @@ Result<std::shared_ptr<const Mesh>> decodeShape(std::span<const std::byte> bytes
     return std::shared_ptr<const Mesh>(std::make_shared<Mesh>(std::move(*mesh)));
 }
 
-// A value in the file and its path for messages: "objects.coin.material".
-struct Place {
-    const Json& json;
-    std::string path;
-
-    Place at(const Json& child, std::string_view key) const {
-        return {child, path.empty() ? std::string(key) : path + "." + std::string(key)};
-    }
-};
-
 // Turns the tree into a scene. Functions return false after the first complaint, which is kept.
-class Loader {
+class Loader : JsonReading {
 public:
     Loader(const std::string& path, const ReadFile& read, std::span<const ParamTable* const> techniques)
-        : path_(path), read_(read), techniques_(techniques) {}
+        : JsonReading(path), read_(read), techniques_(techniques) {}
 
     Result<Scene> load(const Json& root) {
         Scene scene;
         for (const ParamTable* table : techniques_)
             scene.technique.emplace(table->name, Settings(*table));
-        if (!readScene({root, ""}, scene)) return error_;
+        if (!readScene({root, ""}, scene)) return error();
         return scene;
     }
 
 private:
-    // --- complaints ---
-    bool fail(const Place& place, const std::string& what) {
-        const std::string subject = place.path.empty() ? "the scene" : place.path;
-        error_ = {path_ + ":" + std::to_string(place.json.line) + ": " + subject + what};
-        return false;
-    }
-    bool wrongType(const Place& place, std::string_view expected) {
-        return fail(place, " is " + place.json.describe() + "; must be " + std::string(expected));
-    }
-    bool missing(const Place& place, std::string_view key, std::string_view expected) {
-        return fail(place.at(place.json, key), " is missing; must be " + std::string(expected));
-    }
-
-    bool keepStatus(const Place& place, const Status& status) {
-        return status || fail(place, "." + status.error().message);
-    }
-
     // --- plain values ---
-    bool expect(const Place& place, Json::Type type, std::string_view expected) {
-        return place.json.type == type || wrongType(place, expected);
-    }
-    bool readText(const Place& place, std::string& text) {
-        if (!expect(place, Json::Type::String, "text")) return false;
-        text = place.json.string;
-        return true;
-    }
-    bool readBool(const Place& place, bool& value) {
-        if (!expect(place, Json::Type::Bool, "true or false")) return false;
-        value = place.json.boolean;
-        return true;
-    }
     bool readFileName(const Place& place, std::string& file) {
         const bool named = place.json.type == Json::Type::String && !place.json.string.empty();
         if (!named) return wrongType(place, "the name of a file");
@@ -134,62 +97,9 @@ private:
                                std::to_string(kMaxPictureSide) + "]");
     }
 
-    // --- parameters ---
-    // The value as the text that setText() reads: one way of checking for files, command line and page.
-    bool readParam(const Place& place, const Param& param, void* data) {
-        const Json& json = place.json;
-        const int count = componentCount(param.kind);
-        if (param.kind == Kind::Toggle) {
-            bool value = false;
-            if (!readBool(place, value)) return false;
-            setComponent(param, data, 0, value);
-            return true;
-        }
-        std::string text;
-        if (param.kind == Kind::Choice || (param.kind == Kind::Color && json.type == Json::Type::String)) {
-            if (!expect(place, Json::Type::String, "text")) return false;
-            text = json.string;
-        } else if (count == 1) {
-            if (!expect(place, Json::Type::Number, param.kind == Kind::Integer ? "an integer" : "a number"))
-                return false;
-            text = shortest(json.number);
-        } else {
-            const bool numbers = json.type == Json::Type::Array && int(json.items.size()) == count &&
-                                 std::all_of(json.items.begin(), json.items.end(), [](const Json& item) {
-                                     return item.type == Json::Type::Number;
-                                 });
-            if (!numbers)
-                return wrongType(place, "a list of " + std::to_string(count) + " numbers" +
-                                            (param.kind == Kind::Color ? " or \"#rrggbb\"" : ""));
-            for (const Json& item : json.items)
-                text += shortest(item.number) + " ";
-        }
-        const Status set = setText(param, data, text);
-        return set || fail(place, " " + set.error().message);
-    }
-
-    // Reads the parameters of an object into their structs, one for each table of `keys`, and refuses keys
-    // that nobody knows.
-    bool readKeys(const Place& place, const KeySet& keys, std::initializer_list<void*> structs) {
-        if (!expect(place, Json::Type::Object, "an object")) return false;
-        const std::vector<std::string_view> known = keys.ids();
-        for (std::size_t i = 0; i < place.json.keys.size(); ++i) {
-            const std::string& key = place.json.keys[i];
-            const Place member = place.at(place.json.items[i], key);
-            if (std::find(known.begin(), known.end(), key) == known.end())
-                return fail(member, " is an unknown key; the nearest is " + inQuotes(nearest(key, known)));
-            for (std::size_t t = 0; t < keys.tables.size(); ++t)
-                for (const Param& param : keys.tables[t]->params)
-                    if (param.id == key &&
-                        !readParam(member, param, static_cast<std::byte*>(structs.begin()[t]) + param.offset))
-                        return false;
-        }
-        return true;
-    }
-
     // Calls `read(member, target)` when the object has the key.
-    template <class Target>
-    bool optional(const Place& place, std::string_view key, bool (Loader::*read)(const Place&, Target&),
+    template <class Reading, class Target>
+    bool optional(const Place& place, std::string_view key, bool (Reading::*read)(const Place&, Target&),
                   Target& target) {
         const Json* member = place.json.find(key);
         return !member || (this->*read)(place.at(*member, key), target);
@@ -199,7 +109,7 @@ private:
     // Reads a file that the scene names and decodes it: `decode(bytes, name)`.
     template <class Value, class Decode>
     bool readFile(const Place& place, const std::string& file, Value& value, Decode decode) {
-        const std::string name = resolvePath(path_, file);
+        const std::string name = resolvePath(path(), file);
         const Result<Bytes> bytes = read_(name);
         if (!bytes) return fail(place, ": " + bytes.error().message);
         auto decoded = decode(*bytes, name);
@@ -207,12 +117,13 @@ private:
         value = std::move(*decoded);
         return true;
     }
+    template <class Decode>
     bool readMap(const Place& place, std::string_view key, std::string& file,
-                 std::shared_ptr<const Image>& map) {
+                 std::shared_ptr<const Image>& map, Decode decode) {
         const Json* json = place.json.find(key);
         if (!json) return true;
         const Place member = place.at(*json, key);
-        return readFileName(member, file) && readFile(member, file, map, decodeColors);
+        return readFileName(member, file) && readFile(member, file, map, decode);
     }
 
     // --- parts of a scene ---
@@ -334,9 +245,10 @@ private:
         return optional(place, "visible", &Loader::readBool, object.visible) &&
                optional(place, "transform", &Loader::readTransform, object.transform) &&
                optional(place, "shape", &Loader::readShape, object) &&
+               optional(place, "paint", &Loader::readPaint, object) &&
                optional(place, "material", &Loader::readMaterial, object) &&
                optional(place, "wave", &Loader::readWave, object) &&
-               (json.find("material") || takeMaterials(place, read));
+               (json.find("material") || takeMaterials(place, read)) && refuseIdlePaint(place, read);
     }
     bool readTransform(const Place& place, Transform& transform) {
         return readKeys(place, transformKeys(), {&transform});
@@ -356,9 +268,9 @@ private:
                readPreset(place, material) &&
                optional(place, "layers", &Loader::readLayers, material.layers) &&
                keepStatus(place, check(material)) && refuseIdleKeys(place, object) &&
-               readMap(place, "baseMap", material.baseMapFile, material.baseMap) &&
-               readMap(place, "diffuseMap", material.diffuseMapFile, material.diffuseMap) &&
-               readMap(place, "specularMap", material.specularMapFile, material.specularMap);
+               readMap(place, "baseMap", material.baseMapFile, material.baseMap, decodeColors) &&
+               readMap(place, "diffuseMap", material.diffuseMapFile, material.diffuseMap, decodeColors) &&
+               readMap(place, "specularMap", material.specularMapFile, material.specularMap, decodeColors);
     }
 
     bool readAbsorption(const Place& place, Material& material) {
@@ -451,6 +363,63 @@ private:
             if (const std::string why = whyIdle(object, place.json.keys[i]); !why.empty())
                 return fail(place.at(place.json.items[i], place.json.keys[i]), why);
         return true;
+    }
+
+    // --- paint
+    // Maps of files, or unpainted ones, and strokes on top of them. The shape is known.
+    bool readPaint(const Place& place, Object& object) {
+        PaintSource source;
+        Painting files;
+        std::vector<Stroke> strokes;
+        if (const std::string why = whyIdle(object, "paint"); !why.empty()) return fail(place, why);
+        if (!readKeys(place, paintKeys(), {&source}) ||
+            !readMap(place, "entering", files.enteringFile, files.entering, decodeEntering) ||
+            !readMap(place, "leaving", files.leavingFile, files.leaving, decodeLeaving) ||
+            !optional(place, "strokes", &Loader::readStrokes, files))
+            return false;
+        const Image* map = files.entering ? files.entering.get() : files.leaving.get();
+        if (files.entering && files.leaving && files.entering->width != files.leaving->width)
+            return fail(place, " has maps of " + std::to_string(files.entering->width) + " and " +
+                                   std::to_string(files.leaving->width) +
+                                   " texels a side; must be equally large");
+        if (const Json* side = place.json.find("side"); side && map)
+            return fail(place.at(*side, "side"), " is given beside maps; must stand without them");
+        if (!map && !place.json.find("strokes"))
+            return fail(place, " holds no paint; must have entering, leaving or strokes");
+        Result<std::shared_ptr<const Painting>> painted =
+            paint(object, files.strokes, map ? map->width : source.side, files.entering, files.leaving);
+        if (!painted) return fail(place, ": " + painted.error().message);
+        Painting whole = **painted;
+        whole.enteringFile = files.enteringFile;
+        whole.leavingFile = files.leavingFile;
+        whole.strokesFile = files.strokesFile;
+        object.painting = std::make_shared<const Painting>(std::move(whole));
+        return true;
+    }
+    // The name of a script, or the strokes themselves.
+    bool readStrokes(const Place& place, Painting& painting) {
+        if (place.json.type == Json::Type::Array) {
+            Result<std::vector<Stroke>> strokes = strokesFrom(place, path());
+            if (!strokes) return keep(strokes.error());
+            painting.strokes = std::move(*strokes);
+            return true;
+        }
+        if (place.json.type != Json::Type::String || place.json.string.empty())
+            return wrongType(place, "the name of a file or a list of strokes");
+        painting.strokesFile = place.json.string;
+        return readFile(place, painting.strokesFile, painting.strokes, parseStrokes);
+    }
+    // Materials may come from the file of a mesh, so that this is known last.
+    bool refuseIdlePaint(const Place& place, const std::vector<Object>& read) {
+        const Json* json = place.json.find("paint");
+        if (!json) return true;
+        if (read.size() > 1)
+            return fail(place.at(*json, "paint"), " is for one object, but the file brings " +
+                                                      std::to_string(read.size()) +
+                                                      " materials; must stand beside a part or a material");
+        return read[0].material.isScattering() ||
+               fail(place.at(*json, "paint"),
+                    " does nothing where nothing scatters; must stand beside a scattering above 0");
     }
 
     // --- meshes
@@ -593,11 +562,9 @@ private:
         return true;
     }
 
-    const std::string& path_;
     const ReadFile& read_;
     std::span<const ParamTable* const> techniques_;
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const Mesh>> meshes_; // by source and part
-    Error error_;
 };
 
 } // namespace
@@ -619,7 +586,8 @@ Result<std::vector<std::string>> dependencies(const std::string& path, std::span
         for (std::size_t i = 0; i < object.keys.size(); ++i) {
             const std::string& name = object.items[i].string;
             const bool isFile = std::any_of(keys.keys.begin(), keys.keys.end(), [&](const Key& key) {
-                return key.type == KeyType::File && key.id == object.keys[i];
+                return (key.type == KeyType::File || key.type == KeyType::Strokes) &&
+                       key.id == object.keys[i];
             });
             if (!isFile || name.empty()) continue;
             const std::string file = resolvePath(path, name);
@@ -636,6 +604,7 @@ Result<std::vector<std::string>> dependencies(const std::string& path, std::span
         for (const Json& object : item.items)
             for (std::size_t k = 0; k < object.keys.size(); ++k) {
                 if (object.keys[k] == "material") collect(object.items[k], materialKeys());
+                if (object.keys[k] == "paint") collect(object.items[k], paintKeys());
                 if (object.keys[k] != "shape") continue;
                 for (const TypeKeys& type : shapeTypes())
                     collect(object.items[k], type.keys);

@@ -327,6 +327,9 @@ bool holds(const ParamTable& table, std::string_view key) {
 std::string whyIdle(const Object& object, std::string_view key) {
     if (key == "wave" && (object.isField() || std::holds_alternative<Water>(object.shape)))
         return " does nothing on height fields and water; must stand on another shape";
+    if (key == "paint")
+        return object.isField() ? " does nothing on a height field; must stand on another shape"
+                                : std::string();
     const bool inside = holds(mediumParams(), key) || key == "absorption";
     const bool refracts = holds(refractionParams(), key);
     const bool scatters = holds(scatteringParams(), key) || key == "layers" || key.starts_with("layers.");
@@ -350,8 +353,8 @@ std::string whyIdle(const Object& object, std::string_view key) {
         return " does nothing beside a transmission above 0; must stand on an opaque surface";
     if (material.isMirror())
         return " does nothing beside a reflectance above 0; must stand on an opaque surface";
-    if (material.isScattering())
-        return " does nothing beside a scattering above 0; must stand on an opaque surface";
+    if (material.isScattering() && !object.painting)
+        return " does nothing beside a scattering above 0; must stand on an opaque or painted surface";
     return {};
 }
 

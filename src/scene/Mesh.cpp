@@ -45,18 +45,21 @@ void rasterize(const std::array<Corner, 3>& t, std::vector<double>& depth, ivec2
 
 } // namespace
 
-std::size_t openEdges(const Mesh& mesh) {
-    // Each vertex by the first one at its place.
-    std::vector<std::uint32_t> order(mesh.positions.size()), placeOf(order.size());
+std::vector<std::uint32_t> weldedVertices(std::span<const vec3> positions) {
+    std::vector<std::uint32_t> order(positions.size()), placeOf(order.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
-        const vec3 &p = mesh.positions[a], &q = mesh.positions[b];
+        const vec3 &p = positions[a], &q = positions[b];
         return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
     };
-    std::sort(order.begin(), order.end(), before);
+    std::stable_sort(order.begin(), order.end(), before);
     for (std::size_t i = 0; i < order.size(); ++i)
         placeOf[order[i]] = i > 0 && !before(order[i - 1], order[i]) ? placeOf[order[i - 1]] : order[i];
+    return placeOf;
+}
 
+std::size_t openEdges(const Mesh& mesh) {
+    const std::vector<std::uint32_t> placeOf = weldedVertices(mesh.positions);
     struct Side {
         std::uint32_t low, high;
         int way; // +1 from low to high

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -103,6 +104,18 @@ Mesh meshOf(const Box& box, int cells = 1);
 Mesh meshOf(const Sphere& sphere, int segments = 256);
 Mesh meshOf(const Torus& torus, int segments = 384);
 Mesh meshOf(const Cylinder& cylinder, int segments = 256);
+/// Water without waves: its grid, row after row along x; a sheet like the plane.
+Mesh meshOf(const Water& water);
+/// Squares of that grid along x and z: `cells` along the longer side, about as large along the other.
+ivec2 waterCells(const Water& water);
+
+/// The triangles of an object that is no height field, as all draw it: those of its file, or such as lie on
+/// its shape, made once for the same shape. With a wave flat sides are cut into small squares; with flat
+/// normals no two triangles share a vertex. Water lies still.
+std::shared_ptr<const Mesh> meshOf(const Object& object);
+
+/// For each vertex the first one at its place.
+std::vector<std::uint32_t> weldedVertices(std::span<const vec3> positions);
 
 /// Edges beside which a triangle is missing or lies the wrong way round; 0: the mesh is closed. Vertices at
 /// the same place count as one, so that sharp edges are no gaps.

@@ -179,6 +179,8 @@ struct Transform {
     mat4 worldFromObject() const;
 };
 
+struct Painting;
+
 struct Object {
     std::string name;
     Shape shape;
@@ -186,6 +188,8 @@ struct Object {
     Transform transform;
     Wave wave;           ///< not for height fields and water
     bool visible = true; ///< false: hidden from the camera only
+    /// What an artist painted on it; null: nothing. Acts where the material scatters.
+    std::shared_ptr<const Painting> painting;
 
     bool isField() const { return std::holds_alternative<HeightField>(shape); }
     /// The shape, which must be a height field.

@@ -154,6 +154,9 @@ private:
         case KeyType::Coefficient:
             writeCoefficientType(json_);
             break;
+        case KeyType::Strokes:
+            writeStrokes();
+            break;
         case KeyType::Content:
             writeContent(key.id);
             break;
@@ -185,6 +188,38 @@ private:
             writeObject(transformKeys());
         else if (id == "wave")
             writeObject(waveKeys(), {"amplitude"});
+        else if (id == "paint")
+            writeObject(paintKeys());
+        else if (id == "dabs")
+            writeDabs();
+        else if (id == "fill")
+            writeFill();
+    }
+
+    // A file, or the list that stands in it.
+    void writeStrokes() {
+        json_.key("anyOf").beginArray();
+        json_.beginObject().key("type").value("string").key("minLength").value(1).end();
+        json_.beginObject().key("type").value("array").key("items").beginObject();
+        writeObject(strokeKeys(), {"brush"});
+        json_.key("oneOf").beginArray();
+        for (const std::string_view what : {"dabs", "fill"})
+            json_.beginObject().key("required").beginArray().value(what).end().end();
+        json_.end().end().end().end();
+    }
+    void writeDabs() {
+        json_.key("type").value("array").key("items").beginObject();
+        json_.key("type").value("array").key("items").beginObject().key("type").value("number").end();
+        json_.key("minItems").value(7).key("maxItems").value(7).end();
+    }
+    void writeFill() {
+        json_.key("type").value("object").key("properties").beginObject();
+        for (const std::string_view end : {"low", "high"}) {
+            json_.key(end).beginObject().key("type").value("array").key("items").beginObject();
+            json_.key("type").beginArray().value("number").value("null").end().end();
+            json_.key("minItems").value(3).key("maxItems").value(3).end();
+        }
+        json_.end().key("additionalProperties").value(false);
     }
 
     void writeLights() {

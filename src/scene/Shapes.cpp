@@ -163,6 +163,30 @@ Mesh meshOf(const Cylinder& cylinder, int segments) {
     return builder.take();
 }
 
+ivec2 waterCells(const Water& water) {
+    const float cell = std::max(water.size.x, water.size.y) / float(water.cells);
+    return glm::max(ivec2(glm::round(water.size / cell)), ivec2(1));
+}
+
+Mesh meshOf(const Water& water) {
+    const ivec2 cells = waterCells(water);
+    const vec2 cell = water.size / vec2(cells);
+    Mesh mesh;
+    const auto number = [&](int x, int z) { return std::uint32_t(z * (cells.x + 1) + x); };
+    for (int z = 0; z <= cells.y; ++z)
+        for (int x = 0; x <= cells.x; ++x)
+            mesh.positions.push_back(
+                {float(x) * cell.x - 0.5f * water.size.x, 0, float(z) * cell.y - 0.5f * water.size.y});
+    mesh.normals.assign(mesh.positions.size(), {0, 1, 0});
+    for (int z = 0; z < cells.y; ++z)
+        for (int x = 0; x < cells.x; ++x) {
+            const std::uint32_t a = number(x, z), b = number(x, z + 1), c = number(x + 1, z + 1),
+                                d = number(x + 1, z);
+            mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+        }
+    return mesh;
+}
+
 Mesh partOf(const Mesh& mesh, const Mesh::Part& part) {
     constexpr std::uint32_t kUnused = ~0u;
     std::vector<std::uint32_t> placeOf(mesh.positions.size(), kUnused), kept;

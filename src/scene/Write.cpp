@@ -2,6 +2,7 @@
 #include "base/JsonWriter.h"
 #include "scene/Keys.h"
 #include "scene/Load.h"
+#include "scene/Strokes.h"
 
 #include <algorithm>
 #include <array>
@@ -113,6 +114,32 @@ void writeWave(JsonWriter& json, const Object& object) {
     json.end();
 }
 
+// Strokes were measured in the world: radii grow with the object.
+std::vector<Stroke> strokesNow(const Object& object) {
+    std::vector<Stroke> strokes = object.painting->strokes;
+    const float growth = object.transform.scale / object.painting->scale;
+    for (Stroke& stroke : strokes)
+        if (growth != 1) stroke.brush.radius *= growth;
+    return strokes;
+}
+
+void writePaint(JsonWriter& json, const Object& object) {
+    if (!object.painting || !object.material.isScattering()) return;
+    const Painting& painting = *object.painting;
+    const bool hasMaps = !painting.enteringFile.empty() || !painting.leavingFile.empty();
+    json.key("paint").beginObject();
+    writeText(json, "entering", painting.enteringFile);
+    writeText(json, "leaving", painting.leavingFile);
+    const bool asWritten = !painting.strokesFile.empty() && object.transform.scale == painting.scale;
+    if (asWritten) json.key("strokes").value(painting.strokesFile);
+    if (!asWritten && (!painting.strokes.empty() || !hasMaps)) {
+        json.key("strokes");
+        writeStrokes(json, strokesNow(object));
+    }
+    if (!hasMaps) json.key("side").value(painting.side());
+    json.end();
+}
+
 void writeObject(JsonWriter& json, const Object& object) {
     json.beginObject();
     json.key("name").value(object.name);
@@ -122,6 +149,7 @@ void writeObject(JsonWriter& json, const Object& object) {
     writeParams(json, transformParams(), &object.transform);
     json.end();
     writeWave(json, object);
+    writePaint(json, object);
     if (!object.visible) json.key("visible").value(false);
     json.end();
 }

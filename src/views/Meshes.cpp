@@ -15,8 +15,6 @@ using graph::Format;
 
 namespace {
 
-constexpr int kWavedCells = 128; // along an edge that a wave bends
-
 struct MeshBlock {
     mat4 clipFromWorld, worldFromObject, normalFromObject;
     ViewBlock view;
@@ -39,74 +37,11 @@ struct MeshBlock {
 
 bool isWaved(const scene::Object& object) { return object.wave.amplitude != vec3(0); }
 
-scene::Mesh generated(const scene::Shape& shape, bool waved) {
-    const int cells = waved ? kWavedCells : 1;
-    if (const auto* plane = std::get_if<scene::Plane>(&shape)) return scene::meshOf(*plane, cells);
-    if (const auto* box = std::get_if<scene::Box>(&shape)) return scene::meshOf(*box, cells);
-    if (const auto* sphere = std::get_if<scene::Sphere>(&shape)) return scene::meshOf(*sphere);
-    if (const auto* torus = std::get_if<scene::Torus>(&shape)) return scene::meshOf(*torus);
-    if (const auto* water = std::get_if<scene::Water>(&shape)) return waterGrid(*water);
-    return scene::meshOf(std::get<scene::Cylinder>(shape));
-}
-
-// The numbers that a generated mesh depends on.
-std::vector<float> numbersOf(const scene::Shape& shape, bool waved) {
-    std::vector<float> list{float(shape.index()), float(waved)};
-    const auto add = [&](auto... values) { (list.push_back(float(values)), ...); };
-    if (const auto* plane = std::get_if<scene::Plane>(&shape)) add(plane->size.x, plane->size.y);
-    if (const auto* box = std::get_if<scene::Box>(&shape)) add(box->size.x, box->size.y, box->size.z);
-    if (const auto* sphere = std::get_if<scene::Sphere>(&shape)) add(sphere->radius);
-    if (const auto* torus = std::get_if<scene::Torus>(&shape)) add(torus->major, torus->minor);
-    if (const auto* c = std::get_if<scene::Cylinder>(&shape)) add(c->radius, c->height, c->open);
-    if (const auto* water = std::get_if<scene::Water>(&shape))
-        add(water->size.x, water->size.y, water->cells);
-    return list;
-}
-
 Bounds boundsOfPoints(const std::vector<vec3>& points) {
     Bounds bounds;
     for (const vec3& point : points)
         bounds.add(point);
     return bounds;
-}
-
-template <class Value>
-std::vector<Value> perCorner(const std::vector<Value>& values, const std::vector<std::uint32_t>& corners) {
-    std::vector<Value> list;
-    if (values.empty()) return list;
-    for (const std::uint32_t corner : corners)
-        list.push_back(values[corner]);
-    return list;
-}
-
-// Each triangle with three vertices of its own, which share its normal.
-scene::Mesh flattened(const scene::Mesh& mesh) {
-    scene::Mesh flat{.positions = perCorner(mesh.positions, mesh.indices),
-                     .indices = std::vector<std::uint32_t>(mesh.indices.size()),
-                     .joints = perCorner(mesh.joints, mesh.indices),
-                     .jointWeights = perCorner(mesh.jointWeights, mesh.indices),
-                     .rig = mesh.rig};
-    std::iota(flat.indices.begin(), flat.indices.end(), 0u);
-    for (scene::MorphTarget& target : flat.rig.targets)
-        target = {perCorner(target.positions, mesh.indices), {}};
-    flat.normals = scene::areaWeightedNormals(flat.positions, flat.indices);
-    return flat;
-}
-
-// Made once for each of the last few meshes.
-std::shared_ptr<const scene::Mesh> flatMeshOf(const std::shared_ptr<const scene::Mesh>& mesh) {
-    struct Made {
-        std::weak_ptr<const scene::Mesh> from;
-        std::shared_ptr<const scene::Mesh> flat;
-    };
-    constexpr std::size_t kKept = 8;
-    static std::vector<Made> made;
-    std::erase_if(made, [](const Made& one) { return one.from.expired(); });
-    for (const Made& one : made)
-        if (one.from.lock() == mesh) return one.flat;
-    if (made.size() == kKept) made.erase(made.begin());
-    made.push_back({mesh, std::make_shared<const scene::Mesh>(flattened(*mesh))});
-    return made.back().flat;
 }
 
 bool isFlat(const scene::Object& object) {
@@ -115,25 +50,6 @@ bool isFlat(const scene::Object& object) {
 }
 
 } // namespace
-
-std::shared_ptr<const scene::Mesh> meshOf(const scene::Object& object) {
-    if (const auto* file = std::get_if<scene::MeshShape>(&object.shape))
-        return file->flatNormals ? flatMeshOf(file->mesh) : file->mesh;
-    struct Made {
-        std::vector<float> numbers;
-        std::shared_ptr<const scene::Mesh> mesh;
-    };
-    constexpr std::size_t kKept = 32;
-    static std::vector<Made> made;
-    std::vector<float> numbers = numbersOf(object.shape, isWaved(object));
-    const auto found =
-        std::find_if(made.begin(), made.end(), [&](const Made& one) { return one.numbers == numbers; });
-    if (found != made.end()) return found->mesh;
-    if (made.size() == kKept) made.erase(made.begin());
-    made.push_back(
-        {std::move(numbers), std::make_shared<const scene::Mesh>(generated(object.shape, isWaved(object)))});
-    return made.back().mesh;
-}
 
 Bounds meshBounds(const std::shared_ptr<const scene::Mesh>& mesh) {
     struct Known {

@@ -18,11 +18,6 @@ namespace lucent::views {
 
 class ImageCache;
 
-/// The triangles of an object that is no height field: those of its file, or such as lie on its shape, made
-/// once for the same shape. With a wave flat sides are cut into small squares; with flat normals no two
-/// triangles share a vertex. Water lies still.
-std::shared_ptr<const scene::Mesh> meshOf(const scene::Object& object);
-
 /// The box around a mesh in its own space; remembered for the last few meshes.
 Bounds meshBounds(const std::shared_ptr<const scene::Mesh>& mesh);
 

@@ -13,10 +13,6 @@
 
 namespace lucent::views {
 
-/// Squares of the water's grid along x and z: `cells` along the longer side, about as large along the other.
-ivec2 waterCells(const scene::Water& water);
-/// The grid without waves, row after row along x; faces +y.
-scene::Mesh waterGrid(const scene::Water& water);
 /// How far the surface may stand above or below its mean, m: where two walls mirror a crest it is four times
 /// as high. Drops of the pointer are no part of it.
 float waterReach(const scene::Water& water);

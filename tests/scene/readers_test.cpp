@@ -20,7 +20,7 @@ Image gradient(int channels) {
 }
 
 TEST(Readers, ExrKeepsEveryBitOfColoursAndGreys) {
-    for (const int channels : {1, 3}) {
+    for (const int channels : {1, 3, 4}) {
         const Image image = gradient(channels);
         const Result<Bytes> file = encodeExr(image);
         ASSERT_TRUE(file) << file.error().message;
@@ -34,13 +34,7 @@ TEST(Readers, ExrKeepsEveryBitOfColoursAndGreys) {
     }
 }
 
-TEST(Readers, ExrWithAlphaGivesItsColours) {
-    const Image image = gradient(4);
-    const Result<Bytes> plain = toPlain("a.exr", *encodeExr(image), kNoFiles);
-    ASSERT_TRUE(plain) << plain.error().message;
-    const Result<Image> back = decodeImage(*plain, "a.exr", Encoding::Linear);
-    for (int c = 0; c < 3; ++c)
-        EXPECT_EQ(back->at(4, 3)[c], image.at(4, 3)[c]);
+TEST(Readers, ExrOfTwoChannelsIsNotWritten) {
     EXPECT_EQ(encodeExr(Image(2, 2, 2)).error().message,
               "EXR: the image has 2 channels; must have 1, 3 or 4");
 }

@@ -44,7 +44,7 @@ inline Vertices verticesAt(gl::Context& context, const scene::Scene& scene, floa
         pass.sample(mesh.normals);
         pass.write(targetId);
         return [&](const graph::Resources& resources, graph::Commands&) {
-            const std::size_t count = views::meshOf(scene.objects[0])->positions.size();
+            const std::size_t count = scene::meshOf(scene.objects[0])->positions.size();
             found.positions = valuesOf(context.device().read(resources[mesh.positions]), count);
             found.normals = valuesOf(context.device().read(resources[mesh.normals]), count);
         };

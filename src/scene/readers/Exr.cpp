@@ -58,7 +58,7 @@ std::vector<std::vector<float>> splitPlanes(const Image& image) {
     return planes;
 }
 
-// Indices of the planes to take: red, green and blue, or the only one.
+// Indices of the planes to take: red, green, blue and what there is of alpha, or the only one.
 using Channels = std::vector<std::size_t>;
 
 Result<Channels> findChannels(const EXRHeader& header, const std::string& name) {
@@ -73,10 +73,11 @@ Result<Channels> findChannels(const EXRHeader& header, const std::string& name) 
     }
     if (all.size() == 1) return Channels{0};
     Channels found;
-    for (const std::string_view wanted : {"R", "G", "B"})
+    for (const std::string_view wanted : {"R", "G", "B", "A"})
         for (std::size_t c = 0; c < all.size(); ++c)
             if (all[c].name == wanted) found.push_back(c);
-    if (found.size() != 3)
+    const bool hasAlpha = !found.empty() && std::string_view(all[found.back()].name) == "A";
+    if (found.size() != (hasAlpha ? 4u : 3u))
         return Error{name + ": has the channels " + names + "; must have R, G, B or only one"};
     return found;
 }

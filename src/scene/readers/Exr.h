@@ -7,7 +7,7 @@ namespace lucent::scene {
 
 bool isExr(std::span<const std::byte> bytes);
 
-/// @return  3 linear channels, or 1 when the file has only one; alpha is left out.
+/// @return  3 linear channels, 4 with alpha, or 1 when the file has only one.
 ///          Error "NAME: what was found; what was expected"
 Result<Image> decodeExr(std::span<const std::byte> bytes, const std::string& name);
 

@@ -1,5 +1,6 @@
 #include "scene/readers/Readers.h"
 
+#include "base/Pfm.h"
 #include "scene/readers/Exr.h"
 #include "scene/readers/Gltf.h"
 #include "scene/readers/Obj.h"
@@ -14,7 +15,7 @@ Result<Bytes> toPlain(const std::string& name, Bytes bytes, const ReadFile& read
     if (isExr(bytes)) {
         const Result<Image> image = decodeExr(bytes, name);
         if (!image) return image.error();
-        return encodeImage(*image, ".pfm");
+        return encodePfm(*image);
     }
     if (!isForeign(name, bytes)) return bytes;
     const Result<Mesh> mesh = isObj(name) ? readObj(name, bytes, read) : readGltf(name, bytes, read);

@@ -1,0 +1,440 @@
+#include "scene/Atlas.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+namespace lucent::scene {
+namespace {
+
+using Corners = std::array<dvec2, 3>;
+
+constexpr int kNone = -1;
+
+// A chart looks along one of the six axes of its mesh. Every normal has one within 54.7 degrees, so that
+// charts may take all within 60: lengths shrink to a half at most.
+constexpr double kSteepest = 0.5;
+
+// Overlaps are looked for while charts grow at the scale at which the whole mesh, all of it 60 degrees steep,
+// fills a picture of this side. What is closer together is found when all charts have their places.
+constexpr int kMaskSide = 512;
+
+// No chart is longer, in sides of the mask, for the longest one bounds the scale of all.
+constexpr double kLongest = 4;
+
+// Between two places over one texel of the mask a surface as steep as that rises by sqrt(2) tan(60°) = 2.45.
+constexpr double kSameLayer = 3; // texels
+
+struct Axis {
+    dvec3 out, right, down; // as one sees it from outside
+};
+constexpr Axis kAxes[] = {{{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+                          {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},  {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+                          {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}}, {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}};
+
+dvec2 flattened(const Axis& axis, const dvec3& place) {
+    return {glm::dot(place, axis.right), glm::dot(place, axis.down)};
+}
+
+// Twice the signed area of (a, b, p), computed in one order of a and b for both triangles at an edge.
+double edge(const dvec2& a, const dvec2& b, const dvec2& p) {
+    const bool swap = b.x < a.x || (b.x == a.x && b.y < a.y);
+    const dvec2 &from = swap ? b : a, &to = swap ? a : b;
+    const double area = (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x);
+    return swap ? -area : area;
+}
+
+// What of the triangle has this y, from left to right.
+std::optional<dvec2> spanAt(const Corners& t, double y) {
+    dvec2 span(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < 3; ++i) {
+        const dvec2 &a = t[i], &b = t[(i + 1) % 3];
+        if (y < std::min(a.y, b.y) || y > std::max(a.y, b.y) || a.y == b.y) continue;
+        const double x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+        span = {std::min(span.x, x), std::max(span.y, x)};
+    }
+    if (span.x > span.y) return std::nullopt;
+    return span;
+}
+
+// Calls `found(x, y)` for each texel whose middle lies inside, not on an edge, until it returns false.
+template <class Found>
+bool forEachMiddle(const Corners& t, Found found) {
+    const auto [top, bottom] = std::minmax({t[0].y, t[1].y, t[2].y});
+    const auto last = std::int64_t(std::floor(bottom - 0.5));
+    for (auto y = std::int64_t(std::ceil(top - 0.5)); y <= last; ++y) {
+        const std::optional<dvec2> span = spanAt(t, double(y) + 0.5);
+        if (!span) continue;
+        const auto right = std::int64_t(std::floor(span->y)) + 1;
+        for (auto x = std::int64_t(std::floor(span->x)) - 1; x <= right; ++x) {
+            const dvec2 p(double(x) + 0.5, double(y) + 0.5);
+            const double a = edge(t[0], t[1], p), b = edge(t[1], t[2], p), c = edge(t[2], t[0], p);
+            const bool inside = (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+            if (inside && !found(x, y)) return false;
+        }
+    }
+    return true;
+}
+
+// Where a growing chart lies already, so that no second layer of it comes to lie there.
+class Mask {
+public:
+    // Takes the triangle in, unless it meets another layer.
+    bool take(const Corners& corners, const dvec3& heights) {
+        const dvec3 slope = slopeOf(corners, heights);
+        const auto heightAt = [&](double x, double y) { return slope.x * x + slope.y * y + slope.z; };
+        bool free = forEachMiddle(corners, [&](std::int64_t x, std::int64_t y) {
+            const auto found = texels_.find(key(x, y));
+            return found == texels_.end() ||
+                   (!found->second.covered &&
+                    isNear(found->second, heightAt(double(x) + 0.5, double(y) + 0.5)));
+        });
+        for (int i = 0; i < 3 && free; ++i) {
+            const auto found = texels_.find(keyAt(corners[std::size_t(i)]));
+            free = found == texels_.end() || isNear(found->second, heights[i]);
+        }
+        if (!free) return false;
+        for (int i = 0; i < 3; ++i)
+            texels_.try_emplace(keyAt(corners[std::size_t(i)]), Texel{heights[i]});
+        forEachMiddle(corners, [&](std::int64_t x, std::int64_t y) {
+            const double height = heightAt(double(x) + 0.5, double(y) + 0.5);
+            texels_.try_emplace(key(x, y), Texel{height}).first->second.covered = true;
+            return true;
+        });
+        return true;
+    }
+
+private:
+    struct Texel {
+        double height;
+        bool covered = false; // its middle
+    };
+    static std::uint64_t key(std::int64_t x, std::int64_t y) {
+        return std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y);
+    }
+    static std::uint64_t keyAt(const dvec2& place) {
+        return key(std::int64_t(std::floor(place.x)), std::int64_t(std::floor(place.y)));
+    }
+    static bool isNear(const Texel& texel, double height) {
+        return std::abs(texel.height - height) <= kSameLayer;
+    }
+    // Height as a x + b y + c.
+    static dvec3 slopeOf(const Corners& t, const dvec3& heights) {
+        const dvec2 u = t[1] - t[0], v = t[2] - t[0];
+        const double det = u.x * v.y - u.y * v.x, h = heights[1] - heights[0], k = heights[2] - heights[0];
+        if (det == 0) return {0, 0, heights[0]};
+        const dvec2 slope((h * v.y - k * u.y) / det, (k * u.x - h * v.x) / det);
+        return {slope, heights[0] - glm::dot(slope, t[0])};
+    }
+    std::unordered_map<std::uint64_t, Texel> texels_;
+};
+
+struct Box {
+    dvec2 low{std::numeric_limits<double>::infinity()}, high{-low};
+    void add(const dvec2& place) {
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    dvec2 size() const { return high.x < low.x ? dvec2(0) : high - low; }
+};
+
+// Triangles that are seen along one axis, or, without one, that have no area and no neighbour.
+struct Chart {
+    const Axis* axis = nullptr;
+    Box box; // flattened, m
+};
+
+// Parts a mesh into charts and lays them out.
+class Layout {
+public:
+    Layout(const Mesh& mesh, int side) : mesh_(mesh), side_(side), count_(mesh.indices.size() / 3) {
+        measure();
+        join();
+    }
+
+    // Every triangle gets a place; Error when there is no room.
+    Status run() {
+        chartOf_.assign(count_, kNone);
+        grow();
+        while (true) {
+            if (Status packed = pack(); !packed) return packed;
+            const std::vector<std::size_t> hidden = hiddenTriangles();
+            if (hidden.empty()) return Done{};
+            for (const std::size_t t : hidden)
+                chartOf_[t] = kNone;
+            grow(); // more charts each time: it ends when every triangle is one, at the latest
+        }
+    }
+
+    int chartOf(std::size_t triangle) const { return chartOf_[triangle]; }
+    vec2 placeOf(std::uint32_t vertex, int chart) const {
+        const Chart& in = charts_[std::size_t(chart)];
+        const dvec2 inside = in.axis ? flattened(*in.axis, position(vertex)) - in.box.low : dvec2(0);
+        return vec2(dvec2(offsets_[std::size_t(chart)] + 1) + inside * scale_);
+    }
+
+private:
+    dvec3 position(std::uint32_t vertex) const { return dvec3(mesh_.positions[vertex]); }
+    std::uint32_t corner(std::size_t triangle, std::size_t which) const {
+        return mesh_.indices[3 * triangle + which];
+    }
+
+    // Normals, and the scale of masks.
+    void measure() {
+        double area = 0;
+        for (std::size_t t = 0; t < count_; ++t) {
+            const dvec3 a = position(corner(t, 0)), u = position(corner(t, 1)) - a,
+                        v = position(corner(t, 2)) - a;
+            const dvec3 across = glm::cross(u, v);
+            const double longest = std::max(glm::dot(u, u), glm::dot(v, v)), twice = glm::length(across);
+            const bool flat = !(twice > 1e-14 * longest); // rounding
+            normals_.push_back(flat ? dvec3(0) : across / twice);
+            area += twice / 2;
+        }
+        maskScale_ = area > 0 ? kMaskSide / std::sqrt(area * kSteepest) : 0;
+    }
+
+    // Finds the neighbours over edges that two triangles share the same way round.
+    void join() {
+        const std::vector<std::uint32_t> welded = weldedVertices(mesh_.positions);
+        struct Side {
+            std::uint32_t low, high;
+            bool forward;
+            std::size_t place; // 3 triangle + side
+            auto order() const { return std::tie(low, high, place); }
+        };
+        std::vector<Side> sides;
+        sides.reserve(3 * count_);
+        for (std::size_t i = 0; i < 3 * count_; ++i) {
+            const std::uint32_t a = welded[mesh_.indices[i]],
+                                b = welded[mesh_.indices[i % 3 == 2 ? i - 2 : i + 1]];
+            if (a != b) sides.push_back({std::min(a, b), std::max(a, b), a < b, i});
+        }
+        std::sort(sides.begin(), sides.end(),
+                  [](const Side& a, const Side& b) { return a.order() < b.order(); });
+        across_.assign(3 * count_, kNone);
+        for (std::size_t i = 0; i < sides.size();) {
+            std::size_t end = i;
+            while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high)
+                ++end;
+            if (end == i + 2 && sides[i].forward != sides[i + 1].forward) {
+                across_[sides[i].place] = int(sides[i + 1].place / 3);
+                across_[sides[i + 1].place] = int(sides[i].place / 3);
+            }
+            i = end;
+        }
+    }
+
+    // Puts all triangles that are in no chart into new ones.
+    void grow() {
+        for (std::size_t t = 0; t < count_; ++t)
+            if (chartOf_[t] == kNone && normals_[t] != dvec3(0)) growFrom(t);
+        const auto first = std::find(chartOf_.begin(), chartOf_.end(), kNone);
+        if (first == chartOf_.end()) return;
+        std::replace(first, chartOf_.end(), kNone, int(charts_.size()));
+        charts_.push_back({});
+    }
+
+    void growFrom(std::size_t seed) {
+        const auto facing = [&](const Axis& axis) { return glm::dot(axis.out, normals_[seed]); };
+        const Axis* axis =
+            std::max_element(std::begin(kAxes), std::end(kAxes),
+                             [&](const Axis& a, const Axis& b) { return facing(a) < facing(b); });
+        const int number = int(charts_.size());
+        Chart chart{axis, {}};
+        Mask mask;
+        std::deque<std::size_t> waiting{seed};
+        while (!waiting.empty()) {
+            const std::size_t t = waiting.front();
+            waiting.pop_front();
+            if (chartOf_[t] != kNone || !accepts(chart, t, mask)) continue;
+            chartOf_[t] = number;
+            for (std::size_t i = 0; i < 3; ++i) {
+                chart.box.add(flattened(*axis, position(corner(t, i))));
+                const int next = across_[3 * t + i];
+                if (next != kNone && chartOf_[std::size_t(next)] == kNone)
+                    waiting.push_back(std::size_t(next));
+            }
+        }
+        charts_.push_back(chart);
+    }
+
+    bool accepts(const Chart& chart, std::size_t t, Mask& mask) const {
+        if (normals_[t] == dvec3(0)) return true; // it covers nothing
+        if (glm::dot(normals_[t], chart.axis->out) < kSteepest) return false;
+        Corners corners;
+        dvec3 heights(0);
+        Box box = chart.box;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const dvec3 place = position(corner(t, i));
+            const dvec2 flat = flattened(*chart.axis, place);
+            box.add(flat);
+            corners[i] = flat * maskScale_;
+            heights[int(i)] = glm::dot(place, chart.axis->out) * maskScale_;
+        }
+        const dvec2 most = glm::max(chart.box.size(), dvec2(kLongest * kMaskSide / maskScale_));
+        const bool first = chart.box.high.x < chart.box.low.x;
+        if (!first && (box.size().x > most.x || box.size().y > most.y)) return false;
+        return mask.take(corners, heights);
+    }
+
+    // Shelves from the top down, the highest charts first, at the largest scale that fits.
+    Status pack() {
+        std::vector<std::size_t> order(charts_.size());
+        std::iota(order.begin(), order.end(), std::size_t(0));
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return charts_[a].box.size().y > charts_[b].box.size().y;
+        });
+        if (!place(order, 0))
+            return Error{"the mesh falls into " + std::to_string(charts_.size()) +
+                         " charts, too many for a picture of " + std::to_string(side_) +
+                         " texels a side; must be larger"};
+        double area = 0, longest = 0;
+        for (const Chart& chart : charts_) {
+            const dvec2 size = chart.box.size();
+            area += size.x * size.y;
+            longest = std::max({longest, size.x, size.y});
+        }
+        double most = longest > 0 ? (side_ - 2) / longest : 0; // scale
+        if (area > 0) most = std::min(most, side_ / std::sqrt(area));
+        constexpr int kHalvings = 40;
+        double fits = place(order, most) ? most : 0;
+        for (int i = 0; i < kHalvings && fits < most; ++i) {
+            const double middle = (fits + most) / 2;
+            (place(order, middle) ? fits : most) = middle;
+        }
+        place(order, scale_ = fits);
+        return Done{};
+    }
+
+    // Offsets of all boxes at this scale, each with a texel around it; false when there is no room.
+    bool place(const std::vector<std::size_t>& order, double scale) {
+        offsets_.resize(charts_.size());
+        ivec2 at(0);
+        int shelf = 0; // its height
+        for (const std::size_t chart : order) {
+            // What rounding adds may hang into the texel around: reading goes half a texel farther at most.
+            const dvec2 size = glm::max(glm::ceil(charts_[chart].box.size() * scale - 1e-3), dvec2(1)) + 2.0;
+            if (size.x > side_ || size.y > side_) return false;
+            if (at.x + int(size.x) > side_) at = {0, at.y + std::exchange(shelf, 0)};
+            if (at.y + int(size.y) > side_) return false;
+            offsets_[chart] = at;
+            at.x += int(size.x);
+            shelf = std::max(shelf, int(size.y));
+        }
+        return true;
+    }
+
+    // Those that cover the middle of a texel whose middle another one covers.
+    std::vector<std::size_t> hiddenTriangles() const {
+        std::vector<bool> covered(std::size_t(side_) * std::size_t(side_));
+        std::vector<std::size_t> hidden;
+        for (std::size_t t = 0; t < count_; ++t) {
+            Corners corners;
+            for (std::size_t i = 0; i < 3; ++i)
+                corners[i] = dvec2(placeOf(corner(t, i), chartOf_[t]));
+            const auto index = [&](std::int64_t x, std::int64_t y) { return std::size_t(y * side_ + x); };
+            const bool free =
+                forEachMiddle(corners, [&](std::int64_t x, std::int64_t y) { return !covered[index(x, y)]; });
+            if (!free)
+                hidden.push_back(t);
+            else
+                forEachMiddle(corners,
+                              [&](std::int64_t x, std::int64_t y) { return covered[index(x, y)] = true; });
+        }
+        return hidden;
+    }
+
+    const Mesh& mesh_;
+    int side_;
+    std::size_t count_;
+    std::vector<dvec3> normals_; // of the triangles; 0: without area
+    std::vector<int> across_;    // three a triangle
+    double maskScale_ = 0;       // texels a metre
+    std::vector<int> chartOf_;
+    std::vector<Chart> charts_;
+    std::vector<ivec2> offsets_; // of the boxes with the texel around them
+    double scale_ = 0;           // texels a metre
+};
+
+// Grows the lists of a mesh by copies of vertices.
+void copyVertices(Mesh& mesh, const std::vector<std::uint32_t>& sources) {
+    const auto copy = [&](auto& list) {
+        if (list.empty()) return;
+        for (const std::uint32_t source : sources) {
+            const auto value = list[source];
+            list.push_back(value);
+        }
+    };
+    copy(mesh.positions);
+    copy(mesh.normals);
+    copy(mesh.joints);
+    copy(mesh.jointWeights);
+    for (MorphTarget& target : mesh.rig.targets) {
+        copy(target.positions);
+        copy(target.normals);
+    }
+}
+
+// Each vertex stays what it is in the first chart that uses it; for others it is copied.
+Atlas atlasFrom(const Mesh& source, const Layout& layout, int side) {
+    Mesh mesh = source;
+    if (mesh.normals.empty()) mesh.normals = areaWeightedNormals(mesh.positions, mesh.indices);
+    struct Copy {
+        int chart = kNone;
+        std::uint32_t vertex = 0, next = 0; // 0: the last one; no copy has that number
+    };
+    std::vector<Copy> copies(source.positions.size());
+    std::vector<std::uint32_t> sources;
+    Atlas atlas{nullptr, std::vector<vec2>(copies.size(), vec2(0)), side};
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const std::uint32_t vertex = source.indices[i];
+        const int chart = layout.chartOf(i / 3);
+        std::size_t at = vertex;
+        while (copies[at].chart != chart && copies[at].next)
+            at = copies[at].next;
+        if (copies[at].chart == kNone) {
+            copies[at] = {chart, vertex, 0};
+            atlas.places[vertex] = layout.placeOf(vertex, chart);
+        } else if (copies[at].chart != chart) {
+            copies[at].next = std::uint32_t(copies.size());
+            at = copies.size();
+            copies.push_back({chart, std::uint32_t(at), 0});
+            sources.push_back(vertex);
+            atlas.places.push_back(layout.placeOf(vertex, chart));
+        }
+        mesh.indices[i] = copies[at].vertex;
+    }
+    copyVertices(mesh, sources);
+    atlas.mesh = std::make_shared<const Mesh>(std::move(mesh));
+    return atlas;
+}
+
+} // namespace
+
+Result<std::shared_ptr<const Atlas>> atlasOf(const std::shared_ptr<const Mesh>& mesh, int side) {
+    struct Made {
+        std::weak_ptr<const Mesh> from;
+        std::shared_ptr<const Atlas> atlas;
+    };
+    constexpr std::size_t kKept = 8;
+    static std::vector<Made> made;
+    std::erase_if(made, [](const Made& one) { return one.from.expired(); });
+    for (const Made& one : made)
+        if (one.atlas->side == side && one.from.lock() == mesh) return one.atlas;
+    Layout layout(*mesh, side);
+    if (Status laid = layout.run(); !laid) return laid.error();
+    if (made.size() == kKept) made.erase(made.begin());
+    made.push_back({mesh, std::make_shared<const Atlas>(atlasFrom(*mesh, layout, side))});
+    return made.back().atlas;
+}
+
+} // namespace lucent::scene
