@@ -418,16 +418,16 @@ TEST(Painting, ComplaintsSayWhatIsWrong) {
     const std::string marble = R"({ "preset": "marble" })", fill = R"({ "strokes": [] })";
     EXPECT_EQ(
         messageOf(two, R"({ "entering": "m.pfm", "leaving": "n.pfm" })", marble),
-        "scenes/a.json:3: objects.ball.paint has maps of 16 and 32 texels a side; must be equally large");
+        "scenes/a.json:2: objects.ball.paint has maps of 16 and 32 texels a side; must be equally large");
     EXPECT_EQ(messageOf(two, R"({ "leaving": "n.pfm", "side": 32 })", marble),
               "scenes/a.json:3: objects.ball.paint.side is given beside maps; must stand without them");
     EXPECT_EQ(messageOf(two, "{}", marble),
-              "scenes/a.json:3: objects.ball.paint holds no paint; must have entering, leaving or strokes");
+              "scenes/a.json:2: objects.ball.paint holds no paint; must have entering, leaving or strokes");
     EXPECT_EQ(
         messageOf(two, R"({ "strokes": 3 })", marble),
         "scenes/a.json:3: objects.ball.paint.strokes is 3; must be the name of a file or a list of strokes");
     EXPECT_EQ(messageOf(two, fill, R"({ "diffuse": [1, 0, 0] })"),
-              "scenes/a.json:3: objects.ball.paint does nothing where nothing scatters; must stand beside a "
+              "scenes/a.json:2: objects.ball.paint does nothing where nothing scatters; must stand beside a "
               "scattering "
               "above 0");
     EXPECT_EQ(messageOf(two, fill, R"({ "preset": "marble", "diffuse": [1, 0, 0] })"),
