@@ -11,12 +11,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Egan and Hilgeman's fit of what the boundary reflects of diffuse light inside.
-double internalReflection(double ior) {
-    if (ior < 1) return -0.4399 + 0.7099 / ior - 0.3319 / (ior * ior) + 0.0636 / (ior * ior * ior);
-    return -1.440 / (ior * ior) + 0.710 / ior + 0.668 + 0.0636 * ior;
-}
-
 /// Distances from a point over a plane, of which a share u lies within: z a source's distance from the plane
 /// for the light it sends there, 1 - z / sqrt(r² + z²); or 1 - e^(-r / z).
 struct Spread {
@@ -42,8 +36,17 @@ struct Spread {
 /// R_d of one colour.
 class Response {
 public:
-    Response(const Inside& inside, double thickness, const DipoleOptions& options)
+    /// @param most  m, the largest distance asked for
+    Response(const Body& body, std::size_t channel, const DipoleOptions& options, double most)
         : offset_(options.geometry == DipoleGeometry::Offset) {
+        const Inside& inside = body.insides[channel];
+        const double thickness = body.thickness;
+        if (options.profile == Diffusion::Multipole && !body.layers[channel].empty()) {
+            std::vector<Layer> layers = body.layers[channel];
+            layers.push_back({inside, thickness > 0 ? thickness : kInfinity});
+            layered_ = std::make_shared<LayeredResponse>(layers, most);
+            return;
+        }
         const double scattering = inside.reducedScattering(), extinction = scattering + inside.absorption;
         if (scattering == 0) return;
         albedo_ = scattering / extinction;
@@ -63,11 +66,12 @@ public:
         }
     }
 
-    bool isDark() const { return albedo_ == 0; }
+    bool isDark() const { return layered_ ? layered_->isDark() : albedo_ == 0; }
 
     /// @param normal  unit, where light enters
     double at(const dvec3& from, const dvec3& normal, const dvec3& to) const {
         const double r = glm::distance(from, to);
+        if (layered_) return layered_->at(r);
         if (burleyTotal_ > 0)
             return burleyTotal_ / (8 * kPi * burleyLength_ * r) *
                    (std::exp(-r / burleyLength_) + std::exp(-r / (3 * burleyLength_)));
@@ -81,17 +85,28 @@ public:
         return albedo_ / (4 * kPi) * sum;
     }
 
+    /// The same of a medium this many times as dense: sharpness² R_d(sharpness r).
+    double at(const dvec3& from, const dvec3& normal, const dvec3& to, double sharpness) const {
+        if (sharpness == 1) return at(from, normal, to);
+        return sharpness * sharpness * at(dvec3(0), normal, sharpness * (to - from));
+    }
+
     /// How places are chosen for it: R_d is bounded by a multiple of the mean of these densities.
-    void addSpreads(double most, std::vector<Spread>& spreads) const {
+    ///
+    /// @param scale  of the density of the medium
+    void addSpreads(double scale, double most, std::vector<Spread>& spreads) const {
         if (isDark()) return;
         if (burleyTotal_ >
             0) { // a quarter of its light lies in the narrow part, three quarters in the wide one
-            spreads.push_back({burleyLength_, true, most});
+            spreads.push_back({burleyLength_ / scale, true, most});
             for (int i = 0; i < 3; ++i)
-                spreads.push_back({3 * burleyLength_, true, most});
+                spreads.push_back({3 * burleyLength_ / scale, true, most});
+        } else if (layered_) {
+            spreads.push_back({layered_->depths().x / scale, false, most});
+            spreads.push_back({layered_->depths().y / scale, false, most});
         } else {
-            spreads.push_back({std::abs(sources_[0].depth), false, most});
-            spreads.push_back({std::abs(sources_[1].depth), false, most});
+            spreads.push_back({std::abs(sources_[0].depth) / scale, false, most});
+            spreads.push_back({std::abs(sources_[1].depth) / scale, false, most});
         }
     }
 
@@ -129,6 +144,7 @@ private:
     bool offset_;
     double albedo_ = 0, transport_ = 0;
     std::vector<Source> sources_;
+    std::shared_ptr<const LayeredResponse> layered_; ///< shared by copies
     double burleyTotal_ = 0;
     double burleyLength_ = 0; ///< m
 };
@@ -137,9 +153,12 @@ private:
 class Responses {
 public:
     Responses(const Body& body, const DipoleOptions& options) : most_(2 * body.alone.around(0).radius) {
-        for (const Inside& inside : body.insides) {
-            colors.emplace_back(inside, body.thickness, options);
-            colors.back().addSpreads(most_, spreads_);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            // Where paint makes light spread less or more, R_d is bounded by a multiple of the next of these.
+            const dvec2 sharpness = body.painted ? body.painted->sharpness() : dvec2(1);
+            colors.emplace_back(body, channel, options, most_ * std::max(1.0, sharpness.y));
+            for (double scale = sharpness.x; scale <= sharpness.y; scale *= 4)
+                colors.back().addSpreads(scale, most_, spreads_);
         }
     }
     /// The distance within which a share u of the mean of all spreads lies.
@@ -255,14 +274,16 @@ dvec3 DipoleEstimator::State::sample(const Body& body, const dvec3& to, const Li
     for (Hits hits = body.alone.meet(line); hits.count > 0; hits = body.alone.meet(line)) {
         for (Hit from : hits) {
             from.shape = body.object;
-            const dvec3 light = illumination.irradiance(from, from.normal, random, body.insides[0].ior);
+            const dvec3 light = illumination.irradiance(from, from.normal, random, body.surfaceIor);
             if (light == dvec3(0)) continue;
             const double area = lines.areaOf(from, family);
             if (!(area > 0)) continue; // in one point, which nobody chooses
             const dvec3 normal = normalTowards(from, from.normal);
+            const Paint paint = body.paintAt(from.position);
+            const dvec3 entering = light * paint.translucency * paint.entering;
             for (int c = 0; c < 3; ++c)
                 if (const Response& color = own.colors[std::size_t(c)]; !color.isDark())
-                    sum[c] += light[c] * color.at(from.position, normal, to) * area;
+                    sum[c] += entering[c] * color.at(from.position, normal, to, paint.sharpness) * area;
         }
         line.begin = hits.at[0].distance + body.alone.gap();
     }
@@ -321,13 +342,16 @@ Pixel DipoleEstimator::solve(ivec2 pixel) const {
     if (!place) return state_->surroundings.solve(pixel);
     const auto number = std::uint64_t(pixel.y) * std::uint64_t(state_->size.x) + std::uint64_t(pixel.x);
     const Estimate estimate = radiosity(*place->body, place->hit, number);
-    double share = 1;
+    const Paint paint = place->body->paintAt(place->hit.position);
+    dvec3 share = paint.translucency * paint.leaving;
     if (state_->options.aov == scene::Aov::Color) {
         const double cosine = glm::dot(normalTowards(place->hit, place->viewer), place->viewer);
-        share = place->body->lobe(cosine);
+        share *= place->body->lobe(cosine);
         if (!state_->options.normalisedExit) share *= place->body->meanTransmittance;
     }
-    return {share * estimate.mean(), share * share * estimate.varianceOfMean(), 1};
+    const Pixel matt = state_->surroundings.matt(*place, pixel);
+    return {share * estimate.mean() + matt.value, share * share * estimate.varianceOfMean() + matt.variance,
+            1};
 }
 
 } // namespace lucent::truth

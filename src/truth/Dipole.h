@@ -51,7 +51,13 @@ struct DipoleOptions {
 /// - Multipole: the images of these at both boundaries of a layer (Donner, Jensen 2005), 20 each way and the
 ///   rest as an integral; the source stands at the mean depth of the first collision in the layer, with the
 ///   share of light that collides there;
+///   With layers on the medium (material.layers) it is LayeredResponse's, by the distance alone whatever the
+///   geometry; dipole and Burley know no layers.
 /// - Burley: s = 1.85 - A + 7 |A - 0.8|³ with A the dipole's share of light that leaves a half space.
+///
+/// On painted bodies (scene::Painting) light that enters counts t M_i times and spreads by M_d² R_d(M_d r),
+/// all by the paint where it enters; where it is seen, t times the paint on what leaves is a factor, and the
+/// share 1 - t of the surface is matt.
 ///
 /// Light that is scattered once only or not at all is in none of them: the papers leave it out. Nor is light
 /// that objects send each other after scattering, nor that of caustics. Where the surface is not closed only

@@ -347,6 +347,53 @@ void filterTriangle(const RTCFilterFunctionNArguments* given) {
     else
         given->valid[0] = 0;
 }
+
+/// The nearest place of one triangle: a corner, on an edge, or inside (Ericson, Real-Time Collision
+/// Detection, 2005, 5.1.5).
+dvec3 nearestWeights(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& point) {
+    const dvec3 ab = b - a, ac = c - a;
+    const double d1 = glm::dot(ab, point - a), d2 = glm::dot(ac, point - a);
+    if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+    const double d3 = glm::dot(ab, point - b), d4 = glm::dot(ac, point - b);
+    if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+    const double overC = d1 * d4 - d3 * d2;
+    if (overC <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
+    const double d5 = glm::dot(ab, point - c), d6 = glm::dot(ac, point - c);
+    if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+    const double overB = d5 * d2 - d1 * d6;
+    if (overB <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
+    const double overA = d3 * d6 - d5 * d4;
+    if (overA <= 0 && d4 >= d3 && d5 >= d6) {
+        const double along = (d4 - d3) / (d4 - d3 + d5 - d6);
+        return {0, 1 - along, along};
+    }
+    const double sum = overA + overB + overC;
+    return {overA / sum, overB / sum, overC / sum};
+}
+
+/// The nearest triangle up to now.
+struct Search {
+    const std::vector<Entry>& entries;
+    dvec3 point;
+    double room;
+    std::optional<Nearest> found;
+
+    static bool offer(RTCPointQueryFunctionArguments* given) {
+        Search& search = *static_cast<Search*>(given->userPtr);
+        const auto* mesh = std::get_if<Triangles>(&search.entries[given->geomID].shape);
+        if (!mesh) return false;
+        const std::uint32_t* index = &mesh->indices[3 * std::size_t(given->primID)];
+        const dvec3 &a = mesh->positions[index[0]], &b = mesh->positions[index[1]],
+                    &c = mesh->positions[index[2]];
+        const dvec3 weights = nearestWeights(a, b, c, search.point);
+        const double distance = glm::distance(search.point, weights.x * a + weights.y * b + weights.z * c);
+        if (search.found && distance >= search.found->distance) return false;
+        search.found = Nearest{given->primID, weights, distance};
+        given->query->radius = std::min(given->query->radius, float((distance + search.room) * (1 + 1e-5)));
+        return true;
+    }
+};
+
 } // namespace
 
 struct RayScene::State {
@@ -467,6 +514,16 @@ bool RayScene::occluded(const WorldRay& ray, const Leaving& leaving) const {
     RTCRay found = state_->ray(query);
     rtcOccluded1(state_->scene, &query.context, &found);
     return found.tfar < 0;
+}
+
+std::optional<Nearest> RayScene::nearest(const dvec3& point) const {
+    Search search{state_->entries, point, state_->room, {}};
+    const dvec3 from = point - state_->middle;
+    RTCPointQuery query{float(from.x), float(from.y), float(from.z), 0, float(kInfinity)};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(state_->scene, &query, &context, Search::offer, &search);
+    return search.found;
 }
 
 double RayScene::gap() const { return 1e-4 * state_->room; }

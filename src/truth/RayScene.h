@@ -93,6 +93,13 @@ struct Hits {
     const Hit* end() const { return at.data() + count; }
 };
 
+/// The place on triangles that is nearest to a point.
+struct Nearest {
+    std::size_t triangle;
+    dvec3 weights;   ///< of its corners, [0,1], their sum 1
+    double distance; ///< m
+};
+
 class RayScene {
 public:
     /// Error when Embree cannot work on this machine, with its own message.
@@ -108,6 +115,9 @@ public:
 
     /// The nearest hit and all that lie no more than gap() behind it.
     Hits meet(const WorldRay& ray, const Leaving& leaving = {}) const;
+
+    /// Of all shapes that are triangles; nothing where there are none.
+    std::optional<Nearest> nearest(const dvec3& point) const;
 
     /// Surfaces that are no further apart count as one [m]: 1e-9 of the scene's box, a thousand times what a
     /// hit's place may be off by rounding.

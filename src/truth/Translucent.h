@@ -5,7 +5,9 @@
 #include "base/Result.h"
 #include "scene/Scene.h"
 #include "truth/Glass.h"
+#include "truth/Layered.h"
 #include "truth/Optics.h"
+#include "truth/Paint.h"
 #include "truth/Picture.h"
 #include "truth/RayScene.h"
 #include "truth/Sight.h"
@@ -17,24 +19,21 @@
 
 namespace lucent::truth {
 
-/// What one colour of light finds inside an object, 1/m.
-struct Inside {
-    double scattering = 0; ///< sigma_s
-    double anisotropy = 0; ///< g
-    double absorption = 0; ///< sigma_a
-    double ior = 1;        ///< over that of the outside
-    /// sigma_s' = (1 - g) sigma_s
-    double reducedScattering() const { return (1 - anisotropy) * scattering; }
-};
-
 /// An object that scatters light inside.
 struct Body {
-    int object;                    ///< its number in the scene
-    RayScene alone;                ///< it alone, as shape 0
-    std::array<Inside, 3> insides; ///< of red, green and blue light
-    double thickness;              ///< m, of the layer below its surface; 0: none
+    int object;                               ///< its number in the scene
+    RayScene alone;                           ///< it alone, as shape 0
+    std::array<Inside, 3> insides;            ///< of red, green and blue light
+    std::array<std::vector<Layer>, 3> layers; ///< on top of it, the top first
+    double surfaceIor;                        ///< index of refraction right below the surface
+    double thickness;                         ///< m, of the layer below its surface; 0: none
     double meanTransmittance; ///< of its boundary for light from all around: the mean of F_t by the cosine
+    std::shared_ptr<const PaintedSurface> painted; ///< null: nothing is
 
+    Paint paintAt(const dvec3& place) const { return painted ? painted->at(place) : Paint{}; }
+
+    /// m, from a place inside to the nearest of its surface.
+    double depthOf(const dvec3& place) const;
     /// What a radiosity is as radiance towards a place: F_t(cosine) / (pi mean F_t), 1/sr. All that leaves is
     /// seen from somewhere.
     ///
@@ -69,9 +68,9 @@ private:
     std::vector<Body> bodies_;
 };
 
-/// Pictures of everything else: black where the middle of a pixel shows the outside of a body. Of the AOV
-/// color what GlassEstimator shows, to which bodies that are seen through glass or in mirrors are matt (their
-/// diffuse colour); of radiosity nothing.
+/// Pictures of everything else: of the AOV color what GlassEstimator shows, to which bodies that are seen
+/// through glass or in mirrors are matt (their diffuse colour); of radiosity nothing. Where the middle of a
+/// pixel shows the outside of a body there is only what is matt of that, by its painting: else it is black.
 class Surroundings : public Estimator {
 public:
     /// @param bodies  must outlive this
@@ -79,12 +78,19 @@ public:
     static Result<Surroundings> create(const scene::Scene& scene, const Bodies& bodies, ivec2 size,
                                        scene::Aov aov, int samples, std::uint64_t seed);
     Pixel solve(ivec2 pixel) const override;
+    /// What is matt of a body in a pixel.
+    Pixel matt(const Bodies::Place& place, ivec2 pixel) const;
 
 private:
-    Surroundings(const scene::Scene& scene, const Bodies& bodies, ivec2 size);
+    Surroundings(const scene::Scene& scene, const Bodies& bodies, ivec2 size, int samples,
+                 std::uint64_t seed);
     const Bodies* bodies_;
     Eye eye_;
+    ivec2 size_;
+    int samples_;
+    std::uint64_t seed_;
     std::optional<GlassEstimator> others_;
+    std::optional<Illumination> light_; ///< of what is matt
 };
 
 } // namespace lucent::truth

@@ -36,42 +36,99 @@ struct Fate {
     double absorbed = 0, lost = 0;
 };
 
+/// What light meets inside a body: one medium, or layers of several by their depth below the surface.
+class Interior {
+public:
+    /// @param sharpness  how many times as dense as the material all of it is
+    Interior(const Body& body, std::size_t channel, double sharpness)
+        : body_(body), base_(body.insides[channel]), sharpness_(sharpness) {
+        double bottom = 0;
+        for (const Layer& layer : body.layers[channel]) {
+            bottom += layer.thickness / sharpness;
+            layers_.push_back({dense(layer.inside), bottom});
+        }
+        base_ = dense(base_);
+        densest_ = base_.scattering + base_.absorption;
+        for (const Layer& layer : layers_)
+            densest_ = std::max(densest_, layer.inside.scattering + layer.inside.absorption);
+    }
+
+    /// To where light may collide next. Among layers as if all were as dense as the densest (Woodcock 1965).
+    double way(Random& random) const {
+        const double often = layers_.empty() ? base_.scattering : densest_;
+        return often > 0 ? -std::log1p(-random.next()) / often : kInfinity;
+    }
+    /// Share that is not absorbed on a way; among layers that is done where light collides.
+    double left(double way) const { return layers_.empty() ? std::exp(-base_.absorption * way) : 1; }
+    /// Share that a collision leaves and the medium's anisotropy; nothing where there is none.
+    struct Collision {
+        double left, anisotropy;
+    };
+    std::optional<Collision> collide(const dvec3& place, Random& random) const {
+        if (layers_.empty()) return Collision{1, base_.anisotropy};
+        const double depth = body_.depthOf(place);
+        const auto in = std::find_if(layers_.begin(), layers_.end(),
+                                     [&](const Layer& layer) { return depth < layer.thickness; });
+        const Inside& inside = in == layers_.end() ? base_ : in->inside;
+        const double extinction = inside.scattering + inside.absorption;
+        if (random.next() * densest_ >= extinction) return {};
+        return Collision{inside.scattering / extinction, inside.anisotropy};
+    }
+
+private:
+    Inside dense(Inside inside) const {
+        inside.scattering *= sharpness_;
+        inside.absorption *= sharpness_;
+        return inside;
+    }
+    const Body& body_;
+    Inside base_;
+    double sharpness_;
+    std::vector<Layer> layers_; ///< with the depth of their lower side for thickness
+    double densest_ = 0;        ///< 1/m
+};
+
 /// Follows light that is inside.
 ///
 /// @param direction  unit, away from `place` on the boundary
-/// @param leave      called with the place and the share that leaves there
+/// @param leave      called with the place, the share that leaves there and how often it was scattered
 template <class Leave>
-Fate walk(const Body& body, const Inside& inside, dvec3 place, dvec3 direction, Random& random,
+Fate walk(const Body& body, const Interior& interior, dvec3 place, dvec3 direction, Random& random,
           const Leave& leave) {
     constexpr int kMostSteps = 10'000'000; // of ways that have left an open body
     constexpr double kFaint = 0.05;        // below, few ways go on for all: chance, not bias
     const auto* ball = std::get_if<Sphere>(&body.alone.shape(0));
     Fate fate;
     double share = 1;
+    int scatterings = 0;
     Leaving leaving{0, body.alone.gap()};
     for (int step = 0; step < kMostSteps; ++step) {
-        const double way =
-            inside.scattering > 0 ? -std::log1p(-random.next()) / inside.scattering : kInfinity;
+        const double way = interior.way(random);
         // What is straight between two places of a ball meets no surface: there is none to look for.
         const bool within = ball && glm::distance(place + way * direction, ball->center) < ball->radius;
         const auto hit = within ? std::nullopt : body.alone.intersect({place, direction, way}, leaving);
         if (!hit && way == kInfinity) break;
-        const double left = share * std::exp(-inside.absorption * (hit ? hit->distance : way));
+        const double left = share * interior.left(hit ? hit->distance : way);
         fate.absorbed += share - left;
         share = left;
         if (hit) {
             const double cosine = glm::dot(hit->normal, direction);
             if (cosine <= 0) break; // it is outside
-            const double mirroredShare = reflectance(std::min(cosine, 1.0), inside.ior);
-            if (mirroredShare < 1) leave(*hit, share * (1 - mirroredShare));
+            const double mirroredShare = reflectance(std::min(cosine, 1.0), body.surfaceIor);
+            if (mirroredShare < 1) leave(*hit, share * (1 - mirroredShare), scatterings);
             share *= mirroredShare;
             place = hit->position;
             direction = mirrored(direction, hit->normal);
             leaving = {0, body.alone.gap()};
         } else {
             place += way * direction;
-            direction = scattered(direction, inside.anisotropy, random);
             leaving = {};
+            if (const auto collision = interior.collide(place, random)) {
+                fate.absorbed += share * (1 - collision->left);
+                share *= collision->left;
+                direction = scattered(direction, collision->anisotropy, random);
+                ++scatterings;
+            }
         }
         if (share == 0) return fate;
         if (share < kFaint) {
@@ -105,7 +162,7 @@ public:
         for (std::size_t pixel = 0; pixel < worth.size(); ++pixel) {
             const ivec2 at(int(pixel) % size_.x, int(pixel) / size_.x);
             if (const auto place = bodies_.seenAt(eye_, at))
-                worth[pixel] = dvec3(valueOf(*place->body, place->hit, place->viewer));
+                worth[pixel] = valueOf(*place->body, place->hit, place->viewer);
         }
         return worth;
     }
@@ -133,20 +190,23 @@ public:
 private:
     void enter(const Body& body, const Hit& hit, const dvec3& direction, double cosine, int channel,
                const dvec3& flux, Random& random, Brought& brought) const {
-        const Inside& inside = body.insides[std::size_t(channel)];
-        const double outside = reflectance(cosine, 1 / inside.ior);
+        const Paint paint = body.paintAt(hit.position);
+        const double outside = reflectance(cosine, 1 / body.surfaceIor);
         brought.energy.met += flux;
-        brought.energy.reflected += outside * flux;
-        const auto inward = refracted(direction, hit.normal, 1 / inside.ior);
+        brought.energy.received += (1 - paint.translucency) * flux;
+        brought.energy.reflected += paint.translucency * outside * flux;
+        const auto inward = refracted(direction, hit.normal, 1 / body.surfaceIor);
         if (!inward || outside == 1) return;
         std::vector<std::pair<std::size_t, double>> seen;
         double escaped = 0;
-        const Fate fate =
-            walk(body, inside, hit.position, *inward, random, [&](const Hit& exit, double share) {
-                escaped += share;
-                count(body, exit, share, seen);
-            });
-        const dvec3 entered = (1 - outside) * flux;
+        const Interior interior(body, std::size_t(channel), paint.sharpness);
+        const Fate fate = walk(body, interior, hit.position, *inward, random,
+                               [&](const Hit& exit, double share, int scatterings) {
+                                   escaped += share;
+                                   if (scatterings == options_.scatterings.value_or(scatterings))
+                                       count(body, exit, share, channel, seen);
+                               });
+        const dvec3 entered = (1 - outside) * flux * paint.translucency * paint.entering;
         brought.energy.escaped += escaped * entered;
         brought.energy.absorbed += fate.absorbed * entered;
         brought.energy.lost += fate.lost * entered;
@@ -163,7 +223,7 @@ private:
     }
 
     /// Adds light that leaves to the pixel that sees it, over the area that it shows.
-    void count(const Body& body, Hit exit, double share,
+    void count(const Body& body, Hit exit, double share, int channel,
                std::vector<std::pair<std::size_t, double>>& seen) const {
         exit.shape = body.object;
         const auto at = eye_.placeOf(exit.position);
@@ -175,14 +235,16 @@ private:
         if (bodies_.optics().rays().occluded(sight, leavingFrom(bodies_.optics(), exit, viewer))) return;
         const ivec2 pixel(*at);
         seen.emplace_back(std::size_t(pixel.y) * std::size_t(size_.x) + std::size_t(pixel.x),
-                          share * valueOf(body, exit, viewer));
+                          share * valueOf(body, exit, viewer)[channel]);
     }
 
     /// Of a watt that leaves at a place.
-    double valueOf(const Body& body, const Hit& hit, const dvec3& viewer) const {
+    dvec3 valueOf(const Body& body, const Hit& hit, const dvec3& viewer) const {
         const double perArea = 1 / eye_.areaOfPixel(hit.position, hit.normal);
-        if (options_.aov != scene::Aov::Color) return perArea;
-        return perArea * body.lobe(glm::dot(normalTowards(hit, viewer), viewer));
+        const Paint paint = body.paintAt(hit.position);
+        const dvec3 painted = paint.translucency * paint.leaving;
+        if (options_.aov != scene::Aov::Color) return perArea * painted;
+        return perArea * body.lobe(glm::dot(normalTowards(hit, viewer), viewer)) * painted;
     }
 
     const Bodies& bodies_;

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 
 namespace lucent::truth {
 
@@ -15,6 +16,8 @@ struct WalkOptions {
     std::int64_t photons = 1'000'000;   ///< of the whole picture, > 0
     int samples = 256;                  ///< of each pixel of what scatters nothing; see GlassEstimator
     std::uint64_t seed = 0;
+    /// Only light that was scattered so often is counted in the picture; nothing: all. Energy is all light's.
+    std::optional<int> scatterings = {};
 };
 
 /// Rays of light from lamps and environment that enter bodies by Fresnel's equations, are scattered inside
@@ -29,11 +32,20 @@ struct WalkOptions {
 /// Each ray has one colour, chosen by chance. Light that has left a body is not followed to others, nor is
 /// what its boundary mirrors outside, nor light that reaches it by way of glass or mirrors; light that was
 /// never scattered inside leaves as well and is counted. Bodies end at their triangles, whose own normals
-/// count, and know no layers (material.thickness); from open ones light may be lost. Where bodies overlap the
+/// count; from open ones light may be lost. A slab is a body that thin: material.thickness is not known. Of
+/// material.layers light finds the one in whose depth it is, by its distance from the nearest place of the
+/// surface; their indices of refraction count at the surface only, where it is that of the top layer, and not
+/// between layers. Where bodies overlap the
 /// first surface met is entered and the others are not there.
 ///
+/// Of painted bodies all of a way is as dense as the paint makes it where it began (M_d of eq. 7.4 scales
+/// both coefficients), the matt share of the surface lets no light in or out and is shown as it is lit, and
+/// M_i and what is painted on what leaves are factors. Where M_i is not 1 the book does not add up: paint
+/// makes light or takes it.
+///
 /// Picture::energy: met is what arrives at bodies' outsides, reflected by them outside, absorbed inside,
-/// escaped out of them again, lost given up.
+/// escaped out of them again, received by what is matt
+/// of them, lost given up.
 ///
 /// @param part    every part is a whole picture by its own rays; merge() takes their weighted mean
 /// @param cancel  set from elsewhere to stop
