@@ -2,6 +2,7 @@
 //
 // in    uSurface  the nearest surfaces that the light sees; FROM_SKY: one layer of the object along an axis, with
 //                 outward normals
+//       uPaint    PAINTED: what is painted on these pixels (views/paint.glsl, what enters)
 // out   subsurface/points.glsl
 // model F_t(cos) times the flux of the pixel: the cosine at which light arrives and the slope of the surface in the
 //       pixel cancel. FROM_SKY: irradiance with F_t in it, times area, times cos² of the angle to the view, so that
@@ -15,6 +16,8 @@ layout(std140) uniform FluxBlock {
     vec4 color; // irradiance that faces the light, or that at 1 m; a: exponent of the cone
     vec4 axis;  // unit: along which the light shines most; w: 1: it fades
     vec4 sky[9];
+    vec4 sharpness; // of painted objects. x: most that points tell apart; y: radius of half the profile's light [m]; z:
+                    // that of its blur [m], 0: it has none; w: 1: as the paper has it
     vec2 cone;
     int object;
     float ior;
@@ -28,6 +31,18 @@ vec3 skyLight(vec3 n) {
                    (3.0 * n.z * n.z - 1.0) * light.sky[6].rgb + n.x * n.z * light.sky[7].rgb +
                    (n.x * n.x - n.y * n.y) * light.sky[8].rgb,
                0.0);
+}
+#endif
+
+#ifdef PAINTED
+uniform sampler2D uPaint;
+
+// M_d as the points can carry it. A profile that they had to blur is as wide as it and M_d make it together.
+float sharpnessFrom(float painted) {
+    float sharpness = min(painted, light.sharpness.x);
+    if (light.sharpness.z > 0.0 && sharpness < 1.0)
+        sharpness = length(light.sharpness.yz) / length(vec2(light.sharpness.y / sharpness, light.sharpness.z));
+    return sharpness;
 }
 #endif
 
@@ -61,4 +76,11 @@ void main() {
     oPlace = vec4(light.view.eye.xyz + toPlace, depth - 0.5 * width * slope);
     oFlux = vec4(flux, depth + 0.5 * width * slope);
     oNormal = vec4(normal, length(vec2(width, width * slope)));
+#ifdef PAINTED
+    vec4 paint = texelFetch(uPaint, ivec2(gl_FragCoord.xy), 0);
+    oFlux.rgb *= paint.rgb;
+    if (light.sharpness.w > 0.5) oFlux.rgb /= paint.a * paint.a;
+    oSharpness = sharpnessFrom(paint.a);
+    oNormal.w *= oSharpness;
+#endif
 }

@@ -14,7 +14,8 @@ void main() {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < splat.count; ++i) {
         Point point;
-        if (findPoint(splat.first + i, point)) sum += point.flux * leaving(receiver.xyz - point.place, point.normal);
+        if (findPoint(splat.first + i, point))
+            sum += point.flux * leaving(point.sharpness * (receiver.xyz - point.place), point.normal);
     }
     oRadiosity = vec4(sum / splat.unit, 1.0);
 }

@@ -2,7 +2,8 @@
 //
 // in    uTable  the band at r = reach (i / (n - 1))²: [1/m²]; OFFSET: its share of the profile
 // model R_d of the distance through space. OFFSET: of the distances to sources moved along the normal at the point
-//       (Jensen et al. 2001)
+//       (Jensen et al. 2001). Where M_d is painted the way is times M_d, and so are the poles' depths: a medium M_d
+//       times as dense
 uniform sampler2D uTable;
 
 vec3 bandAt(float r) {

@@ -2,6 +2,7 @@
 //
 // in    uBefore   the layer before; PEEL_FIRST: none
 // out   oSurface  see views/surface_pixel.glsl, but with outward normals
+//       oPaint    PAINTED: what enters, of views/paint.glsl
 #include "views/mesh_block.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
@@ -11,6 +12,10 @@ in float vDepth;
 uniform sampler2D uBefore;
 #endif
 layout(location = 0) out vec4 oSurface;
+#ifdef PAINTED
+#include "views/paint.glsl"
+layout(location = 1) out vec4 oPaint;
+#endif
 
 void main() {
 #ifndef PEEL_FIRST
@@ -18,5 +23,8 @@ void main() {
     if (before.w == 0.0 || vDepth <= before.z) discard;
 #endif
     oSurface = vec4(octahedralFrom(normalize(vNormal)), vDepth, packSurface(mesh.object, kMeshFace, 1.0));
+#ifdef PAINTED
+    oPaint = paintEntering();
+#endif
     gl_FragDepth = bufferDepth(mesh.view, vDepth);
 }

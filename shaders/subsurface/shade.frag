@@ -2,10 +2,13 @@
 //
 // in    uRadiosity    [shade.unit] light that leaves (subsurface/splat.frag)
 //       uHighlight    USE_LAMPS: subsurface/highlight.frag
+//       uPaint        PAINTED: what is painted on these pixels (views/paint.glsl, what leaves)
+//       uMatt         PAINTED: the same surface as if it were opaque (brdf/shade.frag)
 //       uEnvironment  USE_SKY: see views/environment.glsl
 // out   oColor.rgb    linear Rec. 709, or with SHOW_RADIOSITY the radiosity; a: 1
 // model B F_t(cos) / (pi mean), with the mean F_t over the directions in which B leaves: what B counts leaves
-//       (a mean of 1 is the dissertation's eq. 6.13, which loses it); and the highlights
+//       (a mean of 1 is the dissertation's eq. 6.13, which loses it); and the highlights. PAINTED: translucency and
+//       factor times that, and the rest of the surface matt
 // not   in a highlight: objects
 #include "views/view.glsl"
 #include "lib/octahedral.glsl"
@@ -25,6 +28,10 @@ layout(std140) uniform SubsurfaceShadeBlock {
 uniform sampler2D uRadiosity;
 #ifdef USE_LAMPS
 uniform sampler2D uHighlight;
+#endif
+#ifdef PAINTED
+uniform sampler2D uPaint;
+uniform sampler2D uMatt;
 #endif
 #ifdef USE_SKY
 #include "views/environment.glsl"
@@ -60,6 +67,10 @@ void main() {
     SurfacePixel pixel = readSurface();
     if (pixel.face != kMeshFace || pixel.object != shade.object) discard;
     vec3 radiosity = shade.unit * texelFetch(uRadiosity, ivec2(gl_FragCoord.xy), 0).rgb;
+#ifdef PAINTED
+    vec4 paint = texelFetch(uPaint, ivec2(gl_FragCoord.xy), 0);
+    radiosity *= paint.a * paint.rgb;
+#endif
 #ifdef SHOW_RADIOSITY
     oColor = vec4(radiosity, 1.0);
 #else
@@ -68,6 +79,9 @@ void main() {
     float cosine = max(dot(normal, toEye), 0.0);
     float leaving = 1.0 - fresnelReflectance(cosine, 1.0 / shade.ior);
     oColor = vec4(radiosity * leaving / (kPi * shade.mean), 1.0);
+#ifdef PAINTED
+    oColor.rgb += (1.0 - paint.a) * texelFetch(uMatt, ivec2(gl_FragCoord.xy), 0).rgb;
+#endif
 #ifdef USE_LAMPS
     oColor.rgb += texelFetch(uHighlight, ivec2(gl_FragCoord.xy), 0).rgb;
 #endif

@@ -6,7 +6,7 @@
 // not   light for other objects: they have other numbers
 #include "subsurface/splat_block.glsl"
 #include "subsurface/leaving.glsl"
-flat in vec3 vPlace;
+flat in vec4 vPlace;
 flat in vec3 vNormal;
 flat in vec3 vFlux;
 uniform sampler2D uReceivers;
@@ -15,5 +15,5 @@ layout(location = 0) out vec4 oRadiosity;
 void main() {
     vec4 receiver = texelFetch(uReceivers, ivec2(gl_FragCoord.xy), 0);
     if (int(receiver.w) != splat.object + 1) discard;
-    oRadiosity = vec4(vFlux * leaving(receiver.xyz - vPlace, vNormal), 1.0);
+    oRadiosity = vec4(vFlux * leaving(vPlace.w * (receiver.xyz - vPlace.xyz), vNormal), 1.0);
 }

@@ -1,9 +1,9 @@
 // subsurface/splat.vert: points of light that entered an object, each as a square over all that it may reach.
 //
 // in    subsurface/level.glsl
-// out   vPlace, vNormal, vFlux  flat; of the point
+// out   vPlace, vNormal, vFlux  flat; of the point; vPlace.w: M_d
 #include "subsurface/level.glsl"
-flat out vec3 vPlace;
+flat out vec4 vPlace;
 flat out vec3 vNormal;
 flat out vec3 vFlux;
 
@@ -43,11 +43,11 @@ void main() {
     gl_Position = vec4(2.0, 2.0, 0.0, 1.0); // outside
     Point point;
     bool used = findPoint(gl_VertexID / 6, point);
-    vPlace = point.place;
+    vPlace = vec4(point.place, point.sharpness);
     vNormal = point.normal;
     vFlux = point.flux;
     if (!used) return;
-    vec4 box = pixelsOf(vPlace, splat.reach);
+    vec4 box = pixelsOf(point.place, splat.reach / point.sharpness);
     vec2 low = max(floor(box.xy), splat.bounds.xy);
     vec2 high = min(ceil(box.zw), splat.bounds.zw);
     if (any(greaterThanEqual(low, high))) return;

@@ -9,12 +9,14 @@ layout(std140) uniform SplatBlock {
     vec4 albedo;      // rgb
     int columns;      // of the level
     int object;
-    float widest;     // points that stand for more of the surface are not used [m]
-    float reach;      // of the band [m]
+    float widest;     // points that stand for more of the surface are not used [m, times M_d]
+    float reach;      // of the band [m, times M_d]
     int isFinest;     // the level: its points are used however wide
     int isCoarsest;
     int first;        // of the points that are gathered
     int count;
     float unit;       // [W/m²] that counts as 1 where light is gathered
-    int padding0, padding1, padding2;
+    float bluntest;   // M_d of the painted points that are used, without this one
+    float sharpest;   // up to this one
+    int padding0;
 } splat;

@@ -2,11 +2,16 @@
 //
 // out   vNormal [1]  world, interpolated; not unit
 //       vDepth  [m]  along the view's forward
+//       vPaint  PAINTED: place on the atlas [texels]
 #include "views/mesh_block.glsl"
 uniform sampler2D uPositions; // object space
 uniform sampler2D uNormals;
 out vec3 vNormal;
 out float vDepth;
+#ifdef PAINTED
+uniform sampler2D uPlaces;
+out vec2 vPaint;
+#endif
 
 void main() {
     int width = textureSize(uPositions, 0).x;
@@ -14,5 +19,8 @@ void main() {
     vec4 world = mesh.worldFromObject * vec4(texelFetch(uPositions, texel, 0).xyz, 1.0);
     vNormal = mat3(mesh.normalFromObject) * texelFetch(uNormals, texel, 0).xyz;
     vDepth = dot(world.xyz - mesh.view.eye.xyz, mesh.view.forward.xyz);
+#ifdef PAINTED
+    vPaint = texelFetch(uPlaces, texel, 0).xy;
+#endif
     gl_Position = mesh.clipFromWorld * world;
 }

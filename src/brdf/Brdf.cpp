@@ -188,11 +188,14 @@ const ParamTable& Brdf::params() {
 }
 
 std::optional<std::string> Brdf::need(const scene::Scene& scene) {
-    for (const scene::Object& object : scene.objects)
-        if (object.visible && !object.isField() && !object.material.isRefractive() &&
-            !object.material.isScattering())
-            return "object \"" + object.name + "\" is " +
-                   (object.material.isMirror() ? "a mirror" : "an opaque surface");
+    for (const scene::Object& object : scene.objects) {
+        if (!object.visible || object.isField() || object.material.isRefractive()) continue;
+        if (object.material.isScattering() && !views::isPainted(object)) continue;
+        return "object \"" + object.name + "\" is " +
+               (object.material.isMirror()       ? "a mirror"
+                : object.material.isScattering() ? "painted, and matt where it is not translucent"
+                                                 : "an opaque surface");
+    }
     return std::nullopt;
 }
 

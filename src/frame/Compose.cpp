@@ -232,16 +232,44 @@ Status Compose::recordSolids(graph::FrameGraph& graph, const Inputs& in,
     std::vector<views::PosedMesh> casters = solids;
     casters.insert(casters.end(), glass.begin(), glass.end());
     const scene::Aov show = in.scene.view.show;
+    std::vector<views::PosedMesh> opaque, painted;
+    for (const views::PosedMesh& mesh : seen(solids)) {
+        if (mesh.drawn.paint) painted.push_back(mesh);
+        if (!mesh.drawn.object->material.isScattering()) opaque.push_back(mesh);
+    }
+    TextureId matt;
+    if (show != scene::Aov::Radiosity) {
+        if (Status s = recordSurfaces(graph, in, opaque, casters, flux, surface, shown); !s) return s;
+        // Apart from the others, whose shadows stay as they were before someone painted.
+        if (!painted.empty()) matt = show == scene::Aov::Color ? recordMatt(graph, size) : shown;
+        if (Status s = recordSurfaces(graph, in, painted, casters, flux, surface, matt); !s) return s;
+    }
     if (scattering_ && (show == scene::Aov::Color || show == scene::Aov::Radiosity))
-        if (Status s = recordScattering(graph, in, seen(solids), casters, surface, shown); !s) return s;
-    if (show == scene::Aov::Radiosity) return Done{};
+        return recordScattering(graph, in, seen(solids), casters, surface, matt, shown);
+    return Done{};
+}
+
+// Where painted objects are drawn as if they were opaque.
+TextureId Compose::recordMatt(graph::FrameGraph& graph, ivec2 size) {
+    TextureId matt;
+    graph.addPass("frame.matt", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("painted objects are matt where they are not translucent");
+        matt = pass.createColor("frame.matt", {.size = size, .format = Format::RGBA32F});
+        pass.clear(matt, vec4(0));
+        return [](const graph::Resources&, graph::Commands&) {};
+    });
+    return matt;
+}
+
+// What surfaces send to the eye that light does not enter.
+Status Compose::recordSurfaces(graph::FrameGraph& graph, const Inputs& in,
+                               const std::vector<views::PosedMesh>& shaded,
+                               const std::vector<views::PosedMesh>& casters, TextureId flux,
+                               TextureId surface, TextureId target) {
     Result<graph::TextureHandle> environment = environmentMap(in.scene);
     if (!environment) return environment.error();
     auto settings = in.scene.technique.at("brdf").as<brdf::Settings>();
     if (in.coarse) settings.lightSamples = std::min(settings.lightSamples, kCoarseSamples);
-    std::vector<views::PosedMesh> shaded = seen(solids);
-    std::erase_if(shaded,
-                  [](const views::PosedMesh& mesh) { return mesh.drawn.object->material.isScattering(); });
     return brdf_.record(graph,
                         {.scene = in.scene,
                          .eye = in.eye,
@@ -250,16 +278,16 @@ Status Compose::recordSolids(graph::FrameGraph& graph, const Inputs& in,
                          .surface = surface,
                          .flux = flux,
                          .environment = *environment,
-                         .target = shown,
-                         .show = show,
-                         .size = size},
+                         .target = target,
+                         .show = in.scene.view.show,
+                         .size = in.shown.desc().size},
                         settings);
 }
 
 Status Compose::recordScattering(graph::FrameGraph& graph, const Inputs& in,
                                  const std::vector<views::PosedMesh>& solids,
                                  const std::vector<views::PosedMesh>& casters, TextureId surface,
-                                 TextureId shown) {
+                                 TextureId matt, TextureId shown) {
     Result<graph::TextureHandle> environment = environmentMap(in.scene);
     if (!environment) return environment.error();
     return subsurface_.record(graph,
@@ -271,7 +299,8 @@ Status Compose::recordScattering(graph::FrameGraph& graph, const Inputs& in,
                                .environment = *environment,
                                .target = shown,
                                .radiosity = in.scene.view.show == scene::Aov::Radiosity,
-                               .size = in.shown.desc().size},
+                               .size = in.shown.desc().size,
+                               .matt = matt},
                               *scattering_, scatteringSettings(in));
 }
 

@@ -57,6 +57,11 @@ private:
                         const std::vector<views::PosedMesh>& solids,
                         const std::vector<views::PosedMesh>& glass, graph::TextureId surface,
                         graph::TextureId shown);
+    Status recordSurfaces(graph::FrameGraph& graph, const Inputs& in,
+                          const std::vector<views::PosedMesh>& shaded,
+                          const std::vector<views::PosedMesh>& casters, graph::TextureId flux,
+                          graph::TextureId surface, graph::TextureId target);
+    static graph::TextureId recordMatt(graph::FrameGraph& graph, ivec2 size);
     Status recordThrough(graph::FrameGraph& graph, const Inputs& in,
                          const std::vector<views::PosedMesh>& solids,
                          const std::vector<views::PosedMesh>& glass, graph::TextureId surface,
@@ -71,7 +76,7 @@ private:
     Status recordScattering(graph::FrameGraph& graph, const Inputs& in,
                             const std::vector<views::PosedMesh>& solids,
                             const std::vector<views::PosedMesh>& casters, graph::TextureId surface,
-                            graph::TextureId shown);
+                            graph::TextureId matt, graph::TextureId shown);
     caustics::Settings causticSettings(const Inputs& in) const;
     subsurface::Settings scatteringSettings(const Inputs& in) const;
     Result<graph::TextureHandle> environmentMap(const scene::Scene& scene);

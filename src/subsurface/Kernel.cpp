@@ -11,7 +11,6 @@ namespace lucent::subsurface {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kLeastPoints = 16; // across an object: what lies between them is its shape
 
 // Bessel function J0 (Abramowitz, Stegun 9.4.1 and 9.4.3; 1e-7 of 1).
 double besselJ(double x) {
@@ -90,6 +89,15 @@ struct Rings {
             sum += mass;
         return sum;
     }
+    // Within which half of the light of all colours lies.
+    double half() const {
+        const auto light = [](const dvec3& mass) { return mass.r + mass.g + mass.b; };
+        const double wanted = 0.5 * light(total());
+        double sum = 0;
+        for (std::size_t i = 0; i < radii.size(); ++i)
+            if ((sum += light(masses[i])) >= wanted) return radii[i];
+        return radii.back();
+    }
     // The light at a spatial frequency, radians a metre.
     dvec3 at(double frequency) const {
         dvec3 sum(0);
@@ -160,12 +168,12 @@ Cut cutOf(const std::array<diffusion::Medium, 3>& media, const KernelWish& wish)
     constexpr double kTableError = 1e-4; // far below any that is asked for: bends are taken from it
     // Far light of bands costs little, and sources along the normal leave light where a plane has none.
     const double beyond = (wish.split || wish.shares ? 0.1 : 1) * wish.epsilon;
+    const double size = wish.sharpest * wish.size;
     Cut cut;
     for (const diffusion::Medium& medium : media)
-        cut.reach =
-            std::max(cut.reach, diffusion::reach(medium, wish.shape, wish.thickness, beyond, wish.size));
+        cut.reach = std::max(cut.reach, diffusion::reach(medium, wish.shape, wish.thickness, beyond, size));
     const diffusion::Table table =
-        diffusion::tableOf(media, wish.shape, wish.thickness, cut.reach, kTableError, cut.reach < wish.size);
+        diffusion::tableOf(media, wish.shape, wish.thickness, cut.reach, kTableError, cut.reach < size);
     cut.profile = sampled([&](double r) { return dvec3(diffusion::valueAt(table, r)); }, cut.reach);
     cut.total = Rings(cut.profile, cut.reach).total();
     return cut;
@@ -214,11 +222,14 @@ Kernel kernelOf(const std::array<diffusion::Medium, 3>& media, const KernelWish&
     const double spacing = std::max(wanted, wish.leastSpacing);
     const double excess = std::log(4 / epsilon) - (singular ? 0 : 2 * kPi * depth / spacing);
     double scale = std::min(depth, cut.reach);
+    kernel.sharpest = wish.sharpest;
+    if (wish.leastSpacing > 0) kernel.sharpest = std::min(wish.sharpest, wanted / wish.leastSpacing);
     if (excess > 1e-9) {
         kernel.blur = spacing * std::sqrt(excess / 2) / kPi;
         const double wider = std::hypot(cut.reach, kernel.blur * std::sqrt(2 * std::log(1 / wish.epsilon)));
         Rings rings(cut.profile, cut.reach);
         if (most(rings.total()) == 0) rings.masses.front() = cut.total;
+        kernel.spread = rings.half();
         const dvec3 sum = rings.total();
         for (dvec3& mass : rings.masses)
             mass *= over(cut.total, sum);

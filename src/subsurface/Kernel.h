@@ -10,6 +10,9 @@
 
 namespace lucent::subsurface {
 
+/// Across an object, of any material: what lies between them is its shape.
+inline constexpr double kLeastPoints = 16;
+
 /// What is asked of a kernel.
 struct KernelWish {
     diffusion::Shape shape = diffusion::Shape::Dipole;
@@ -17,6 +20,7 @@ struct KernelWish {
     double epsilon = 0.01;   ///< error of its integral over the surface
     double size = 1;         ///< m, beyond which the object has no points
     double leastSpacing = 0; ///< m: points stand no closer
+    double sharpest = 1;     ///< M_d: largest factor of distances that a painting has, >= 1
     bool split = false;      ///< into bands
     bool shares =
         false; ///< tables of each band's share of the profile, for those who compute the profile themselves
@@ -34,6 +38,9 @@ struct Band {
 struct Kernel {
     std::vector<Band> bands; ///< narrow ones first; they add up to the profile
     double blur = 0;         ///< m, standard deviation by which the profile was widened; 0: not at all
+    double spread = 0;       ///< m, radius within which half of the light leaves, before that
+    double sharpest = 1; ///< M_d up to which points can stand close enough; below 1: not even those of the
+                         ///< material itself
 };
 
 /// Distance of the points of a square lattice at which the sum over them is a dipole's integral, but for
@@ -44,6 +51,9 @@ double latticeSpacing(double epsilon, double depth);
 ///
 /// Where points can stand no closer than wish.leastSpacing, the profile is blurred by the Gaussian that keeps
 /// the lattice's harmonics below epsilon: the picture is softer than the medium, its light is not less.
+///
+/// Where M_d is painted, the profile holds of distances times M_d, and so do the bands' lengths: points of a
+/// larger M_d stand closer. Such a body is that many times as large.
 ///
 /// A split profile is S_0 = (S_0 - S_1) + (S_1 - S_2) + ... + S_n: S_i is the profile beyond a distance c_i
 /// and an even polynomial with the same value, slope and bend within (multilevel summation; Hardy, Skeel

@@ -19,6 +19,7 @@ struct FluxBlock {
     views::ViewBlock view;
     vec4 color{0}, axis{0};
     vec4 sky[9] = {};
+    vec4 sharpness{0};
     vec2 cone{0};
     int object = 0;
     float ior = 1;
@@ -29,6 +30,7 @@ struct FluxBlock {
             list.insert(list.end(), {{"color", offsetof(FluxBlock, color)},
                                      {"axis", offsetof(FluxBlock, axis)},
                                      {"sky", offsetof(FluxBlock, sky)},
+                                     {"sharpness", offsetof(FluxBlock, sharpness)},
                                      {"cone", offsetof(FluxBlock, cone)},
                                      {"object", offsetof(FluxBlock, object)},
                                      {"ior", offsetof(FluxBlock, ior)}});
@@ -55,48 +57,63 @@ struct MergeBlock {
 constexpr const char* kPlace = "subsurface.place";
 constexpr const char* kFlux = "subsurface.flux";
 constexpr const char* kNormal = "subsurface.normal";
+constexpr const char* kSharpness = "subsurface.sharpness";
 
-Level createLevel(graph::PassBuilder& pass, ivec2 size) {
+Level createLevel(graph::PassBuilder& pass, ivec2 size, bool painted) {
     const graph::TextureDesc desc{.size = size, .format = Format::RGBA32F};
-    return {pass.createColor(kPlace, desc), pass.createColor(kFlux, desc), pass.createColor(kNormal, desc),
-            size};
+    Level level{.place = pass.createColor(kPlace, desc),
+                .flux = pass.createColor(kFlux, desc),
+                .normal = pass.createColor(kNormal, desc),
+                .size = size};
+    if (painted) level.sharpness = pass.createColor(kSharpness, {.size = size, .format = Format::R32F});
+    return level;
 }
 
 Result<Level> recordMerge(graph::FrameGraph& graph, gl::Context& context, const Level& fine,
                           const MergeBlock& block) {
-    Result<const gl::Program*> program = context.program("subsurface/merge");
+    const bool painted = bool(fine.sharpness);
+    Result<const gl::Program*> program = context.program(
+        "subsurface/merge", painted ? std::vector<std::string>{"PAINTED"} : std::vector<std::string>{});
     if (!program) return program.error();
     Level level;
     graph.addPass("subsurface.merge", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("points for four blocks each");
         for (const TextureId id : {fine.place, fine.flux, fine.normal})
             pass.sample(id);
-        level = createLevel(pass, (fine.size + 1) / 2);
+        if (painted) pass.sample(fine.sharpness);
+        level = createLevel(pass, (fine.size + 1) / 2, painted);
         return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
-            commands.draw({.program = program,
-                           .block = block,
-                           .textures = {{"uPlace", resources[fine.place]},
-                                        {"uFlux", resources[fine.flux]},
-                                        {"uNormal", resources[fine.normal]}}});
+            graph::Draw draw{.program = program,
+                             .block = block,
+                             .textures = {{"uPlace", resources[fine.place]},
+                                          {"uFlux", resources[fine.flux]},
+                                          {"uNormal", resources[fine.normal]}}};
+            if (painted) draw.textures.push_back({"uSharpness", resources[fine.sharpness]});
+            commands.draw(draw);
         };
     });
     return level;
 }
 
 Result<Points> recordPoints(graph::FrameGraph& graph, gl::Context& context, const FluxBlock& block,
-                            TextureId surface, bool fromSky, ivec2 size, int levels,
+                            TextureId surface, TextureId paint, bool fromSky, ivec2 size, int levels,
                             const std::string& name) {
-    Result<const gl::Program*> program = context.program(
-        "subsurface/flux", fromSky ? std::vector<std::string>{"FROM_SKY"} : std::vector<std::string>{});
+    std::vector<std::string> defines;
+    if (fromSky) defines.push_back("FROM_SKY");
+    if (paint) defines.push_back("PAINTED");
+    Result<const gl::Program*> program = context.program("subsurface/flux", defines);
     if (!program) return program.error();
     Points points;
     graph.addPass("subsurface.flux", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("light that enters object \"" + name + "\"");
         pass.sample(surface);
-        points.push_back(createLevel(pass, size));
+        if (paint) pass.sample(paint);
+        points.push_back(createLevel(pass, size, bool(paint)));
         return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
-            commands.draw(
-                {.program = program, .block = block, .textures = {{"uSurface", resources[surface]}}});
+            graph::Draw draw{
+                .program = program, .block = block, .textures = {{"uSurface", resources[surface]}}};
+            if (paint) draw.textures.push_back({"uPaint", resources[paint]});
+            commands.draw(draw);
         };
     });
     float width = std::max(glm::length(vec3(block.view.right)), glm::length(vec3(block.view.up)));
@@ -109,17 +126,22 @@ Result<Points> recordPoints(graph::FrameGraph& graph, gl::Context& context, cons
     return points;
 }
 
-FluxBlock blockOf(const views::Eye& eye, ivec2 size, const views::PosedMesh& object) {
+FluxBlock blockOf(const views::Eye& eye, ivec2 size, const views::PosedMesh& object,
+                  const Sharpness& sharpness) {
     FluxBlock block{.view = views::viewBlock(eye, size)};
+    block.sharpness = {sharpness.most, sharpness.spread, sharpness.blur, float(sharpness.paper)};
     block.object = object.drawn.index;
     block.ior = object.drawn.object->material.ior;
     return block;
 }
 
 Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::Eye& eye,
-                  const views::PosedMesh& object, ivec2 size, TextureId before, TextureId& layer) {
-    Result<const gl::Program*> program = context.program(
-        "subsurface/peel", before ? std::vector<std::string>{} : std::vector<std::string>{"PEEL_FIRST"});
+                  const views::PosedMesh& object, ivec2 size, TextureId before, TextureId& layer,
+                  TextureId& paint) {
+    std::vector<std::string> defines;
+    if (!before) defines.push_back("PEEL_FIRST");
+    if (object.drawn.paint) defines.push_back("PAINTED");
+    Result<const gl::Program*> program = context.program("subsurface/peel", defines);
     if (!program) return program.error();
     graph.addPass("subsurface.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("a surface of object \"" + object.drawn.object->name + "\" that the environment lights");
@@ -128,9 +150,14 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::E
         if (before) pass.sample(before);
         layer = pass.createColor("subsurface.layer", {.size = size, .format = Format::RGBA32F});
         pass.clear(layer, vec4(0));
+        if (object.drawn.paint) {
+            paint = pass.createColor("subsurface.paint", {.size = size, .format = Format::RGBA32F});
+            pass.clear(paint, vec4(1));
+        }
         pass.clear(pass.createDepth("subsurface.depth", size, Format::Depth32F), 1.0f);
         return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{.depthTest = graph::DepthTest::Less};
+            if (object.drawn.paint) draw.textures = views::enteringBindings(*object.drawn.paint);
             if (before) draw.textures.push_back({"uBefore", resources[before]});
             drawMesh(commands, *program, resources, object, eye, size, object.drawn.index, std::move(draw));
         };
@@ -158,26 +185,34 @@ Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const v
     const TextureId surface = graph.create("subsurface.lit", {.size = size, .format = Format::RGBA32F});
     if (Status s = views::recordSurface(graph, context, face, {}, casters, surface, size); !s)
         return s.error();
-    FluxBlock block = blockOf(face, size, object);
+    TextureId paint;
+    if (object.drawn.paint) {
+        Result<TextureId> drawn = views::recordEntering(graph, context, face, object, size);
+        if (!drawn) return drawn.error();
+        paint = *drawn;
+    }
+    FluxBlock block = blockOf(face, size, object, grid.sharpness);
     block.color = vec4(lamp.color, lamp.exponent);
     block.axis = vec4(lamp.axis, lamp.fades);
     block.cone = lamp.cone;
-    return recordPoints(graph, context, block, surface, false, size, grid.levels, object.drawn.object->name);
+    return recordPoints(graph, context, block, surface, paint, false, size, grid.levels,
+                        object.drawn.object->name);
 }
 
 Result<std::vector<Points>> recordSky(graph::FrameGraph& graph, gl::Context& context, const views::Eye& axis,
                                       const views::PosedMesh& object, int layers,
                                       const std::array<vec3, 9>& sky, const Grid& grid) {
     const ivec2 size = pixelsOf(axis, views::boundsOf(*object.drawn.object), grid);
-    FluxBlock block = blockOf(axis, size, object);
+    FluxBlock block = blockOf(axis, size, object, grid.sharpness);
     std::transform(sky.begin(), sky.end(), block.sky, [](vec3 one) { return vec4(one, 0); });
     std::vector<Points> list;
     TextureId before;
     for (int i = 0; i < layers; ++i) {
-        TextureId layer;
-        if (Status s = recordPeel(graph, context, axis, object, size, before, layer); !s) return s.error();
-        Result<Points> points =
-            recordPoints(graph, context, block, layer, true, size, grid.levels, object.drawn.object->name);
+        TextureId layer, paint;
+        if (Status s = recordPeel(graph, context, axis, object, size, before, layer, paint); !s)
+            return s.error();
+        Result<Points> points = recordPoints(graph, context, block, layer, paint, true, size, grid.levels,
+                                             object.drawn.object->name);
         if (!points) return points.error();
         list.push_back(std::move(*points));
         before = layer;

@@ -13,17 +13,27 @@ namespace lucent::subsurface {
 /// Points that each stand for a block of a view's pixels.
 struct Level {
     graph::TextureId place, flux, normal;
+    graph::TextureId sharpness{}; ///< of painted objects
     ivec2 size{0};
 };
 
 /// Levels of the same light, finest first; a block of one is four of the level before.
 using Points = std::vector<Level>;
 
+/// Which M_d the points of a painted object can carry.
+struct Sharpness {
+    float most = scene::kMostSharpness; ///< larger ones count as this
+    float spread = 0, blur = 0; ///< m: radius within which half of the profile's light leaves, and what
+                                ///< it was blurred by; blur 0: not at all, or at every M_d alike
+    bool paper = false;         ///< without the factor M_d² of the light
+};
+
 /// How finely a view is cut.
 struct Grid {
     float pixel = 0; ///< m on a surface that faces the view: width of a block of the finest level
     int levels = 1;  ///< at most; fewer where a level has one block
     int most = 0;    ///< pixels a side
+    Sharpness sharpness{};
 };
 /// Pixels of the finest level, for an object in this view; more than grid.most are named in a warning.
 ivec2 pixelsOf(const views::Eye& eye, const views::Bounds& object, const Grid& grid);

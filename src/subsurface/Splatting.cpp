@@ -17,8 +17,12 @@ namespace {
 // Where surfaces are steeper than kTilt says, levels of twice and four times the resolution take over: down
 // to 10 degrees from edge-on, where hardly any light enters.
 constexpr int kRefined = 2;
-constexpr int kMostScale = 6;   // 64 pixels
+constexpr int kMostScale = 6;               // 64 pixels
+constexpr float kHalfOfGaussian = 1.17741f; // deviations, in the plane: sqrt(2 ln 2)
 constexpr int kGathered = 4096; // points at once: a software driver ends a shader's loops after 65535 rounds
+
+// M_d lies above half of two to this power and not above it.
+int octaveOf(float sharpness) { return int(std::ceil(std::log2(sharpness))); }
 
 struct ReceiversBlock {
     views::ViewBlock view;
@@ -48,7 +52,8 @@ struct SplatBlock {
     int isFinest = 0, isCoarsest = 0;
     int first = 0, count = 0;
     float unit = 1;
-    int padding[3] = {};
+    float bluntest = 0, sharpest = 0;
+    int padding = 0;
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
@@ -66,7 +71,9 @@ struct SplatBlock {
                                      {"isCoarsest", offsetof(SplatBlock, isCoarsest)},
                                      {"first", offsetof(SplatBlock, first)},
                                      {"count", offsetof(SplatBlock, count)},
-                                     {"unit", offsetof(SplatBlock, unit)}});
+                                     {"unit", offsetof(SplatBlock, unit)},
+                                     {"bluntest", offsetof(SplatBlock, bluntest)},
+                                     {"sharpest", offsetof(SplatBlock, sharpest)}});
             return list;
         }();
         static const graph::BlockLayout layout{"SplatBlock", sizeof(SplatBlock), members};
@@ -109,6 +116,13 @@ vec4 pixelsOf(const views::Eye& eye, const views::Bounds& box, ivec2 size) {
                       vec4(vec2(size), vec2(size)));
 }
 
+// Points of M_d above the one and up to the other, which leave their light at places of one density: so many
+// times is the picture halved for them.
+struct Part {
+    float bluntest, sharpest;
+    int scale;
+};
+
 // The passes of one picture.
 class Splatter {
 public:
@@ -129,15 +143,17 @@ private:
         const Plan::State::Object& plan;
         const views::PosedMesh& mesh;
         views::Bounds bounds;
-        Grid grid;
+        Layout layout;
     };
     Status recordPlaces(int scale);
     Status lit(const Target& target, const views::LampPoint& lamp);
     Status sky(const Target& target);
     Status splat(const Target& target, const Points& points);
     Status splatBand(const Target& target, const Points& points, std::size_t band);
+    Status splatPart(const Target& target, const Points& points, std::size_t band, const Part& part);
     Status spread(std::size_t from);
-    int scaleOf(const Target& target, const Band& band) const;
+    int scaleOf(const Target& target, double pixel) const;
+    std::vector<Part> partsOf(const Target& target, const Band& band) const;
     SplatBlock blockOf(const Target& target, const Band& band) const;
 
     graph::FrameGraph& graph_;
@@ -184,14 +200,36 @@ Status Splatter::recordPlaces(int scale) {
     return Done{};
 }
 
-// So many times is the picture halved for a band.
-int Splatter::scaleOf(const Target& target, const Band& band) const {
+// So many times is the picture halved for places that lie so far apart [m]; 0 m: not at all.
+int Splatter::scaleOf(const Target& target, double wanted) const {
     const float nearest =
         glm::dot(target.bounds.center() - in_.eye.position, in_.eye.forward) - target.bounds.radius();
     const float pixel = 2 * in_.eye.halfExtent.y / float(in_.size.y) *
                         (in_.eye.perspective ? std::max(nearest, in_.eye.nearest) : 1.0f);
-    if (!(band.pixel > 0)) return 0;
-    return std::clamp(int(std::floor(std::log2(band.pixel / double(pixel)))), 0, kMostScale);
+    if (!(wanted > 0)) return 0;
+    return std::clamp(int(std::floor(std::log2(wanted / double(pixel)))), 0, kMostScale);
+}
+
+// All points of an object that is not painted; else those of each octave of M_d, but as one where their
+// places lie equally dense.
+std::vector<Part> Splatter::partsOf(const Target& target, const Band& band) const {
+    constexpr float kAny = 1e30f;
+    if (!target.mesh.drawn.paint) return {{0, kAny, scaleOf(target, band.pixel)}};
+    const views::Paint& paint = *target.mesh.drawn.paint;
+    const float most = target.layout.grid.sharpness.most;
+    const int first = octaveOf(std::min(paint.bluntest, most)),
+              last = octaveOf(std::min(paint.sharpest, most));
+    std::vector<Part> parts;
+    for (int octave = first; octave <= last; ++octave) {
+        const float sharpest = std::exp2(float(octave));
+        const int scale = scaleOf(target, band.pixel / double(sharpest));
+        if (!parts.empty() && parts.back().scale == scale)
+            parts.back().sharpest = sharpest;
+        else
+            parts.push_back({parts.empty() ? 0 : parts.back().sharpest, sharpest, scale});
+    }
+    parts.back().sharpest = kAny; // whatever rounding made of the largest
+    return parts;
 }
 
 SplatBlock Splatter::blockOf(const Target& target, const Band& band) const {
@@ -218,26 +256,38 @@ SplatBlock Splatter::blockOf(const Target& target, const Band& band) const {
 }
 
 Status Splatter::splatBand(const Target& target, const Points& points, std::size_t number) {
+    for (const Part& part : partsOf(target, target.plan.profile->kernel.bands[number]))
+        if (Status s = splatPart(target, points, number, part); !s) return s;
+    return Done{};
+}
+
+Status Splatter::splatPart(const Target& target, const Points& points, std::size_t number, const Part& part) {
     const Band& band = target.plan.profile->kernel.bands[number];
     const bool offset =
         settings_.dipoleGeometry == DipoleGeometry::Offset && !target.plan.profile->poles[0].empty();
+    const bool painted = target.mesh.drawn.paint.has_value();
+    std::vector<std::string> defines;
+    if (offset) defines.push_back("OFFSET");
+    if (painted) defines.push_back("PAINTED");
     Result<const gl::Program*> program =
-        context_.program(splats() ? "subsurface/splat" : "subsurface/gather",
-                         offset ? std::vector<std::string>{"OFFSET"} : std::vector<std::string>{});
+        context_.program(splats() ? "subsurface/splat" : "subsurface/gather", defines);
     if (!program) return program.error();
-    const Places& places = places_[std::size_t(scaleOf(target, band))];
-    const int refined = settings_.splats == Splats::Bound ? kRefined : 0;
-    const int last = std::min(int(number) + refined, int(points.size()) - 1);
+    const Places& places = places_[std::size_t(part.scale)];
+    const int last = std::min(int(number) + target.layout.coarser, int(points.size()) - 1);
     const int first = std::min(int(number), last);
     const graph::Texture& table = target.plan.profile->tables[number];
     const TextureId tableId = graph_.import(table.handle(), table.desc(), table.label());
     graph_.addPass("subsurface.splat", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("what leaves object \"" + target.mesh.drawn.object->name + "\" within " +
-                    std::to_string(band.reach) + " m of points " + std::to_string(band.spacing) + " m apart");
-        for (int i = first; i <= last; ++i)
-            for (const TextureId id :
-                 {points[std::size_t(i)].place, points[std::size_t(i)].flux, points[std::size_t(i)].normal})
+        pass.reason(
+            "what leaves object \"" + target.mesh.drawn.object->name + "\" within " +
+            std::to_string(band.reach) + " m of points " + std::to_string(band.spacing) + " m apart" +
+            (painted ? "; where M_d is painted up to " + std::to_string(part.sharpest) + ", over M_d" : ""));
+        for (int i = first; i <= last; ++i) {
+            const Level& level = points[std::size_t(i)];
+            for (const TextureId id : {level.place, level.flux, level.normal})
                 pass.sample(id);
+            if (painted) pass.sample(level.sharpness);
+        }
         pass.sample(places.place);
         pass.sample(tableId);
         pass.write(places.light);
@@ -251,6 +301,8 @@ Status Splatter::splatBand(const Target& target, const Points& points, std::size
         const vec4 pixels = pixelsOf(in_.eye, target.bounds, in_.size) / side;
         block.bounds = vec4(glm::floor(vec2(pixels)), glm::ceil(vec2(pixels.z, pixels.w)));
         block.unit = unit_;
+        block.bluntest = part.bluntest;
+        block.sharpest = part.sharpest;
         const ivec4 region(ivec2(block.bounds), ivec2(block.bounds.z, block.bounds.w) - ivec2(block.bounds));
         if (region.z <= 0 || region.w <= 0) return [](const graph::Resources&, graph::Commands&) {};
         return [=, splats = splats(), program = *program](const graph::Resources& resources,
@@ -270,6 +322,7 @@ Status Splatter::splatBand(const Target& target, const Points& points, std::size
                                               {"uCoarser", resources[coarser.normal]},
                                               {"uReceivers", resources[places.place]},
                                               {"uTable", resources[tableId]}}};
+                if (painted) draw.textures.push_back({"uSharpness", resources[level.sharpness]});
                 const int count = level.size.x * level.size.y;
                 if (splats) {
                     draw.vertices = 6 * count;
@@ -298,10 +351,10 @@ Status Splatter::splat(const Target& target, const Points& points) {
 Status Splatter::lit(const Target& target, const views::LampPoint& lamp) {
     if (lamp.color == vec3(0)) return Done{};
     const views::ShadowViews views =
-        views::shadowViews(lamp.source, boundsOfAll(in_.casters), target.bounds, target.grid.most);
+        views::shadowViews(lamp.source, boundsOfAll(in_.casters), target.bounds, target.layout.grid.most);
     for (const views::Eye& face : views.faces) {
         Result<Points> points =
-            recordLit(graph_, context_, lamp, face, target.mesh, in_.casters, target.grid);
+            recordLit(graph_, context_, lamp, face, target.mesh, in_.casters, target.layout.grid);
         if (!points) return points.error();
         if (Status s = splat(target, *points); !s) return s;
     }
@@ -310,10 +363,11 @@ Status Splatter::lit(const Target& target, const views::LampPoint& lamp) {
 
 Status Splatter::sky(const Target& target) {
     const auto entering = enteringSky(*in_.scene.environment, target.mesh.drawn.object->material.ior);
-    const std::array<views::Eye, 3> axes = axesOf(target.bounds, target.grid.most);
+    const std::array<views::Eye, 3> axes = axesOf(target.bounds, target.layout.grid.most);
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-        Result<std::vector<Points>> layers = recordSky(graph_, context_, axes[axis], target.mesh,
-                                                       target.plan.layers[axis], entering, target.grid);
+        Result<std::vector<Points>> layers =
+            recordSky(graph_, context_, axes[axis], target.mesh, target.plan.layers[axis], entering,
+                      target.layout.grid);
         if (!layers) return layers.error();
         for (const Points& points : *layers)
             if (Status s = splat(target, points); !s) return s;
@@ -373,12 +427,14 @@ Result<Radiosity> Splatter::record() {
     for (const Plan::State::Object& object : plan_.objects)
         for (const views::PosedMesh& mesh : in_.solids)
             if (mesh.drawn.index == object.index)
-                targets.push_back({object, mesh, views::boundsOf(*mesh.drawn.object),
-                                   gridOf(*object.profile, settings_, context_.caps().maxTextureSize)});
+                targets.push_back(
+                    {object, mesh, views::boundsOf(*mesh.drawn.object),
+                     layoutOf(*object.profile, mesh.drawn, settings_, context_.caps().maxTextureSize)});
     int scales = 0;
     for (const Target& target : targets)
         for (const Band& band : target.plan.profile->kernel.bands)
-            scales = std::max(scales, scaleOf(target, band));
+            for (const Part& part : partsOf(target, band))
+                scales = std::max(scales, part.scale);
     for (int scale = 0; scale <= scales; ++scale)
         if (Status s = recordPlaces(scale); !s) return s.error();
     for (const Target& target : targets) {
@@ -394,12 +450,36 @@ Result<Radiosity> Splatter::record() {
 
 } // namespace
 
-Grid gridOf(const Profiled& profile, const Settings& settings, int maxTextureSize) {
+Layout layoutOf(const Profiled& profile, const views::DrawnMesh& mesh, const Settings& settings,
+                int maxTextureSize) {
+    const Kernel& kernel = profile.kernel;
     const bool bound = settings.splats == Splats::Bound;
-    const int finer = bound ? 1 << kRefined : 1;
-    return {.pixel = float(profile.kernel.bands.front().spacing) * (bound ? kTilt / float(finer) : 1),
-            .levels = int(profile.kernel.bands.size()) + (bound ? kRefined : 0),
-            .most = std::min(settings.mostSplats * finer, maxTextureSize)};
+    const int bands = int(kernel.bands.size()), refined = bound ? kRefined : 0;
+    Layout layout{.grid = {.pixel = float(kernel.bands.front().spacing) * (bound ? kTilt : 1),
+                           .levels = bands + refined,
+                           .most = std::min(settings.mostSplats << refined, maxTextureSize)},
+                  .coarser = refined};
+    Grid& grid = layout.grid;
+    grid.pixel /= float(1 << refined);
+    if (!mesh.paint) return layout;
+    Sharpness& sharpness = grid.sharpness;
+    sharpness.paper = settings.blurEnergy == BlurEnergy::Paper;
+    if (!bound) return layout;
+    sharpness.most = std::max(1.0f, float(kernel.sharpest));
+    if (kernel.sharpest < 1) {
+        sharpness.spread = float(kernel.spread);
+        sharpness.blur = kHalfOfGaussian * float(kernel.blur);
+    }
+    // By octaves: a stroke in progress seldom changes them.
+    const float sharpest = std::min(std::exp2(float(octaveOf(mesh.paint->sharpest))), sharpness.most);
+    const float bluntest = std::exp2(float(octaveOf(mesh.paint->bluntest)));
+    grid.pixel /= std::max(1.0f, sharpest);
+    layout.coarser += int(std::log2(std::max(1.0f, sharpest) / std::min(1.0f, bluntest)));
+    // What lies between points of the coarsest level is the object's shape.
+    const float widest = kTilt * 2 * views::boundsOf(*mesh.object).radius() / float(kLeastPoints);
+    grid.levels = std::max(grid.levels + int(std::ceil(std::log2(std::max(1.0f, sharpest)))),
+                           std::min(bands + layout.coarser, int(std::log2(widest / grid.pixel)) + 1));
+    return layout;
 }
 
 Result<Radiosity> recordRadiosity(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,

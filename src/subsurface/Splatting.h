@@ -28,8 +28,13 @@ struct Plan::State {
     std::vector<Object> objects;
 };
 
-/// Settings with which an object's points are laid out.
-Grid gridOf(const Profiled& profile, const Settings& settings, int maxTextureSize);
+/// How an object's points are laid out.
+struct Layout {
+    Grid grid;
+    int coarser = 0; ///< levels than a band's finest that it may use
+};
+Layout layoutOf(const Profiled& profile, const views::DrawnMesh& mesh, const Settings& settings,
+                int maxTextureSize);
 
 /// What leaves at each pixel.
 struct Radiosity {

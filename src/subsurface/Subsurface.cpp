@@ -20,6 +20,7 @@ constexpr std::string_view kProfiles[] = {"dipole", "multipole", "burley"};
 constexpr std::string_view kGeometries[] = {"planar", "offset"};
 constexpr std::string_view kSplats[] = {"bound", "paper"};
 constexpr std::string_view kExits[] = {"whole", "paper"};
+constexpr std::string_view kBlurEnergies[] = {"kept", "paper"};
 
 constexpr int kShadowSize =
     1024; // texels a side, in which highlights are cut off; of lamps with a size half as many
@@ -162,26 +163,34 @@ ShadeBlock shadeBlock(const Inputs& in, const views::PosedMesh& mesh, float unit
     return block;
 }
 
+// Draws objects of which all are painted, or none.
+//
+// @param paint  what is painted on them where the camera sees them; or none
 Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
                    const std::vector<views::PosedMesh>& objects, const Radiosity& leaving,
-                   TextureId highlight, const Settings& settings) {
+                   TextureId highlight, TextureId paint, const Settings& settings) {
+    if (objects.empty()) return Done{};
     const bool hasSky = in.environment != graph::TextureHandle::None && !in.radiosity;
     std::vector<std::string> defines;
     if (highlight) defines.push_back("USE_LAMPS");
     if (hasSky) defines.push_back("USE_SKY");
     if (in.radiosity) defines.push_back("SHOW_RADIOSITY");
+    if (paint) defines.push_back("PAINTED");
     Result<const gl::Program*> program = context.program("subsurface/shade", defines);
     if (!program) return program.error();
     std::vector<graph::Block> blocks;
     for (const views::PosedMesh& mesh : objects)
         blocks.push_back(shadeBlock(in, mesh, leaving.unit, settings));
-    const TextureId radiosity = leaving.light;
+    const TextureId radiosity = leaving.light, matt = paint ? in.matt : TextureId{};
     graph.addPass("subsurface.shade", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason(std::to_string(objects.size()) + " object(s) in which light scatters" +
+        pass.reason(std::to_string(objects.size()) + (paint ? " painted" : "") +
+                    " object(s) in which light scatters" +
                     (hasSky ? "; the environment lights them past everything" : ""));
         pass.sample(in.surface);
         pass.sample(radiosity);
         if (highlight) pass.sample(highlight);
+        if (paint) pass.sample(paint);
+        if (matt) pass.sample(matt);
         pass.write(in.target);
         return [=, surface = in.surface, environment = in.environment,
                 program = *program](const graph::Resources& resources, graph::Commands& commands) {
@@ -189,6 +198,8 @@ Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs&
                                                  {"uRadiosity", resources[radiosity]}};
             if (highlight) textures.push_back({"uHighlight", resources[highlight]});
             if (hasSky) textures.push_back({"uEnvironment", environment});
+            if (paint) textures.push_back({"uPaint", resources[paint]});
+            if (matt) textures.push_back({"uMatt", resources[matt]});
             for (const graph::Block& block : blocks)
                 commands.draw({.program = program, .block = block, .textures = textures});
         };
@@ -208,20 +219,24 @@ struct Wanted {
         std::vector<float> list;
         for (const diffusion::Medium& medium : media)
             list.insert(list.end(), {float(medium.scattering), float(medium.absorption), float(medium.ior)});
-        list.insert(list.end(), {float(wish.thickness), float(wish.size), float(settings.method),
-                                 float(settings.profile), float(settings.dipoleGeometry), settings.epsilon,
-                                 float(settings.splats), float(settings.mostSplats)});
+        list.insert(list.end(),
+                    {float(wish.thickness), float(wish.size), float(wish.sharpest), float(settings.method),
+                     float(settings.profile), float(settings.dipoleGeometry), settings.epsilon,
+                     float(settings.splats), float(settings.mostSplats)});
         return list;
     }
 };
 
-Wanted wantedOf(const scene::Object& object, const Settings& settings) {
+Wanted wantedOf(const views::DrawnMesh& mesh, const Settings& settings) {
+    const scene::Object& object = *mesh.object;
     Wanted wanted{.media = diffusion::mediaOf(object.material), .wish = {}, .settings = settings};
     KernelWish& wish = wanted.wish;
     wish.shape = settings.profile;
     wish.thickness = object.material.thickness;
     wish.epsilon = settings.epsilon;
     wish.size = 2 * views::boundsOf(object).radius();
+    // In octaves, so that tables stay while someone paints.
+    if (mesh.paint) wish.sharpest = std::exp2(std::max(0.0f, std::ceil(std::log2(mesh.paint->sharpest))));
     const bool bound = settings.splats == Splats::Bound;
     wish.leastSpacing = bound ? wish.size / (kTilt * settings.mostSplats) : 0;
     wish.split = bound && settings.method == Method::Multires;
@@ -263,6 +278,19 @@ std::shared_ptr<const Profiled> profileOf(gl::Context& context, const Wanted& wa
         context.device().upload(profiled->tables.back().handle(), 0, band.table);
     }
     return profiled;
+}
+
+// Says what of M_d is not drawn.
+void warnOfPaint(const views::DrawnMesh& mesh, const Grid& grid, const Settings& settings) {
+    const views::Paint& paint = *mesh.paint;
+    const std::string object = "subsurface: object \"" + mesh.object->name + "\" is painted with ";
+    if (settings.method == Method::Diffusion) {
+        if (paint.bluntest != 1 || paint.sharpest != 1)
+            warnOnce(object + "blur, which method diffusion does not draw");
+    } else if (paint.sharpest > grid.sharpness.most) {
+        warnOnce(object + "less blur than mostSplats can tell apart; M_d counts as " +
+                 std::to_string(grid.sharpness.most) + " at most");
+    }
 }
 
 } // namespace
@@ -331,6 +359,14 @@ const ParamTable& Subsurface::params() {
                  .doc = "Whole: what arrives below the surface leaves it; paper: the surface keeps its mean "
                         "reflection a second time, as in the dissertation's eq. 6.13.",
                  .choices = kExits}),
+        declare(&Settings::blurEnergy,
+                {.id = "blurEnergy",
+                 .label = "Light where blur is painted",
+                 .group = Group::Light,
+                 .doc =
+                     "Kept: as much leaves however far it spreads; paper: as the dissertation's eq. 7.4 has "
+                     "it, where twice the spread is four times the light.",
+                 .choices = kBlurEnergies}),
         declare(
             &Settings::lightSamples,
             {.id = "lightSamples",
@@ -377,16 +413,17 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
     for (const views::DrawnMesh& mesh : meshes) {
         if (!scatters(*mesh.object)) continue;
         Plan::State::Object object{.index = mesh.index, .profile = nullptr, .layers = {}};
-        const Wanted wanted = wantedOf(*mesh.object, settings);
+        const Wanted wanted = wantedOf(mesh, settings);
         const auto known =
             std::find_if(profiles_.begin(), profiles_.end(),
                          [key = wanted.key()](const auto& profile) { return profile->key == key; });
         object.profile = known != profiles_.end() ? *known : profileOf(context_, wanted, mesh.object->name);
         if (known == profiles_.end()) profiles_.push_back(object.profile);
         used.push_back(object.profile);
+        const Grid grid = layoutOf(*object.profile, mesh, settings, context_.caps().maxTextureSize).grid;
+        if (mesh.paint) warnOfPaint(mesh, grid, settings);
         if (hasEnvironment(scene) || settings.method == Method::Diffusion) {
             const views::Bounds bounds = views::boundsOf(*mesh.object);
-            const Grid grid = gridOf(*object.profile, settings, context_.caps().maxTextureSize);
             const std::array<views::Eye, 3> axes = axesOf(bounds, grid.most);
             for (std::size_t i = 0; i < axes.size(); ++i) {
                 const Result<int> count = views::countLayers(pool, context_, axes[i], {mesh}, scene.view.time,
@@ -416,7 +453,14 @@ Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan
             if (!added) return added.error();
             highlight = *added;
         }
-    return recordShade(graph, context_, in, objects, *radiosity, highlight, settings);
+    std::vector<views::PosedMesh> plain, painted;
+    for (const views::PosedMesh& mesh : objects)
+        (mesh.drawn.paint ? painted : plain).push_back(mesh);
+    if (Status s = recordShade(graph, context_, in, plain, *radiosity, highlight, {}, settings); !s) return s;
+    if (painted.empty()) return Done{};
+    Result<TextureId> paint = views::recordLeaving(graph, context_, in.eye, painted, in.size);
+    if (!paint) return paint.error();
+    return recordShade(graph, context_, in, painted, *radiosity, highlight, *paint, settings);
 }
 
 } // namespace lucent::subsurface

@@ -21,6 +21,7 @@ enum class Method : int { Multires, Splat, Diffusion };
 enum class DipoleGeometry : int { Planar, Offset };
 enum class Splats : int { Bound, Paper };
 enum class Exit : int { Whole, Paper };
+enum class BlurEnergy : int { Kept, Paper };
 
 struct Settings {
     Method method = Method::Multires;
@@ -30,8 +31,9 @@ struct Settings {
     Splats splats = Splats::Bound;
     int mostSplats = 256; ///< a side of a light's view
     Exit exit = Exit::Whole;
-    int lightSamples = 16; ///< points that stand for a lamp with a size
-    int cells = 48;        ///< along the longest side of a body, of diffusion
+    BlurEnergy blurEnergy = BlurEnergy::Kept; ///< of light where M_d is painted
+    int lightSamples = 16;                    ///< points that stand for a lamp with a size
+    int cells = 48;                           ///< along the longest side of a body, of diffusion
 };
 
 struct Inputs {
@@ -45,6 +47,7 @@ struct Inputs {
     graph::TextureId target;                      ///< RGBA32F
     bool radiosity = false;                       ///< shows what leaves, W/m², not radiance
     ivec2 size{0};
+    graph::TextureId matt{}; ///< painted objects as if they were opaque (brdf), RGBA32F; not for radiosity
 };
 
 struct Profiled;
@@ -68,6 +71,10 @@ private:
 /// the sum over points of R_d(distance) times the flux that entered: past everything that stands in a lamp's
 /// way, which refractive objects do as if they were opaque (as for brdf); of the environment, which nothing
 /// stands in the way of.
+///
+/// Painted objects (scene/Painting.h): light that enters at x_i leaves by t M_i M_d² R_d(M_d r) of x_i, and
+/// what is seen at x_o is t M_o times that radiance and 1 - t of the matt one. Of points that cannot stand as
+/// close as the largest M_d asks for, M_d counts as less.
 ///
 /// Not drawn: light that scatters once (ch. 6 leaves it out), light of caustics on scattering objects, light
 /// that scattering objects send each other, and from lamps inside of them.

@@ -224,15 +224,48 @@ Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image
     return entry.value->handle();
 }
 
+Result<const PaintMap*> ImageCache::paintMap(const std::shared_ptr<const Image>& image) {
+    Entry<PaintMap>& entry = paints_[image.get()];
+    if (!entry.value) {
+        if (Status fits = checkSize(*image); !fits) return fits.error();
+        entry.value = std::make_unique<PaintMap>(context_.device(), *image);
+        entry.source = image;
+    }
+    entry.used = true;
+    return entry.value.get();
+}
+
+Result<Paint> ImageCache::paint(const scene::Painting& painting,
+                                const std::shared_ptr<const scene::Atlas>& atlas) {
+    Result<const PaintMap*> entering = paintMap(painting.entering);
+    if (!entering) return entering.error();
+    Result<const PaintMap*> leaving = paintMap(painting.leaving);
+    if (!leaving) return leaving.error();
+    auto& places = places_[atlas.get()];
+    if (!places.value) {
+        places.value = std::make_unique<graph::Texture>(placeTexture(context_.device(), *atlas));
+        places.source = atlas;
+    }
+    places.used = true;
+    return Paint{(*entering)->texture(), (*leaving)->texture(), places.value->handle(), (*entering)->least(),
+                 (*entering)->most()};
+}
+
 void ImageCache::trim() {
     std::erase_if(fields_, [](const auto& entry) { return !entry.second.used; });
     std::erase_if(images_, [](const auto& entry) { return !entry.second.used; });
     std::erase_if(meshes_, [](const auto& entry) { return !entry.second.used; });
+    std::erase_if(paints_, [](const auto& entry) { return !entry.second.used; });
+    std::erase_if(places_, [](const auto& entry) { return !entry.second.used; });
     for (auto& [key, entry] : fields_)
         entry.used = false;
     for (auto& [key, entry] : images_)
         entry.used = false;
     for (auto& [key, entry] : meshes_)
+        entry.used = false;
+    for (auto& [key, entry] : paints_)
+        entry.used = false;
+    for (auto& [key, entry] : places_)
         entry.used = false;
 }
 
@@ -240,6 +273,8 @@ void ImageCache::clear() {
     fields_.clear();
     images_.clear();
     meshes_.clear();
+    paints_.clear();
+    places_.clear();
 }
 
 std::size_t ImageCache::bytes() const {
@@ -250,6 +285,10 @@ std::size_t ImageCache::bytes() const {
         sum += entry.value->desc().bytes();
     for (const auto& [key, entry] : meshes_)
         sum += entry.value->bytes();
+    for (const auto& [key, entry] : paints_)
+        sum += entry.value->bytes();
+    for (const auto& [key, entry] : places_)
+        sum += entry.value->desc().bytes();
     return sum;
 }
 

@@ -70,6 +70,9 @@ public:
     Result<const MeshTextures*> mesh(const std::shared_ptr<const scene::Mesh>& mesh, bool refractive);
     /// A colour map or alpha: 1 channel becomes R32F, 3 become RGBA16F filtered.
     Result<graph::TextureHandle> image(const std::shared_ptr<const Image>& image);
+    /// The maps of a painting, each uploaded once: one that changes is another image. Error (Fault::Machine)
+    /// when they are larger than the GPU's textures.
+    Result<Paint> paint(const scene::Painting& painting, const std::shared_ptr<const scene::Atlas>& atlas);
     /// Drops what was not asked for since the last trim().
     void trim();
     void clear();
@@ -83,10 +86,13 @@ private:
         bool used = true;
     };
     Status checkSize(const Image& image) const;
+    Result<const PaintMap*> paintMap(const std::shared_ptr<const Image>& image);
     gl::Context& context_;
     std::map<const Image*, Entry<FieldTextures>> fields_;
     std::map<const Image*, Entry<graph::Texture>> images_;
     std::map<const scene::Mesh*, Entry<MeshTextures, scene::Mesh>> meshes_;
+    std::map<const Image*, Entry<PaintMap>> paints_;
+    std::map<const scene::Atlas*, Entry<graph::Texture, scene::Atlas>> places_;
 };
 
 } // namespace lucent::views

@@ -109,10 +109,20 @@ Result<DrawnMeshes> drawnMeshes(const scene::Scene& scene, ImageCache& images, b
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
         if (object.isField() || !(object.visible || hiddenToo)) continue;
-        Result<const MeshTextures*> mesh = images.mesh(meshOf(object), object.material.isRefractive());
+        std::shared_ptr<const scene::Mesh> source = meshOf(object);
+        std::optional<Paint> paint;
+        if (isPainted(object)) {
+            auto atlas = scene::atlasOf(source, object.painting->side());
+            if (!atlas) return atlas.error();
+            Result<Paint> maps = images.paint(*object.painting, *atlas);
+            if (!maps) return maps.error();
+            paint = *maps;
+            source = (*atlas)->mesh;
+        }
+        Result<const MeshTextures*> mesh = images.mesh(source, object.material.isRefractive());
         if (!mesh) return mesh.error();
         (object.material.isRefractive() ? drawn.glass : drawn.solid)
-            .push_back({&object, int(i), *mesh, waters ? waters->of(int(i)) : nullptr});
+            .push_back({&object, int(i), *mesh, waters ? waters->of(int(i)) : nullptr, paint});
     }
     return drawn;
 }

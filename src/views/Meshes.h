@@ -6,6 +6,7 @@
 #include "scene/Mesh.h"
 #include "scene/Scene.h"
 #include "views/Eye.h"
+#include "views/Paint.h"
 #include "views/Pose.h"
 #include "views/Triangles.h"
 #include "views/Water.h"
@@ -51,6 +52,7 @@ struct DrawnMesh {
     int index = 0; ///< in the scene
     const MeshTextures* mesh = nullptr;
     const WaterSheet* water = nullptr; ///< of water that moves
+    std::optional<Paint> paint{};      ///< of painted objects, whose mesh is their atlas'
 };
 
 /// Which objects a view shows.

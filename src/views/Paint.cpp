@@ -1,0 +1,90 @@
+#include "views/Paint.h"
+
+#include "views/Meshes.h"
+
+#include <algorithm>
+#include <string>
+
+namespace lucent::views {
+
+using graph::Format;
+
+bool isPainted(const scene::Object& object) {
+    return object.painting && !object.isField() && object.material.isScattering();
+}
+
+PaintMap::PaintMap(gl::Device& device, const Image& map)
+    : texture_(device, {.size = map.size(), .format = Format::RGBA32F}, "views.paint"), least_(map.pixels[3]),
+      most_(map.pixels[3]) {
+    device.upload(texture_.handle(), 0, map.pixels);
+    for (std::size_t i = 3; i < map.pixels.size(); i += 4) {
+        least_ = std::min(least_, map.pixels[i]);
+        most_ = std::max(most_, map.pixels[i]);
+    }
+}
+
+graph::Texture placeTexture(gl::Device& device, const scene::Atlas& atlas) {
+    const ivec2 size = vertexImageSize(atlas.places.size());
+    std::vector<vec2> rows = atlas.places;
+    rows.resize(std::size_t(size.x) * std::size_t(size.y)); // the last row filled up
+    graph::Texture texture(device, {.size = size, .format = Format::RG32F}, "views.paintPlaces");
+    device.upload(texture.handle(), 0, rows);
+    return texture;
+}
+
+std::vector<graph::Binding> enteringBindings(const Paint& paint) {
+    return {{"uPlaces", paint.places}, {"uEntering", paint.entering}, {"uLeaving", paint.leaving}};
+}
+
+namespace {
+
+// What is painted on the nearest of the meshes in each pixel. A surface image that shows one of them shows
+// its nearest place, which no other of them hides: depths need no comparison with those of the image.
+Result<graph::TextureId> recordPaint(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                                     const std::vector<PosedMesh>& meshes, ivec2 size, bool entering) {
+    std::vector<std::string> defines{"PAINTED"};
+    if (entering) defines.push_back("ENTERING");
+    Result<const gl::Program*> program = context.program("views/paint", defines);
+    if (!program) return program.error();
+    graph::TextureId target;
+    graph.addPass("views.paint", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(
+            entering
+                ? "what is painted where light enters object \"" + meshes.front().drawn.object->name + "\""
+                : "what is painted where the camera sees " + std::to_string(meshes.size()) + " object(s)");
+        for (const PosedMesh& mesh : meshes) {
+            pass.sample(mesh.positions);
+            pass.sample(mesh.normals);
+        }
+        target = pass.createColor(entering ? "views.paintEntering" : "views.paintLeaving",
+                                  {.size = size, .format = Format::RGBA32F});
+        pass.clear(target, vec4(1));
+        pass.clear(pass.createDepth("views.depth", size), 1.0f);
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            for (const PosedMesh& mesh : meshes) {
+                const Paint& paint = *mesh.drawn.paint;
+                graph::Draw draw{.depthTest = graph::DepthTest::Less};
+                if (entering)
+                    draw.textures = enteringBindings(paint);
+                else
+                    draw.textures = {{"uPlaces", paint.places}, {"uLeaving", paint.leaving}};
+                drawMesh(commands, *program, resources, mesh, eye, size, mesh.drawn.index, std::move(draw));
+            }
+        };
+    });
+    return target;
+}
+
+} // namespace
+
+Result<graph::TextureId> recordEntering(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                                        const PosedMesh& mesh, ivec2 size) {
+    return recordPaint(graph, context, eye, {mesh}, size, true);
+}
+
+Result<graph::TextureId> recordLeaving(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                                       const std::vector<PosedMesh>& meshes, ivec2 size) {
+    return recordPaint(graph, context, eye, meshes, size, false);
+}
+
+} // namespace lucent::views

@@ -1,0 +1,58 @@
+#pragma once
+/// What an artist painted on translucent objects (scene/Painting.h), as textures and as images of a view.
+
+#include "gl/Context.h"
+#include "graph/FrameGraph.h"
+#include "scene/Painting.h"
+#include "scene/Scene.h"
+#include "views/Eye.h"
+
+#include <vector>
+
+namespace lucent::views {
+
+struct PosedMesh;
+
+/// Whether paint on the object does anything: it must be translucent.
+bool isPainted(const scene::Object& object);
+
+/// A map of a painting on the GPU.
+class PaintMap {
+public:
+    PaintMap(gl::Device& device, const Image& map);
+
+    graph::TextureHandle texture() const { return texture_.handle(); } ///< RGBA32F, row 0 first
+    float least() const { return least_; }                             ///< of the last channel
+    float most() const { return most_; }
+    std::size_t bytes() const { return texture_.desc().bytes(); }
+
+private:
+    graph::Texture texture_;
+    float least_, most_;
+};
+
+/// Atlas::places as a texture of vertexImageSize(), RG32F.
+graph::Texture placeTexture(gl::Device& device, const scene::Atlas& atlas);
+
+/// What a painted object is drawn with.
+struct Paint {
+    graph::TextureHandle entering, leaving; ///< scene::Painting's maps
+    graph::TextureHandle places;
+    float bluntest, sharpest; ///< least and largest M_d
+};
+
+/// What shaders/views/paint.glsl samples for what enters.
+std::vector<graph::Binding> enteringBindings(const Paint& paint);
+
+/// Draws what is painted on one object where a view shows it.
+///
+/// @param eye, size  of a surface image: what is painted belongs to those of its pixels that show the object
+/// @return           RGBA32F. rgb: M_i times translucency, a: M_d
+Result<graph::TextureId> recordEntering(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                                        const PosedMesh& mesh, ivec2 size);
+
+/// The same for what leaves painted objects. rgb: its factor; a: translucency
+Result<graph::TextureId> recordLeaving(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                                       const std::vector<PosedMesh>& meshes, ivec2 size);
+
+} // namespace lucent::views
