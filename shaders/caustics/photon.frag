@@ -69,11 +69,11 @@ void main() {
     Start start = startOf(layers.view, layers.lamp.grid);
     if (start.coverage == 0.0) return;
     vec2 at = vec2(start.pixel) + 0.5;
-    vec4 texel = nearestTexel(start.pixel);
     vec3 eye = eyeRay(layers.view, at);
-    Beam beam = Beam(placeFrom(layers.view, at, texel.x), eye, 0, vec3(1.0));
+    Seen seen = firstSeen(start.pixel, eye);
+    Beam beam = Beam(placeFrom(layers.view, at, seen.texel.x), eye, 0, vec3(1.0));
     Book book = Book(vec3(0.0), vec3(0.0));
-    Crossing crossing = firstCrossing(start.pixel, texel, eye);
+    Crossing crossing = firstCrossing(start.pixel, seen, eye);
     vec3 flux = start.coverage * fluxOf(layers.view, layers.lamp, eye, length(beam.origin));
     flux *= layers.tint.rgb;
     int way = 1;

@@ -8,9 +8,6 @@ vec2 octahedralFrom(vec3 n) {
 }
 
 vec3 fromOctahedral(vec2 e) {
-    float z = 1.0 - abs(e.x) - abs(e.y);
-    if (z >= 0.0) return normalize(vec3(e.x, e.y, z));
-    float x = (1.0 - abs(e.y)) * (e.x >= 0.0 ? 1.0 : -1.0);
-    float y = (1.0 - abs(e.x)) * (e.y >= 0.0 ? 1.0 : -1.0);
-    return normalize(vec3(x, y, z));
+    float z = 1.0 - abs(e.x) - abs(e.y), folded = z >= 0.0 ? 0.0 : -z;
+    return normalize(vec3(e.x >= 0.0 ? e.x - folded : e.x + folded, e.y >= 0.0 ? e.y - folded : e.y + folded, z));
 }

@@ -73,7 +73,8 @@ Crossing crossingOf(ivec2 pixel, int layer, float depth, Walk walk, vec3 directi
     crossing.pixel = pixel;
 #ifdef FROM_PEEL
     vec4 texel = texelFetch(uLayers, ivec3(pixel, layer), 0);
-    crossing = firstCrossing(pixel, texel, eyeRay(layers.view, vec2(pixel) + 0.5));
+    vec3 eye = eyeRay(layers.view, vec2(pixel) + 0.5);
+    crossing = firstCrossing(pixel, seenAt(pixel, texel, eye), eye);
 #else
     crossing.object = walk.object;
     crossing.entered = walk.entered == ((layer & 1) == 0);

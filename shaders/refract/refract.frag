@@ -1,6 +1,7 @@
 // refract/refract.frag: what the eye sees through refractive objects.
 //
 // in    views/layers.glsl   all their surfaces; USE_BISECTION: the first one, the others by refract/bisection.glsl
+//       BESIDE              where there are none
 //       uOpaque             the shaded opaque surfaces and the background; a: coverage
 //       views/environment.glsl
 // out   oColor  COLOR: linear Rec. 709; DIRECTION: the last direction of green light; a: coverage, of DIRECTION 0
@@ -20,6 +21,7 @@ layout(std140) uniform RefractBlock {
     int hasEnvironment;
     float intensity; // of the environment
     int around;      // a bit for each object whose box holds the eye
+    vec4 low, high;  // USE_BOX: a box around all glass, from the eye
     vec2 depths;     // of bisection: nearest and farthest depth of all surfaces
     int depthCount;  // and how many lie behind each other
     int padding;
@@ -99,29 +101,30 @@ int insideAtEye(ivec2 pixel) {
     return inside;
 }
 
-vec4 throughGlass(ivec2 pixel, vec4 texel, vec3 eye, int channel) {
-    Beam start = Beam(placeFrom(layers.view, vec2(pixel) + 0.5, texel.x), eye, insideAtEye(pixel), vec3(1.0));
+vec4 throughGlass(ivec2 pixel, Seen seen, vec3 eye, int channel) {
+    Beam start = Beam(placeFrom(layers.view, vec2(pixel) + 0.5, seen.texel.x), eye, insideAtEye(pixel), vec3(1.0));
     start.weight = leftAfter(start, lengthOf(start, length(start.origin), channel));
-    Crossing first = firstCrossing(pixel, texel, eye);
+    Crossing first = firstCrossing(pixel, seen, eye);
     Beam beam = start;
     vec2 mirrored = cross_(beam, first, channel);
     if (mirrored.x > 0.0) beam.inside = start.inside;
-    Beam onwards = beam;
-    vec4 light = follow(onwards, first, channel);
 #if defined(SHOW_LOST)
-    return vec4(vec3(light.a < 0.0 ? 1.0 : 0.0), 1.0);
+    return vec4(vec3(follow(beam, first, channel).a < 0.0 ? 1.0 : 0.0), 1.0);
 #elif defined(SHOW_DIRECTION)
-    return vec4(onwards.direction, light.a < 0.0 ? 0.0 : 1.0);
+    float known = follow(beam, first, channel).a < 0.0 ? 0.0 : 1.0;
+    return vec4(beam.direction, known);
 #else
-    vec4 color = vec4(onwards.weight * max(light.rgb, 0.0), 1.0);
-    if (mirrored.y > 0.0) {
-        Beam back = start;
-        back.direction = reflect(eye, first.normal);
-        back.weight *= mirrored.y;
-        vec4 reflection = follow(back, first, channel);
-        color.rgb += back.weight * max(reflection.rgb, 0.0);
+    vec4 color = vec4(0.0, 0.0, 0.0, 1.0);
+    for (bool again = mirrored.y > 0.0;; again = false) {
+        vec4 light = follow(beam, first, channel);
+        color.rgb += beam.weight * max(light.rgb, 0.0);
+        if (!again) return color;
+        // What the first interface mirrors goes out from there, too.
+        beam = start;
+        beam.direction = reflect(eye, first.normal);
+        beam.weight *= mirrored.y;
+        standing = Standing(triangleOf(seen.texel), objectOf(seen.texel));
     }
-    return color;
 #endif
 }
 
@@ -153,23 +156,26 @@ void main() {
     return;
 #endif
     vec3 eye = eyeRay(layers.view, gl_FragCoord.xy);
-    vec4 texel = layers.count > 0 ? nearestTexel(pixel) : vec4(0.0);
+    Seen seen = Seen(vec4(0.0), kNowhere);
+#ifndef BESIDE
+    if (layers.count > 0) seen = firstSeen(pixel, eye);
+#endif
 #ifdef USE_SOLID
     vec4 solid = texelFetch(uSolid, pixel, 0);
-    if (solid.a > 0.0 && (texel.w == 0.0 || solid.r <= texel.x)) {
+    if (solid.a > 0.0 && (seen.texel.w == 0.0 || solid.r <= seen.texel.x)) {
         oColor = beside(eye, vec4(texelFetch(uOpaque, pixel, 0).rgb, 1.0));
         return;
     }
 #endif
-    if (texel.w == 0.0) {
+    if (seen.texel.w == 0.0) {
         oColor = beside(eye, environmentAt(eye));
         return;
     }
 #if defined(SHOW_DIRECTION) || defined(SHOW_LOST) || !defined(USE_DISPERSION)
-    oColor = throughGlass(pixel, texel, eye, 1);
+    oColor = throughGlass(pixel, seen, eye, 1);
 #else
     vec4 color = vec4(0.0, 0.0, 0.0, 1.0); // WebGL lets no output be indexed
-    for (int channel = 0; channel < 3; ++channel) color[channel] = throughGlass(pixel, texel, eye, channel)[channel];
+    for (int channel = 0; channel < 3; ++channel) color[channel] = throughGlass(pixel, seen, eye, channel)[channel];
     oColor = color;
 #endif
 }

@@ -60,31 +60,32 @@ vec3 leftAfter(Beam beam, float t) {
     return medium < 0 ? vec3(1.0) : exp(-layers.glass[medium].absorption.rgb * t);
 }
 
-// Where the ray of the eye through a pixel pierces the mesh that the pixel shows.
-Piercing firstPiercing(ivec2 pixel, vec4 texel, vec3 eye) {
+// A surface in a pixel, and where the ray of the eye pierces the mesh that it shows.
+struct Seen {
+    vec4 texel;     // with the triangle that is pierced, and its depth: the rasteriser moves corners by parts of a pixel
+    Piercing found; // by a ray that begins at the depth that the layer holds
+};
+
+Seen seenAt(ivec2 pixel, vec4 texel, vec3 eye) {
     vec3 place = placeFrom(layers.view, vec2(pixel) + 0.5, texel.x);
-    return pierce(layers.view.eye.xyz, place, eye, triangleOf(texel), facesView(texel) ? -1.0 : 1.0);
+    Piercing found = kNowhere;
+    if (texel.w > 0.0)
+        found = pierce(layers.view.eye.xyz, place, axesOf(eye), triangleOf(texel), facesView(texel) ? -1.0 : 1.0);
+    if (found.triangle == kNoTriangle) return Seen(texel, found);
+    float depth = texel.x + found.t * dot(eye, layers.view.forward.xyz);
+    return Seen(vec4(depth, float(found.triangle), texel.zw), found);
 }
 
-// The first layer of a pixel, its depth where the ray of the eye pierces the mesh: the rasteriser moves corners by
-// parts of a pixel.
-vec4 nearestTexel(ivec2 pixel) {
-    vec4 texel = texelFetch(uLayers, ivec3(pixel, 0), 0);
-    if (texel.w == 0.0) return texel;
-    vec3 eye = eyeRay(layers.view, vec2(pixel) + 0.5);
-    Piercing found = firstPiercing(pixel, texel, eye);
-    if (found.triangle == kNoTriangle) return texel;
-    return vec4(texel.x + found.t * dot(eye, layers.view.forward.xyz), float(found.triangle), texel.zw);
-}
+// The first surface of a pixel.
+Seen firstSeen(ivec2 pixel, vec3 eye) { return seenAt(pixel, texelFetch(uLayers, ivec3(pixel, 0), 0), eye); }
 
-// The crossing of a ray from the eye with the surface of a texel, as a rule the one that nearestTexel() has found.
-Crossing firstCrossing(ivec2 pixel, vec4 texel, vec3 eye) {
-    bool entered = facesView(texel);
+// The crossing of the ray from the eye with a surface that it sees.
+Crossing firstCrossing(ivec2 pixel, Seen seen, vec3 eye) {
+    bool entered = facesView(seen.texel);
     float side = entered ? -1.0 : 1.0;
-    Piercing found = firstPiercing(pixel, texel, eye);
-    standing = Standing(triangleOf(texel), objectOf(texel));
-    vec3 n = found.triangle == kNoTriangle ? normalOf(texel) : bendingNormal(found, eye, side);
+    standing = Standing(triangleOf(seen.texel), objectOf(seen.texel));
+    vec3 n = seen.found.triangle == kNoTriangle ? normalOf(seen.texel) : bendingNormal(seen.found, eye, side);
     // A triangle that the pixel shows and its ray passes by may turn away from the eye: light cannot come from there.
     if (side * dot(n, eye) <= 0.0) n = normalize(n - (dot(n, eye) - side * 1e-4) * eye);
-    return Crossing(kGlass, 0.0, objectOf(texel), entered, n, pixel);
+    return Crossing(kGlass, 0.0, objectOf(seen.texel), entered, n, pixel);
 }

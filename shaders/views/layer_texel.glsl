@@ -12,7 +12,7 @@ float packedNormal(vec3 n) {
 }
 
 vec3 unpackedNormal(float number) {
-    float high = floor(number / 4096.0);
+    float high = floor(number * (1.0 / 4096.0)); // exact
     return fromOctahedral(vec2(high, number - 4096.0 * high) * (2.0 / 4095.0) - 1.0);
 }
 

@@ -8,13 +8,15 @@
 // of others from the front. It therefore needs no distance to keep from where it starts. What it went through between
 // two pixels shows in the next ones, which have other objects around it than it is inside of.
 //
-// The file that includes this declares `layers`: a struct or block with View view, int count, int hasSolid.
+// What a ray does as a rule and what it does seldom stand in loops of their own, the seldom ones far out: many rays run
+// in step, and where one is busy the others wait. Some drivers run both sides of every `if`, and every loop once.
+//
+// The file that includes this declares `layers`: a struct or block with View view, int count; USE_BOX: vec4 low, high
+// around all that there is, from the eye.
 #include "views/layer_texel.glsl"
 #include "views/triangles.glsl"
 uniform sampler2DArray uLayers;
-uniform sampler2DArray uBlocks4;
-uniform sampler2DArray uBlocks16;
-uniform sampler2DArray uBlocks64;
+uniform sampler2DArray uBlocks; // views/blocks.frag
 #ifdef USE_SOLID
 uniform sampler2D uSolid; // r: depth [m]; gb: octahedral normal towards the eye; a: 0 where there is nothing
 #endif
@@ -34,6 +36,7 @@ struct Ray {
     vec3 direction; // unit
     vec3 from;      // both in the view's measures (inView)
     vec3 along;
+    mat3 axes;      // axesOf() its direction
 };
 
 struct Crossing {
@@ -46,7 +49,7 @@ struct Crossing {
 };
 
 Ray rayOf(View view, vec3 origin, vec3 direction) {
-    return Ray(origin, direction, inView(view, origin), inView(view, direction));
+    return Ray(origin, direction, inView(view, origin), inView(view, direction), axesOf(direction));
 }
 
 vec2 pixelAt(View view, Ray ray, float t) { return pixelOf(view, ray.from + t * ray.along); }
@@ -69,25 +72,33 @@ float exitOf(View view, Ray ray, vec2 moves, vec2 low, vec2 high) {
     return min(t.x, t.y);
 }
 
-vec2 rangeOf(int level, ivec2 block, int layer) {
-    if (level == 1) return texelFetch(uBlocks4, ivec3(block, layer), 0).xy;
-    if (level == 2) return texelFetch(uBlocks16, ivec3(block, layer), 0).xy;
-    return texelFetch(uBlocks64, ivec3(block, layer), 0).xy;
+// Row at which a level's blocks begin (views/blocks.frag).
+int rowOf(View view, int level) {
+    int rows4 = (int(view.size.y) + 3) >> 2;
+    return level == 1 ? 0 : level == 2 ? rows4 : rows4 + ((rows4 + 3) >> 2);
 }
 
+bool overlaps(vec2 range, vec2 depths) { return range.x <= depths.y && range.y >= depths.x; }
+
 // x: whether a surface of the block lies within these depths; y: whether the block has any layer.
-bvec2 lookAt(int level, ivec2 block, float nearest, float farthest) {
+bvec2 lookAt(ivec2 texel, vec2 depths) {
     bvec2 found = bvec2(false);
-    for (int layer = 0; layer < layers.count; ++layer) {
-        vec2 range = rangeOf(level, block, layer);
-        if (range.x > range.y) break; // layers are filled from the front
-        found.y = true;
-        if (range.x <= farthest && range.y >= nearest) return bvec2(true);
-    }
 #ifdef USE_SOLID
-    vec2 range = rangeOf(level, block, layers.count);
-    found.x = range.x <= farthest && range.y >= nearest;
+    int pairs = (layers.count + 2) >> 1; // what is opaque, then layers from the front
+#else
+    int pairs = (layers.count + 1) >> 1;
 #endif
+    for (int pair = 0; pair < pairs; ++pair) {
+        vec4 ranges = texelFetch(uBlocks, ivec3(texel, pair), 0);
+        bool second = ranges.z <= ranges.w;
+        found.x = overlaps(ranges.xy, depths) || overlaps(ranges.zw, depths);
+#ifdef USE_SOLID
+        found.y = found.y || second || (pair > 0 && ranges.x <= ranges.y);
+#else
+        found.y = found.y || ranges.x <= ranges.y;
+#endif
+        if (found.x || !second) break;
+    }
     return found;
 }
 
@@ -98,11 +109,39 @@ bool isInside(int inside, int object) { return ((inside >> object) & 1) == 1; }
 bool mayMeet(View view, Ray ray, ivec2 pixel, vec4 texel, int inside, float from, float to) {
     vec3 n = normalOf(texel);
     float slope = dot(ray.direction, n);
-    if (slope == 0.0 || isInside(inside, objectOf(texel)) != (slope > 0.0)) return false;
     vec3 place = placeFrom(view, vec2(pixel) + 0.5, texel.x);
     float apart = dot(place - ray.origin, n) - 0.5 * (from + to) * slope;
     float beside = kBeside * length(view.right.xyz) * (view.eye.w > 0.5 ? texel.x : 1.0);
-    return abs(apart) <= 0.5 * (to - from) * abs(slope) + beside;
+    return slope != 0.0 && isInside(inside, objectOf(texel)) == (slope > 0.0) &&
+           abs(apart) <= 0.5 * (to - from) * abs(slope) + beside;
+}
+
+// What a pixel shows to a ray that runs through it.
+struct Look {
+    uint candidates; // layers that it may meet there, bits
+    int around;      // objects that stand around a place in it
+    bool any;        // whether it shows anything
+};
+
+// Around a place stands of what has its last surface before it turn the outside to the view; of what the ray is inside
+// of also what begins before the picture does (around the eye) and ends behind the place.
+//
+// depth  of the place
+Look lookIn(View view, Ray ray, ivec2 pixel, int inside, float from, float to, float depth) {
+    Look look = Look(0u, 0, false);
+    int seen = 0;
+    for (int layer = 0; layer < layers.count; ++layer) {
+        vec4 texel = texelFetch(uLayers, ivec3(pixel, layer), 0);
+        if (texel.w == 0.0) break;
+        look.any = true;
+        if (mayMeet(view, ray, pixel, texel, inside, from, to)) look.candidates |= 1u << layer;
+        int bit = 1 << objectOf(texel);
+        bool faces = facesView(texel);
+        if (texel.x <= depth) look.around = faces ? look.around | bit : look.around & ~bit;
+        else if ((seen & bit) == 0 && !faces) look.around |= inside & bit;
+        seen |= bit;
+    }
+    return look;
 }
 
 // Where the ray stands: what it crossed last. It begins there, and does not meet it again.
@@ -125,7 +164,7 @@ float sideOf(int inside, int object) { return isInside(inside, object) ? 1.0 : -
 // `nearest` and in front of the ray.
 void pierceFrom(View view, Ray ray, int triangle, int object, int inside, inout Nearest nearest) {
     float side = sideOf(inside, object);
-    Piercing found = pierce(view.eye.xyz, ray.origin, ray.direction, triangle, side);
+    Piercing found = pierce(view.eye.xyz, ray.origin, ray.axes, triangle, side);
     float rounding = 1e-6 * view.forward.w;
     float order = found.t - (side < 0.0 ? rounding : 0.0);
     if (found.triangle == kNoTriangle || order >= nearest.t) return;
@@ -135,6 +174,17 @@ void pierceFrom(View view, Ray ray, int triangle, int object, int inside, inout 
     nearest = Nearest(order, object, found);
 }
 
+int lowestBit(uint bits) { return (floatBitsToInt(float(bits & (~bits + 1u))) >> 23) - 127; }
+
+// The same from the triangles of a pixel's candidates.
+void pierceCandidates(View view, Ray ray, ivec2 pixel, uint candidates, int inside, inout Nearest nearest) {
+    while (candidates != 0u) {
+        vec4 texel = texelFetch(uLayers, ivec3(pixel, lowestBit(candidates)), 0);
+        candidates &= candidates - 1u;
+        pierceFrom(view, ray, triangleOf(texel), objectOf(texel), inside, nearest);
+    }
+}
+
 Crossing crossingAt(Ray ray, Nearest nearest, int inside) {
     standing = Standing(nearest.piercing.triangle, nearest.object);
     return Crossing(kGlass, max(nearest.piercing.t, 0.0), nearest.object, !isInside(inside, nearest.object),
@@ -142,45 +192,53 @@ Crossing crossingAt(Ray ray, Nearest nearest, int inside) {
 }
 
 #ifdef USE_SOLID
-// Where a ray meets the plane of the opaque surface, which it does from the front only; below 0: it does not.
-float meetSolid(View view, Ray ray, ivec2 pixel, vec4 solid) {
+// Where a ray meets the plane of the opaque surface in a pixel, which it does from the front only; below 0: it does
+// not.
+float meetSolid(View view, Ray ray, ivec2 pixel) {
+    vec4 solid = texelFetch(uSolid, pixel, 0);
     vec3 n = fromOctahedral(solid.yz);
     float slope = dot(ray.direction, n);
-    if (slope >= 0.0) return -1.0;
+    if (solid.a == 0.0 || slope >= 0.0) return -1.0;
     return dot(placeFrom(view, vec2(pixel) + 0.5, solid.x) - ray.origin, n) / slope;
 }
 #endif
 
-// What the ray crossed of one of these objects, all to be left or all to be entered, on the mesh around the pixel that
-// it comes from, whatever planes say: from the nearest triangle on that turns the right side to it, and from the
-// neighbours of the nearest one that turns the other side, for at outlines a triangle may be too narrow for any pixel.
-void meetUnseen(View view, Ray ray, float t, vec2 towards, int inside, int objects, inout Nearest nearest) {
+// What the ray crossed of these objects on the mesh around the pixel that it comes from, whatever planes say: from the
+// nearest triangle on that turns the right side to it, and from the neighbours of the nearest one that turns the other
+// side, for at outlines a triangle may be too narrow for any pixel. First what it entered, then what it left.
+void meetUnseen(View view, Ray ray, float t, vec2 towards, int inside, int unseen, inout Nearest nearest) {
     vec3 here = ray.origin + t * ray.direction;
     ivec2 middle = ivec2(floor(pixelAt(view, ray, t) - 0.5 * towards));
-    vec2 apart = vec2(1e30); // of a triangle that turns the right side, and the other one
-    vec4 start = vec4(0.0), beside = vec4(0.0);
-    for (int i = 0; i < 9; ++i) {
-        ivec2 pixel = clamp(middle + ivec2(i % 3, i / 3) - 1, ivec2(0), ivec2(view.size) - 1);
-        for (int layer = 0; layer < layers.count; ++layer) {
+    while (unseen != 0) {
+        int objects = (unseen & ~inside) != 0 ? unseen & ~inside : unseen;
+        unseen &= ~objects;
+        vec2 apart = vec2(1e30); // of a triangle that turns the right side, and the other one
+        ivec2 start = ivec2(kNoTriangle, 0), beside = start; // their numbers and objects
+        for (int i = 0, layer = 0; i < 9;) {
+            ivec2 pixel = clamp(middle + ivec2(i % 3, i / 3) - 1, ivec2(0), ivec2(view.size) - 1);
             vec4 texel = texelFetch(uLayers, ivec3(pixel, layer), 0);
-            if (texel.w == 0.0) break;
-            if (!isInside(objects, objectOf(texel))) continue;
-            float far = distance(placeFrom(view, vec2(pixel) + 0.5, texel.x), here);
-            bool turned = sideOf(inside, objectOf(texel)) * dot(normalOf(texel), ray.direction) > 0.0;
-            if (turned && far < apart.x) {
-                apart.x = far;
-                start = texel;
-            } else if (!turned && far < apart.y) {
-                apart.y = far;
-                beside = texel;
+            int object = objectOf(texel);
+            if (texel.w > 0.0 && isInside(objects, object)) {
+                float far = distance(placeFrom(view, vec2(pixel) + 0.5, texel.x), here);
+                bool turned = sideOf(inside, object) * dot(normalOf(texel), ray.direction) > 0.0;
+                if (turned && far < apart.x) {
+                    apart.x = far;
+                    start = ivec2(triangleOf(texel), object);
+                } else if (!turned && far < apart.y) {
+                    apart.y = far;
+                    beside = ivec2(triangleOf(texel), object);
+                }
             }
+            bool last = texel.w == 0.0 || layer + 1 == layers.count;
+            layer = last ? 0 : layer + 1;
+            i += last ? 1 : 0;
         }
+        ivec3 across = ivec3(kNoTriangle);
+        if (beside.x != kNoTriangle) across = linksFrom(texelFetch(uLinks, tableTexel(beside.x), 0)).across;
+        ivec4 starts = ivec4(start.x, across);
+        for (int i = 0; i < 4; ++i)
+            pierceFrom(view, ray, starts[i], i == 0 ? start.y : beside.y, inside, nearest);
     }
-    if (start.w > 0.0) pierceFrom(view, ray, triangleOf(start), objectOf(start), inside, nearest);
-    if (beside.w == 0.0) return;
-    ivec3 across = linksFrom(texelFetch(uLinks, tableTexel(triangleOf(beside)), 0)).across;
-    for (int edge = 0; edge < 3; ++edge)
-        pierceFrom(view, ray, across[edge], objectOf(beside), inside, nearest);
 }
 
 // A guess, where the mesh around did not say how the ray left one of these objects: by the surface that is nearest in
@@ -188,117 +246,140 @@ void meetUnseen(View view, Ray ray, float t, vec2 towards, int inside, int objec
 Crossing leaveAt(View view, Ray ray, float t, vec2 towards, int left) {
     vec2 p = pixelAt(view, ray, t);
     float z = ray.from.z + t * ray.along.z;
-    for (int back = 1; back <= kMostEmpty + 3; ++back) {
+    float best = 1e30;
+    vec4 bestTexel = vec4(0.0);
+    ivec2 bestPixel = ivec2(p);
+    for (int back = 1, layer = 0; back <= kMostEmpty + 3;) {
         ivec2 pixel = ivec2(floor(p - (float(back) - 0.5) * towards));
-        float best = 1e30;
-        vec4 bestTexel = vec4(0.0);
-        for (int layer = 0; layer < layers.count; ++layer) {
-            vec4 texel = texelFetch(uLayers, ivec3(pixel, layer), 0);
-            if (texel.w == 0.0) break;
-            if (!isInside(left, objectOf(texel)) || dot(normalOf(texel), ray.direction) <= 0.0) continue;
-            if (abs(texel.x - z) >= best) continue;
+        vec4 texel = texelFetch(uLayers, ivec3(pixel, layer), 0);
+        if (texel.w > 0.0 && isInside(left, objectOf(texel)) && dot(normalOf(texel), ray.direction) > 0.0 &&
+            abs(texel.x - z) < best) {
             best = abs(texel.x - z);
             bestTexel = texel;
+            bestPixel = pixel;
         }
-        if (bestTexel.w > 0.0) return Crossing(kGlass, t, objectOf(bestTexel), false, normalOf(bestTexel), pixel);
+        bool last = texel.w == 0.0 || layer + 1 == layers.count;
+        if (last && bestTexel.w > 0.0) break;
+        layer = last ? 0 : layer + 1;
+        back += last ? 1 : 0;
     }
+    if (bestTexel.w > 0.0) return Crossing(kGlass, t, objectOf(bestTexel), false, normalOf(bestTexel), bestPixel);
     // Nothing turns towards it: it goes on as it came.
     int object = 0;
     while (object < 31 && !isInside(left, object)) ++object;
-    return Crossing(kGlass, t, object, false, ray.direction, ivec2(p));
+    return Crossing(kGlass, t, object, false, ray.direction, bestPixel);
 }
 
-// Objects that stand around a place of a pixel: whose last surface before this depth shows its outside; of those that
-// the ray is inside of also the ones that begin before the picture does (around the eye) and end behind the place.
-int standingAround(ivec2 pixel, float depth, int inside) {
-    int around = 0, seen = 0;
-    for (int layer = 0; layer < layers.count; ++layer) {
-        vec4 texel = texelFetch(uLayers, ivec3(pixel, layer), 0);
-        if (texel.w == 0.0) break;
-        int bit = 1 << objectOf(texel);
-        if (texel.x <= depth) around = facesView(texel) ? around | bit : around & ~bit;
-        else if ((seen & bit) == 0 && !facesView(texel)) around |= inside & bit;
-        seen |= bit;
-    }
-    return around;
+#ifdef USE_BOX
+// Where a ray that is in nothing has left everything, and a little farther.
+float leavesAll(View view, Ray ray) {
+    vec3 slow = mix(ray.direction, vec3(1e-20), lessThan(abs(ray.direction), vec3(1e-20)));
+    vec3 t = (mix(layers.low.xyz, layers.high.xyz, step(0.0, slow)) - ray.origin) / slow;
+    return max(0.0, min(t.x, min(t.y, t.z))) + 1e-3 * view.forward.w;
 }
+#endif
 
 // What a ray meets next.
 //
 // inside  a bit for each object that the ray's origin is inside of
 Crossing march(View view, Ray ray, int inside) {
-    Crossing none = Crossing(kNothing, 0.0, 0, false, vec3(0.0), ivec2(0));
     vec2 towards = movement(view, ray), moves = sign(towards);
     // Everything lies between the near and the far depth, but for what a perspective view has before it.
     bool away = ray.along.z >= 0.0;
     float farthest = ray.along.z == 0.0 ? 1e30 : ((away ? view.forward.w : view.right.w) - ray.from.z) / ray.along.z;
-    float t = 0.0;
-    int level = 1;
-    int empty = 0;    // pixels without anything, one after the other
-    for (int count = 0; count < kMostSteps; ++count) {
-        none.entered = !away && view.eye.w > 0.5;
-        if (t >= farthest) return none;
-        vec2 p = pixelAt(view, ray, t) + 1e-3 * moves;
-        if (any(lessThan(p, vec2(0.0))) || any(greaterThanEqual(p, view.size))) {
-            none.entered = true;
-            return none;
-        }
-        int shift = 2 * level;
-        ivec2 block = ivec2(floor(p)) >> shift;
-        float exit = max(t, exitOf(view, ray, moves, vec2(block << shift), vec2((block + 1) << shift)));
-        float z0 = ray.from.z + t * ray.along.z;
-        float z1 = ray.from.z + min(exit, farthest) * ray.along.z;
-        if (level > 0) {
-            // Half a pixel of surface may lie beside the middle where its depth was taken.
-            bvec2 found = lookAt(level, block, min(z0, z1), max(z0, z1));
-            if (found.x || (inside != 0 && !found.y)) {
-                --level;
-                continue;
-            }
-            if (exit >= 1e29) return none;
-            t = exit;
-            level = min(level + 1, kCoarsest);
-            continue;
-        }
-        bool any_ = false;
-        // What is met far beyond the pixel does not count yet: something else may be met before.
-        float slack = 0.5 * (exit - t) + 1e-6 * view.forward.w;
-        Nearest nearest = Nearest(exit + 2.0 * slack, 0, kNowhere);
-        for (int layer = 0; layer < layers.count; ++layer) {
-            vec4 texel = texelFetch(uLayers, ivec3(block, layer), 0);
-            if (texel.w == 0.0) break;
-            any_ = true;
-            if (mayMeet(view, ray, block, texel, inside, t, exit))
-                pierceFrom(view, ray, triangleOf(texel), objectOf(texel), inside, nearest);
-        }
-#ifdef USE_SOLID
-        vec4 solid = texelFetch(uSolid, block, 0);
-        if (solid.a > 0.0) {
-            float there = meetSolid(view, ray, block, solid);
-            if (there >= max(0.0, t - slack) && there <= exit + slack && there < nearest.t)
-                return Crossing(kSolid, there, 0, false, vec3(0.0), block);
-        }
+#ifdef USE_BOX
+    if (inside == 0) farthest = min(farthest, leavesAll(view, ray));
 #endif
-        if (nearest.piercing.triangle != kNoTriangle) return crossingAt(ray, nearest, inside);
-        // What stands around the ray without being met was entered unseen between pixels, as at an outline that the
-        // view sees edge-on, or only seems to; what no longer does was left. The mesh knows. Where the ray starts it
-        // stands on a surface: there the end of its way through the pixel counts.
-        int unseen = standingAround(block, t > 0.0 ? 0.5 * (z0 + z1) : z1, inside) ^ inside;
-        empty = any_ ? 0 : empty + 1;
-        if (unseen != 0) {
-            if ((unseen & ~inside) != 0) meetUnseen(view, ray, t, towards, inside, unseen & ~inside, nearest);
-            if ((unseen & inside) != 0) meetUnseen(view, ray, t, towards, inside, unseen & inside, nearest);
-            if (nearest.piercing.triangle != kNoTriangle) return crossingAt(ray, nearest, inside);
-            if (empty == kMostEmpty) {
-                standing.triangle = kNoTriangle;
-                return leaveAt(view, ray, t, towards, inside);
+    float rounding = 1e-6 * view.forward.w;
+    Crossing crossing = Crossing(kNothing, 0.0, 0, !away && view.eye.w > 0.5, vec3(0.0), ivec2(0));
+    Nearest nearest = Nearest(0.0, 0, kNowhere);
+    float t = 0.0, end = 0.0; // of the way through a pixel or block
+    ivec2 pixel = ivec2(floor(pixelAt(view, ray, 0.0) + 1e-3 * moves));
+    int level = 0, empty = 0, steps = 0; // it starts on a surface; pixels without anything, one after the other
+    bool goesOn = true, meets = false, climbs = true;
+    while (goesOn && !meets) {
+        int unseen = 0;
+        while (goesOn && !meets && unseen == 0) {
+            uint candidates = 0u;
+            bool stops = false;
+#ifdef USE_SOLID
+            float there = -1.0;
+#endif
+            while (goesOn && !stops) {
+                // Over blocks without anything to a pixel.
+                float z0 = 0.0, z1 = 0.0;
+                while (goesOn) {
+                    vec2 p = pixelAt(view, ray, t) + 1e-3 * moves;
+                    bool shown = all(greaterThanEqual(p, vec2(0.0))) && all(lessThan(p, view.size));
+                    if (t >= farthest || !shown || ++steps > kMostSteps) {
+                        crossing.kind = steps > kMostSteps ? kLost : kNothing;
+                        crossing.entered = crossing.entered || t < farthest;
+                        goesOn = false;
+                        break;
+                    }
+                    ivec2 last = pixel;
+                    pixel = ivec2(floor(p));
+                    if (level == 0 && climbs && (pixel >> 2) != (last >> 2)) level = 1;
+                    climbs = true;
+                    int shift = 2 * level;
+                    ivec2 block = pixel >> shift;
+                    end = max(t, exitOf(view, ray, moves, vec2(block << shift), vec2((block + 1) << shift)));
+                    z0 = ray.from.z + t * ray.along.z;
+                    z1 = ray.from.z + min(end, farthest) * ray.along.z;
+                    if (level == 0) break;
+                    bvec2 found = lookAt(ivec2(block.x, block.y + rowOf(view, level)), vec2(min(z0, z1), max(z0, z1)));
+                    if (found.x || (inside != 0 && !found.y)) {
+                        --level;
+                    } else {
+                        goesOn = end < 1e29;
+                        t = end;
+                        level = min(level + 1, kCoarsest);
+                    }
+                }
+                if (!goesOn) break;
+                // Where it starts it stands on a surface: there the end of its way through the pixel counts.
+                Look look = lookIn(view, ray, pixel, inside, t, end, t > 0.0 ? 0.5 * (z0 + z1) : z1);
+                candidates = look.candidates;
+                // What stands around the ray without being met was entered unseen between pixels, as at an outline
+                // that the view sees edge-on, or only seems to; what no longer does was left. The mesh knows.
+                unseen = look.around ^ inside;
+                empty = look.any ? 0 : empty + 1;
+                stops = candidates != 0u || unseen != 0;
+#ifdef USE_SOLID
+                there = meetSolid(view, ray, pixel);
+                stops = stops || there >= 0.0;
+#endif
+                if (!stops) {
+                    goesOn = end < 1e29;
+                    t = end;
+                }
+            }
+            if (!goesOn) break;
+            // What is met far beyond the pixel does not count yet: something else may be met before.
+            float slack = 0.5 * (end - t) + rounding;
+            nearest = Nearest(end + 2.0 * slack, 0, kNowhere);
+            pierceCandidates(view, ray, pixel, candidates, inside, nearest);
+            meets = nearest.piercing.triangle != kNoTriangle;
+#ifdef USE_SOLID
+            if (there >= max(0.0, t - slack) && there <= end + slack && there < nearest.t)
+                return Crossing(kSolid, there, 0, false, vec3(0.0), pixel);
+#endif
+            if (!meets && unseen == 0) {
+                goesOn = end < 1e29;
+                t = end;
             }
         }
-        if (exit >= 1e29) return none;
-        t = exit;
-        ivec2 next = ivec2(floor(pixelAt(view, ray, t) + 1e-3 * moves));
-        if (unseen == 0 && (next >> 2) != (block >> 2)) level = 1;
+        if (!goesOn || meets) break;
+        meetUnseen(view, ray, t, towards, inside, unseen, nearest);
+        meets = nearest.piercing.triangle != kNoTriangle;
+        if (!meets && empty == kMostEmpty) {
+            standing.triangle = kNoTriangle;
+            return leaveAt(view, ray, t, towards, inside);
+        }
+        climbs = false;
+        goesOn = end < 1e29;
+        t = end;
     }
-    none.kind = kLost;
-    return none;
+    if (meets) return crossingAt(ray, nearest, inside);
+    return crossing;
 }

@@ -16,27 +16,33 @@ struct Piercing {
     float t;      // m along the ray; below 0 behind its origin
     vec3 shares;  // of the corners, their sum 1
     ivec3 corners;
+    vec3 outward; // the triangle's own normal, of any length
 };
-const Piercing kNowhere = Piercing(kNoTriangle, 0.0, vec3(0.0), ivec3(0));
+const Piercing kNowhere = Piercing(kNoTriangle, 0.0, vec3(0.0), ivec3(0), vec3(0.0));
 
 float crossed(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
+// Two directions across a ray, and its own: columns.
+mat3 axesOf(vec3 direction) {
+    vec3 right = normalize(abs(direction.x) < 0.6 ? cross(direction, vec3(1.0, 0.0, 0.0))
+                                                  : cross(direction, vec3(0.0, 1.0, 0.0)));
+    return mat3(right, cross(direction, right), direction);
+}
 
 // Only as far as the surface turns one side to the ray: where it folds, what lies beyond is not in the ray's way.
 //
 // origin  measured from the eye, as rays are
+// axes    axesOf() the ray's direction
 // side    1: where the ray leaves, -1: where it enters
-Piercing pierce(vec3 eye, vec3 origin, vec3 direction, int start, float side) {
-    vec3 right = normalize(abs(direction.x) < 0.6 ? cross(direction, vec3(1.0, 0.0, 0.0))
-                                                  : cross(direction, vec3(0.0, 1.0, 0.0)));
-    mat3 alongRay = transpose(mat3(right, cross(direction, right), direction));
+Piercing pierce(vec3 eye, vec3 origin, mat3 axes, int start, float side) {
     int triangle = start, before = kNoTriangle;
     for (int i = 0; i < kMostTriangles && triangle != kNoTriangle; ++i) {
         Links links = linksFrom(texelFetch(uLinks, tableTexel(triangle), 0));
         ivec3 corners = ivec3(links.corners, triangle);
         // The same numbers for a corner whichever triangle asks: no ray slips through an edge.
-        vec3 a = alongRay * (texelFetch(uCorners, tableTexel(corners.x), 0).xyz - eye - origin);
-        vec3 b = alongRay * (texelFetch(uCorners, tableTexel(corners.y), 0).xyz - eye - origin);
-        vec3 c = alongRay * (texelFetch(uCorners, tableTexel(corners.z), 0).xyz - eye - origin);
+        vec3 a = (texelFetch(uCorners, tableTexel(corners.x), 0).xyz - eye - origin) * axes;
+        vec3 b = (texelFetch(uCorners, tableTexel(corners.y), 0).xyz - eye - origin) * axes;
+        vec3 c = (texelFetch(uCorners, tableTexel(corners.z), 0).xyz - eye - origin) * axes;
         vec3 inward = side * vec3(crossed(b.xy, c.xy), crossed(c.xy, a.xy), crossed(a.xy, b.xy));
         float area = inward.x + inward.y + inward.z;
         if (area <= 0.0) break;
@@ -55,7 +61,8 @@ Piercing pierce(vec3 eye, vec3 origin, vec3 direction, int start, float side) {
         if (least >= 0.0 || next == before) {
             vec3 shares = clamp(inward / area, 0.0, 1.0);
             shares /= shares.x + shares.y + shares.z;
-            return Piercing(triangle, dot(shares, vec3(a.z, b.z, c.z)), shares, corners);
+            return Piercing(triangle, dot(shares, vec3(a.z, b.z, c.z)), shares, corners,
+                            axes * cross(b - a, c - a));
         }
         before = triangle;
         triangle = next;
@@ -69,9 +76,5 @@ vec3 bendingNormal(Piercing p, vec3 direction, float side) {
     vec3 smooth_ = p.shares.x * texelFetch(uCornerNormals, tableTexel(p.corners.x), 0).xyz +
                    p.shares.y * texelFetch(uCornerNormals, tableTexel(p.corners.y), 0).xyz +
                    p.shares.z * texelFetch(uCornerNormals, tableTexel(p.corners.z), 0).xyz;
-    if (side * dot(smooth_, direction) > 0.0) return normalize(smooth_);
-    vec3 a = texelFetch(uCorners, tableTexel(p.corners.x), 0).xyz;
-    vec3 b = texelFetch(uCorners, tableTexel(p.corners.y), 0).xyz;
-    vec3 c = texelFetch(uCorners, tableTexel(p.corners.z), 0).xyz;
-    return normalize(cross(b - a, c - a));
+    return normalize(side * dot(smooth_, direction) > 0.0 ? smooth_ : p.outward);
 }

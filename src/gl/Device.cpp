@@ -86,7 +86,7 @@ void setCull(graph::Cull cull) {
 }
 
 void setDepth(graph::DepthTest test, bool write) {
-    constexpr GLenum kFunctions[] = {GL_ALWAYS, GL_LESS, GL_LEQUAL, GL_EQUAL};
+    constexpr GLenum kFunctions[] = {GL_ALWAYS, GL_LESS, GL_LEQUAL, GL_EQUAL, GL_GREATER};
     setState(GL_DEPTH_TEST, test != graph::DepthTest::None);
     glDepthFunc(kFunctions[int(test)]);
     glDepthMask(write);

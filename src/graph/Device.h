@@ -47,7 +47,7 @@ struct Binding {
 
 enum class Topology : std::uint8_t { Triangles, Lines, Points }; ///< points: the shader sets gl_PointSize
 enum class Cull : std::uint8_t { None, Front, Back };            ///< front faces run counterclockwise
-enum class DepthTest : std::uint8_t { None, Less, LessEqual, Equal };
+enum class DepthTest : std::uint8_t { None, Less, LessEqual, Equal, Greater };
 
 /// How what is drawn meets what the target holds, in all colour targets alike. Integer targets are
 /// overwritten. 16-bit floats blend wherever they can be drawn into; 32-bit floats need Caps::floatBlend, and

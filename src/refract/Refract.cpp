@@ -25,6 +25,7 @@ struct RefractBlock {
     int count = 0, hasEnvironment = 0;
     float intensity = 1;
     int around = 0;
+    vec4 low{0}, high{0};
     vec2 depths{0};
     int depthCount = 0, padding = 0;
 
@@ -38,6 +39,8 @@ struct RefractBlock {
                                      {"hasEnvironment", offsetof(RefractBlock, hasEnvironment)},
                                      {"intensity", offsetof(RefractBlock, intensity)},
                                      {"around", offsetof(RefractBlock, around)},
+                                     {"low", offsetof(RefractBlock, low)},
+                                     {"high", offsetof(RefractBlock, high)},
                                      {"depths", offsetof(RefractBlock, depths)},
                                      {"depthCount", offsetof(RefractBlock, depthCount)}});
             return list;
@@ -66,6 +69,9 @@ RefractBlock blockOf(const Inputs& in, ivec2 size) {
         block.glass[i] = views::glassBlock(object.material);
         if (in.eye.perspective && holds(views::boundsOf(object), in.eye.position)) block.around |= 1 << i;
     }
+    const views::Bounds all = views::boundsOfAll(in.glass);
+    block.low = vec4(all.low - in.eye.position, 0);
+    block.high = vec4(all.high - in.eye.position, 0);
     return block;
 }
 
@@ -93,7 +99,7 @@ std::vector<std::string> definesOf(const Inputs& in, const Settings& settings) {
     if (in.show == scene::Aov::Layers) defines.push_back("SHOW_LAYERS");
     if (in.show == scene::Aov::Lost) defines.push_back("SHOW_LOST");
     if (views::disperses(in.glass)) defines.push_back("USE_DISPERSION");
-    if (in.opaque) defines.push_back("USE_SOLID");
+    defines.push_back(in.opaque ? "USE_SOLID" : "USE_BOX");
     if (settings.pathLength == PathLength::Optical) defines.push_back("USE_OPTICAL_LENGTH");
     return defines;
 }
@@ -120,6 +126,13 @@ Status check(const Settings& settings) {
         return Error{place + "normals is " + std::string(kNormals[int(settings.normals)]) +
                      " with trace pyramid; must be stored"};
     return Done{};
+}
+
+bool acts(const Settings& settings, std::string_view id) {
+    if (id == "slices" || id == "bounds" || id == "peeling") return settings.layers == LayerMethod::Voxels;
+    if (id == "normals") return settings.trace == Trace::Bisection;
+    if (id == "maxLayers") return settings.layers != LayerMethod::FrontBack;
+    return true;
 }
 
 views::VoxelSettings voxelSettings(const Settings& settings) {
@@ -241,9 +254,14 @@ Status Refract::record(graph::FrameGraph& graph, const Inputs& in, ivec2 size,
     }
     Result<const gl::Program*> program = context_.program("refract/refract", defines);
     if (!program) return program.error();
+    defines.push_back("BESIDE");
+    Result<const gl::Program*> beside = context_.program("refract/refract", defines);
+    if (!beside) return beside.error();
     const views::Layers layers = in.layers;
     const graph::TextureId opaque = in.opaque, solid = in.solid, target = in.target;
     const bool counts = bisects && in.show == scene::Aov::Layers; // and looks at nothing else
+    // Rays are followed where there is glass only: the depth test knows before a pixel is begun.
+    const bool parts = layers.depth && in.show != scene::Aov::Layers;
     graph.addPass("refract.trace", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("rays of the eye through " + std::to_string(bisects ? depths.count : layers.count) +
                     " surfaces of " + std::to_string(in.glass.size()) + " refractive object(s)");
@@ -259,8 +277,9 @@ Status Refract::record(graph::FrameGraph& graph, const Inputs& in, ivec2 size,
             pass.sample(solid);
         }
         pass.write(target);
-        return [=, program = *program, environment = in.environment](const graph::Resources& resources,
-                                                                     graph::Commands& commands) {
+        if (parts) pass.write(layers.depth);
+        return [=, program = *program, beside = *beside,
+                environment = in.environment](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures;
             if (bisects) textures = views::depthBindings(resources, depths);
             if (bisects && !counts) {
@@ -275,7 +294,14 @@ Status Refract::record(graph::FrameGraph& graph, const Inputs& in, ivec2 size,
                 textures.push_back({"uOpaque", resources[opaque]});
                 textures.push_back({"uSolid", resources[solid]});
             }
-            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+            graph::Draw draw{.program = program, .block = block, .textures = std::move(textures)};
+            if (!parts) return commands.draw(draw);
+            draw.depthWrite = false;
+            draw.depthTest = graph::DepthTest::Greater;
+            commands.draw(draw);
+            draw.program = beside;
+            draw.depthTest = graph::DepthTest::LessEqual;
+            commands.draw(draw);
         };
     });
     return Done{};

@@ -13,25 +13,39 @@ using graph::TextureId;
 
 namespace {
 
-struct ReduceBlock {
+struct RangesBlock {
     ViewBlock view;
     ivec2 size;
-    int layer, padding = 0;
+    int first, count;
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
-            auto list = viewMembers(offsetof(ReduceBlock, view));
-            list.insert(list.end(),
-                        {{"size", offsetof(ReduceBlock, size)}, {"layer", offsetof(ReduceBlock, layer)}});
+            auto list = viewMembers(offsetof(RangesBlock, view));
+            list.insert(list.end(), {{"size", offsetof(RangesBlock, size)},
+                                     {"first", offsetof(RangesBlock, first)},
+                                     {"count", offsetof(RangesBlock, count)}});
             return list;
         }();
-        static const graph::BlockLayout layout{"ReduceBlock", sizeof(ReduceBlock), members};
+        static const graph::BlockLayout layout{"RangesBlock", sizeof(RangesBlock), members};
         return layout;
     }
 };
 
-constexpr const char* kBlockLabels[] = {"views.blocks4", "views.blocks16", "views.blocks64"};
-constexpr const char* kBlockSamplers[] = {"uBlocks4", "uBlocks16", "uBlocks64"};
+struct BlocksBlock {
+    ivec2 size;
+    int side, row;
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {{"size", offsetof(BlocksBlock, size)},
+                                                             {"side", offsetof(BlocksBlock, side)},
+                                                             {"row", offsetof(BlocksBlock, row)}};
+        static const graph::BlockLayout layout{"BlocksBlock", sizeof(BlocksBlock), members};
+        return layout;
+    }
+};
+
+constexpr int kBlockLevels = 3;
+constexpr vec4 kEmptyRanges{1e30f, -1e30f, 1e30f, -1e30f};
 
 // An array of one layer would be a plain image to shaders.
 int arrayLayers(int count) { return std::max(2, count); }
@@ -44,13 +58,13 @@ void samplePosed(graph::PassBuilder& pass, const std::vector<PosedMesh>& meshes)
 }
 
 Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                  const std::vector<PosedMesh>& meshes, ivec2 size, TextureId images, int layer,
+                  const std::vector<PosedMesh>& meshes, ivec2 size, Layers& layers, int layer,
                   TextureId& done, graph::Query* query) {
     const bool first = layer == 0;
     Result<const gl::Program*> program = context.program(
         "views/peel", first ? std::vector<std::string>{"PEEL_FIRST"} : std::vector<std::string>{});
     if (!program) return program.error();
-    const TextureId before = done;
+    const TextureId before = done, images = layers.images;
     graph.addPass("views.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("surface " + std::to_string(layer + 1) + " of the refractive objects behind each pixel");
         for (const PosedMesh& mesh : meshes)
@@ -63,6 +77,7 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye
         pass.clear(done, vec4(0));
         const TextureId depth = pass.createDepth("views.peelDepth", size, Format::Depth32F);
         pass.clear(depth, 1.0f);
+        if (first) layers.depth = depth;
         return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
             for (std::size_t i = 0; i < meshes.size(); ++i) {
                 graph::Draw draw{.depthTest = graph::DepthTest::Less};
@@ -74,22 +89,75 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye
     return Done{};
 }
 
-// One layer of one level of blocks.
-Status recordReduce(graph::FrameGraph& graph, gl::Context& context, const ViewBlock& view, TextureId fine,
-                    ivec2 fineSize, int layer, TextureId blocks, const char* variant) {
+// Depth ranges of one pair of surfaces in blocks of 4 pixels a side. `first`: the first layer of the pair, -1
+// for what is opaque.
+Result<TextureId> recordRanges(graph::FrameGraph& graph, gl::Context& context, const ViewBlock& view,
+                               const Layers& layers, TextureId solid, ivec2 size, int first) {
     Result<const gl::Program*> program = context.program(
-        "views/reduce", variant ? std::vector<std::string>{variant} : std::vector<std::string>{});
+        "views/ranges", first < 0 ? std::vector<std::string>{"WITH_SOLID"} : std::vector<std::string>{});
     if (!program) return program.error();
-    graph.addPass("views.reduce", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("depth ranges of surface " + std::to_string(layer + 1) + ", by which rays skip");
-        pass.sample(fine);
-        pass.write(blocks, layer);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+    TextureId ranges;
+    graph.addPass("views.ranges", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("depth ranges of " +
+                    (first < 0 ? "what is opaque" : "surface " + std::to_string(first + 1)) +
+                    " and of the next surface, by which rays skip");
+        pass.sample(layers.images);
+        if (first < 0) pass.sample(solid);
+        ranges = pass.createColor("views.ranges", {.size = (size + 3) / 4, .format = Format::RGBA32F});
+        return [=, program = *program, images = layers.images,
+                count = layers.count](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uLayers", resources[images]}};
+            if (first < 0) textures.push_back({"uSolid", resources[solid]});
             commands.draw({.program = program,
-                           .block = ReduceBlock{view, fineSize, layer},
-                           .textures = {{"uFine", resources[fine]}}});
+                           .block = RangesBlock{view, size, first, count},
+                           .textures = std::move(textures)});
         };
     });
+    return ranges;
+}
+
+// One pair of surfaces in blocks of all sizes.
+Status recordBlocks(graph::FrameGraph& graph, gl::Context& context, TextureId ranges, ivec2 rangesSize,
+                    TextureId blocks, int pair) {
+    Result<const gl::Program*> program = context.program("views/blocks");
+    if (!program) return program.error();
+    graph.addPass("views.blocks", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("the same of larger blocks");
+        pass.sample(ranges);
+        pass.write(blocks, pair);
+        pass.clear(blocks, kEmptyRanges);
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            ivec2 size = rangesSize;
+            for (int level = 0, side = 1, row = 0; level < kBlockLevels; ++level, side *= 4) {
+                commands.draw({.program = program,
+                               .region = {0, row, size},
+                               .block = BlocksBlock{rangesSize, side, row},
+                               .textures = {{"uRanges", resources[ranges]}}});
+                row += size.y;
+                size = (size + 3) / 4;
+            }
+        };
+    });
+    return Done{};
+}
+
+// Ranges of depth by which rays skip: what is opaque first, where it is there, then the layers from the
+// front; two a texel.
+Status recordSkipping(graph::FrameGraph& graph, gl::Context& context, const ViewBlock& view, Layers& layers,
+                      TextureId solid, ivec2 size) {
+    const ivec2 fine = (size + 3) / 4;
+    ivec2 all(fine.x, 0);
+    for (int level = 0, rows = fine.y; level < kBlockLevels; ++level, rows = (rows + 3) / 4)
+        all.y += rows;
+    const int shift = solid ? 1 : 0, pairs = (layers.count + shift + 1) / 2;
+    layers.blocks =
+        graph.create("views.blocks", {.size = all, .format = Format::RGBA32F, .layers = arrayLayers(pairs)});
+    for (int pair = 0; pair < pairs; ++pair) {
+        const Result<TextureId> ranges =
+            recordRanges(graph, context, view, layers, solid, size, 2 * pair - shift);
+        if (!ranges) return ranges.error();
+        if (Status s = recordBlocks(graph, context, *ranges, fine, layers.blocks, pair); !s) return s;
+    }
     return Done{};
 }
 
@@ -164,45 +232,25 @@ Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, cons
         graph::Query* query = layer == count - 1   ? queries.last
                               : layer == count - 2 ? queries.before
                                                    : nullptr;
-        if (Status s = recordPeel(graph, context, eye, meshes, size, layers.images, layer, done, query); !s)
+        if (Status s = recordPeel(graph, context, eye, meshes, size, layers, layer, done, query); !s)
             return s.error();
     }
-    const ViewBlock view = viewBlock(eye, size);
-    ivec2 fineSize = size;
-    TextureId fine = layers.images;
-    for (std::size_t level = 0; level < layers.blocks.size(); ++level) {
-        const ivec2 blockSize = (fineSize + 3) / 4;
-        layers.blocks[level] =
-            graph.create(kBlockLabels[level],
-                         {.size = blockSize, .format = Format::RG32F, .layers = arrayLayers(count + 1)});
-        for (int layer = 0; layer < count; ++layer)
-            if (Status s = recordReduce(graph, context, view, fine, fineSize, layer, layers.blocks[level],
-                                        level == 0 ? "FROM_LAYERS" : nullptr);
-                !s)
-                return s.error();
-        if (solid)
-            if (Status s = recordReduce(graph, context, view, level == 0 ? solid : fine, fineSize, count,
-                                        layers.blocks[level], level == 0 ? "FROM_SOLID" : nullptr);
-                !s)
-                return s.error();
-        fine = layers.blocks[level];
-        fineSize = blockSize;
-    }
+    if (count > 0)
+        if (Status s = recordSkipping(graph, context, viewBlock(eye, size), layers, solid, size); !s)
+            return s.error();
     return layers;
 }
 
 void sampleLayers(graph::PassBuilder& pass, const Layers& layers) {
     pass.sample(layers.images);
     sampleTriangles(pass, layers.triangles);
-    for (const TextureId blocks : layers.blocks)
-        pass.sample(blocks);
+    pass.sample(layers.blocks);
 }
 
 std::vector<graph::Binding> layerBindings(const graph::Resources& resources, const Layers& layers) {
     std::vector<graph::Binding> list = triangleBindings(resources, layers.triangles);
     list.push_back({"uLayers", resources[layers.images]});
-    for (std::size_t level = 0; level < layers.blocks.size(); ++level)
-        list.push_back({kBlockSamplers[level], resources[layers.blocks[level]]});
+    list.push_back({"uBlocks", resources[layers.blocks]});
     return list;
 }
 

@@ -5,7 +5,6 @@
 #include "views/Meshes.h"
 
 #include <algorithm>
-#include <array>
 
 namespace lucent::views {
 
@@ -14,9 +13,9 @@ inline constexpr int kMostLayers = 32;
 
 /// One view's layers, ready to be traced (shaders/views/layers.glsl).
 struct Layers {
-    graph::TextureId images; ///< RGBA32F array, shaders/views/layer_texel.glsl
-    std::array<graph::TextureId, 3>
-        blocks;               ///< nearest and farthest depth in blocks of 4, 16, 64 pixels a side
+    graph::TextureId images;  ///< RGBA32F array, shaders/views/layer_texel.glsl
+    graph::TextureId blocks;  ///< RGBA32F array, shaders/views/blocks.frag
+    graph::TextureId depth;   ///< depth buffer of the nearest surfaces, 1 where there is none
     TriangleImages triangles; ///< that the texels lead to
     int count = 0;
 };
@@ -38,10 +37,13 @@ class LayerCount {
 public:
     explicit LayerCount(const gl::Device& device) : last_(device), before_(device) {}
 
-    /// Forgets the scene; what countLayers() finds is known next.
-    void reset() { known_ = 0; }
+    /// Forgets the scene and what was asked; what countLayers() finds is known next.
+    void reset() { known_ = asked_ = 0; }
     bool known() const { return known_ > 0; }
-    void start(int counted) { known_ = std::max(1, counted); }
+    void start(int counted) {
+        known_ = std::max(1, counted);
+        asked_ = 0;
+    }
 
     /// Layers to draw, the spare one included.
     int drawn() const { return std::min(known_ + 1, kMostLayers); }
