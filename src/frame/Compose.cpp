@@ -87,6 +87,7 @@ views::Eye Compose::closeEye(const Inputs& in) {
 }
 
 Status Compose::prepare(const Inputs& in) {
+    unsure_ = false;
     caustic_.reset();
     if (!in.drawn.meshes.solid.empty() && caustics::Caustics::need(in.scene)) {
         Result<views::DrawnMeshes> all = views::drawnMeshes(in.scene, images_, true, &waters_);
@@ -109,13 +110,53 @@ Status Compose::prepare(const Inputs& in) {
     const graph::TextureDesc& desc = in.shown.desc();
     if (!through_ || through_.desc() != desc)
         through_ = graph::Texture(context_.device(), desc, "frame.through");
-    const std::vector<views::DrawnMesh>& glass = in.drawn.meshes.glass;
-    if (layerCount_ > 0 || glass.empty()) return Done{};
-    Result<int> count =
-        views::countLayers(pool_, context_, closeEye(in), glass, in.scene.view.time, desc.size);
+    return in.drawn.meshes.glass.empty() ? Done{} : countLayers(in);
+}
+
+bool Compose::peels(const Inputs& in) {
+    return isNumbered(in.scene.view.show) ||
+           in.scene.technique.at("refract").as<refract::Settings>().layers == refract::LayerMethod::Peel;
+}
+
+// Reads a picture back only for the first picture of these objects; slices are counted for each view.
+Status Compose::countLayers(const Inputs& in) {
+    std::vector<const views::MeshTextures*> meshes;
+    for (const views::DrawnMesh& mesh : in.drawn.meshes.glass)
+        meshes.push_back(mesh.mesh);
+    if (meshes != counted_) layerCounter_.reset();
+    counted_ = std::move(meshes);
+    layerCounter_.poll(); // one more layer is drawn anyway
+    if (peels(in) ? layerCounter_.known() : layerCount_ > 0) return Done{};
+    Result<int> count = views::countLayers(pool_, context_, closeEye(in), in.drawn.meshes.glass,
+                                           in.scene.view.time, in.shown.desc().size);
     if (!count) return count.error();
     layerCount_ = std::max(1, *count);
+    layerCounter_.start(layerCount_);
     return Done{};
+}
+
+// As many layers as there were, and one more, which should be empty.
+Result<views::Layers> Compose::recordPeeled(graph::FrameGraph& graph, const Inputs& in,
+                                            const std::vector<views::PosedMesh>& glass, TextureId solid,
+                                            int most) {
+    const int count = std::min(layerCounter_.drawn(), most);
+    const bool asks = count == layerCounter_.drawn();
+    unsure_ = asks && layerCounter_.waits();
+    unanswered_ = 0;
+    return views::recordLayers(graph, context_, closeEye(in), glass, in.shown.desc().size, count, solid,
+                               asks ? layerCounter_.ask() : views::LayerQueries{});
+}
+
+Result<bool> Compose::settle(const Inputs& in) {
+    constexpr int kPatience = 8; // frames
+    if (layerCounter_.poll()) return true;
+    if (!layerCounter_.waits()) return unsure_;
+    if (++unanswered_ < kPatience) return false;
+    const int drawn = layerCounter_.drawn();
+    layerCounter_.reset();
+    if (Status s = countLayers(in); !s) return s.error();
+    unsure_ = false;
+    return layerCounter_.drawn() > drawn;
 }
 
 Status Compose::record(graph::FrameGraph& graph, const Inputs& in) {
@@ -126,7 +167,7 @@ Status Compose::record(graph::FrameGraph& graph, const Inputs& in) {
     const float time = in.scene.view.time;
     Result<std::vector<views::PosedMesh>> solids = views::recordPose(graph, context_, all->solid, time);
     if (!solids) return solids.error();
-    Result<std::vector<views::PosedMesh>> glass = views::recordPose(graph, context_, all->glass, time);
+    Result<std::vector<views::PosedMesh>> glass = recordGlass(graph, in.scene, all->glass);
     if (!glass) return glass.error();
     if (isNumbered(in.scene.view.show)) return recordInside(graph, in, *solids, *glass);
     const TextureId surface = import(graph, in.surface), shown = import(graph, in.shown);
@@ -137,6 +178,19 @@ Status Compose::record(graph::FrameGraph& graph, const Inputs& in) {
         return recordThrough(graph, in, seen(*solids), seen(*glass), surface, shown);
     if (replaces(in.scene, in.drawn)) return recordBackground(graph, in, surface, shown);
     return Done{};
+}
+
+// Triangles stay where they are while their objects do.
+Result<std::vector<views::PosedMesh>> Compose::recordGlass(graph::FrameGraph& graph,
+                                                           const scene::Scene& scene,
+                                                           const std::vector<views::DrawnMesh>& glass) {
+    std::vector<SurfaceKey::Object> standing;
+    for (const views::DrawnMesh& mesh : glass)
+        standing.push_back(surfaceKey(*mesh.object, scene.view.time));
+    if (standing != triangled_ || watersThen_ != waters_.changes()) triangles_.current = false;
+    triangled_ = std::move(standing);
+    watersThen_ = waters_.changes();
+    return views::recordPose(graph, context_, glass, scene.view.time, &triangles_);
 }
 
 bool Compose::replaces(const scene::Scene& scene, const Drawn& drawn) {
@@ -168,8 +222,7 @@ Status Compose::recordInside(graph::FrameGraph& graph, const Inputs& in,
         recordNothing(graph, "nothing that is seen refracts", target);
         return Done{};
     }
-    Result<views::Layers> layers =
-        views::recordLayers(graph, context_, closeEye(in), seen(glass), size, layerCount_, {});
+    Result<views::Layers> layers = recordPeeled(graph, in, seen(glass), {}, views::kMostLayers);
     return layers ? recordLayerView(graph, context_, *layers, view.layer, view.show, target) : layers.error();
 }
 
@@ -312,7 +365,6 @@ Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
     const views::Eye eye = closeEye(in);
     const auto settings = in.scene.technique.at("refract").as<refract::Settings>();
     if (Status s = refract::check(settings); !s) return s;
-    const bool peels = settings.layers == refract::LayerMethod::Peel;
     if (settings.layers == refract::LayerMethod::Voxels)
         if (Status s = checkVoxels(in, eye, settings); !s) return s;
     TextureId solid;
@@ -323,8 +375,9 @@ Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
             !s)
             return s;
     }
-    Result<views::Layers> layers = views::recordLayers(
-        graph, context_, eye, glass, size, peels ? std::min(layerCount_, settings.maxLayers) : 1, solid);
+    Result<views::Layers> layers = settings.layers == refract::LayerMethod::Peel
+                                       ? recordPeeled(graph, in, glass, solid, settings.maxLayers)
+                                       : views::recordLayers(graph, context_, eye, glass, size, 1, solid);
     if (!layers) return layers.error();
     Result<graph::TextureHandle> environment = environmentMap(in.scene);
     if (!environment) return environment.error();
@@ -372,6 +425,10 @@ void Compose::clear() {
     scattering_.reset();
     waters_.clear();
     voxelsChecked_ = 0;
+    layerCounter_.reset();
+    counted_.clear();
+    triangles_ = {};
+    unsure_ = false;
     forget();
 }
 

@@ -4,6 +4,7 @@
 
 #include "brdf/Brdf.h"
 #include "caustics/Caustics.h"
+#include "frame/SurfaceKey.h"
 #include "refract/Refract.h"
 #include "subsurface/Subsurface.h"
 #include "views/Surface.h"
@@ -24,7 +25,7 @@ class Compose {
 public:
     Compose(gl::Context& context, graph::TexturePool& pool, views::ImageCache& images)
         : context_(context), pool_(pool), images_(images), waters_(context), caustics_(context),
-          brdf_(context), subsurface_(context), refract_(context) {}
+          brdf_(context), subsurface_(context), refract_(context), layerCounter_(context.device()) {}
 
     struct Inputs {
         const scene::Scene& scene;
@@ -48,8 +49,21 @@ public:
     /// What became of the light that met glass and mirrors in the picture that was recorded last; nothing
     /// where no lamp makes any. Draws the maps again and reads them back.
     Result<std::optional<caustics::Energy>> energy(const Inputs& in);
+    /// Whether answers are awaited that say if the picture has all surfaces of refractive objects: settle()
+    /// after the next frames.
+    bool unsettled() const { return unsure_ || layerCounter_.waits(); }
+    /// Takes the answers that have come, and counts by reading a picture back where they do not: in a browser
+    /// none comes before a frame is over.
+    ///
+    /// @return  whether record() is to run again
+    Result<bool> settle(const Inputs& in);
     /// What is seen, or from where, has changed.
     void forget() { layerCount_ = 0; }
+    /// What record() added did not run.
+    void forgetRecorded() {
+        layerCounter_.reset();
+        triangles_.current = false;
+    }
     void clear();
 
 private:
@@ -66,6 +80,13 @@ private:
                          const std::vector<views::PosedMesh>& solids,
                          const std::vector<views::PosedMesh>& glass, graph::TextureId surface,
                          graph::TextureId shown);
+    static bool peels(const Inputs& in);
+    Status countLayers(const Inputs& in);
+    Result<std::vector<views::PosedMesh>> recordGlass(graph::FrameGraph& graph, const scene::Scene& scene,
+                                                      const std::vector<views::DrawnMesh>& glass);
+    Result<views::Layers> recordPeeled(graph::FrameGraph& graph, const Inputs& in,
+                                       const std::vector<views::PosedMesh>& glass, graph::TextureId solid,
+                                       int most);
     Status checkVoxels(const Inputs& in, const views::Eye& eye, const refract::Settings& settings);
     Status recordBackground(graph::FrameGraph& graph, const Inputs& in, graph::TextureId surface,
                             graph::TextureId shown);
@@ -92,7 +113,14 @@ private:
     std::optional<caustics::Plan> caustic_;      ///< nothing where no light makes any
     std::optional<subsurface::Plan> scattering_; ///< nothing where no light scatters
     graph::Texture through_;
-    int layerCount_ = 0;    ///< surfaces of refractive objects behind each other; 0: not known
+    views::KeptTriangles triangles_;                  ///< of refractive objects,
+    std::vector<SurfaceKey::Object> triangled_;       ///< as they stood
+    std::uint64_t watersThen_ = 0;                    ///< Waters::changes()
+    views::LayerCount layerCounter_;                  ///< of peeled ones
+    std::vector<const views::MeshTextures*> counted_; ///< for which it knows
+    bool unsure_ = false;                             ///< nothing was asked about the picture
+    int unanswered_ = 0;                              ///< times that settle() found no answer
+    int layerCount_ = 0;    ///< of slices: surfaces of refractive objects behind each other; 0: not known
     int voxelsChecked_ = 0; ///< with what checkVoxels() looked last; 0: it did not
 };
 

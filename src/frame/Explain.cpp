@@ -71,6 +71,7 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
         return r.error();
     if (Status compiled = graph.compile(); !compiled) return compiled.error();
     s.started = false;
+    s.compose.forgetRecorded();
 
     const std::string chose = s.choiceText();
     std::string text = chose.empty() ? "" : "quality.maxError chose\n  " + chose + "\n";

@@ -88,6 +88,7 @@ struct Renderer::State {
     Status recordRelief(graph::FrameGraph& graph, const scene::Scene& scene, const views::Eye& eye,
                         const Drawn& drawn, graph::TextureId surfaceId, graph::TextureId targetId, int end);
     Status addOthers(const scene::Scene& scene, const Drawn& drawn);
+    Status settle(const scene::Scene& scene);
     Compose::Inputs composeInputs(const scene::Scene& scene, const views::Eye& eye,
                                   const Drawn& drawn) const {
         return {scene, eye, drawn, shownSurface, shown, coarse || dragged};
@@ -114,6 +115,8 @@ struct Renderer::State {
     float work(const Stage& of) const;
     float shareOfStage() const;
     bool complete() const { return started && !planning && stage >= stages.size(); }
+    // A quick look is not drawn again: the next picture is.
+    bool settled() const { return coarse || !composed || !compose.unsettled(); }
     int sliceEnd() const;
 };
 

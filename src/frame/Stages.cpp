@@ -309,6 +309,17 @@ Status Renderer::State::addOthers(const scene::Scene& scene, const Drawn& drawn)
     return added;
 }
 
+// Draws the complete picture again where it turns out to lack surfaces of refractive objects.
+Status Renderer::State::settle(const scene::Scene& scene) {
+    Result<Drawn> drawn = drawnOf(scene, images, compose.waters());
+    if (!drawn) return drawn.error();
+    const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
+    const scene::Scene used = chosen(scene);
+    const Result<bool> again = compose.settle(composeInputs(used, eye, *drawn));
+    if (!again) return again.error();
+    return *again ? addOthers(scene, *drawn) : Status(Done{});
+}
+
 Status Renderer::State::slice(const scene::Scene& scene) {
     const double beforeWater = now();
     const Result<bool> still = compose.waters().advance(scene);
@@ -370,13 +381,15 @@ Result<Progress> Renderer::State::advance(const scene::Scene& scene, std::uint64
                                           Effort effort) {
     if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
         start(scene, newRevision, newSize, effort);
-    if (!complete())
-        if (Status status = stage < stages.size() ? slice(scene) : plan(scene); !status) {
+    if (!complete() || !settled()) {
+        const Status status = complete() ? settle(scene) : stage < stages.size() ? slice(scene) : plan(scene);
+        if (!status) {
             started = false;
             return status.error();
         }
+    }
     Progress progress;
-    progress.complete = complete();
+    progress.complete = complete() && settled();
     float total = planning ? float(settings.environmentLights) : 0, done = 0;
     for (std::size_t i = 0; i < stages.size(); ++i) {
         total += work(stages[i]);

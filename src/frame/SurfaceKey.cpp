@@ -4,9 +4,7 @@
 
 namespace lucent::frame {
 
-namespace {
-
-SurfaceKey::Object keyOf(const scene::Object& object, float time) {
+SurfaceKey::Object surfaceKey(const scene::Object& object, float time) {
     SurfaceKey::Object key{nullptr, nullptr, {}, object.transform.worldFromObject(), object.visible};
     if (object.isField()) {
         const scene::HeightField& field = object.field();
@@ -27,8 +25,6 @@ SurfaceKey::Object keyOf(const scene::Object& object, float time) {
     return key;
 }
 
-} // namespace
-
 SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t waters) {
     SurfaceKey key{{},
                    views::makeEye(scene, float(size.x) / float(size.y)).clipFromWorld,
@@ -36,7 +32,7 @@ SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t water
                    isGeometric(scene.view.show),
                    waters};
     for (const scene::Object& object : scene.objects)
-        key.objects.push_back(keyOf(object, scene.view.time));
+        key.objects.push_back(surfaceKey(object, scene.view.time));
     return key;
 }
 

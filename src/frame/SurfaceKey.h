@@ -21,6 +21,9 @@ struct SurfaceKey {
     bool operator==(const SurfaceKey&) const = default;
 };
 
+/// The same of one object.
+SurfaceKey::Object surfaceKey(const scene::Object& object, float time);
+
 /// @param waters  views::Waters::changes()
 SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t waters);
 

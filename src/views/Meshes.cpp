@@ -128,7 +128,8 @@ Result<DrawnMeshes> drawnMeshes(const scene::Scene& scene, ImageCache& images, b
 }
 
 Result<std::vector<PosedMesh>> recordPose(graph::FrameGraph& graph, gl::Context& context,
-                                          const std::vector<DrawnMesh>& meshes, float time) {
+                                          const std::vector<DrawnMesh>& meshes, float time,
+                                          KeptTriangles* kept) {
     const auto imagesOf = [&](const DrawnMesh& drawn) -> Result<VertexImages> {
         const scene::Object& object = *drawn.object;
         if (drawn.water) return recordWater(graph, context, *drawn.water, object.name);
@@ -150,7 +151,7 @@ Result<std::vector<PosedMesh>> recordPose(graph::FrameGraph& graph, gl::Context&
         if (!images) return images.error();
         posed.push_back({drawn, images->positions, images->normals});
     }
-    if (Status s = recordTriangles(graph, context, posed); !s) return s.error();
+    if (Status s = recordTriangles(graph, context, posed, kept); !s) return s.error();
     return posed;
 }
 

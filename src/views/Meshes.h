@@ -75,8 +75,11 @@ struct PosedMesh {
 /// Moves the vertices of what moves, for all views of the frame alike: one pass a mesh (two with flat
 /// normals), none for what stands, and one for the triangles of all that is refractive. The graph must run
 /// before this is called for another time: rigs are on the GPU in one pose.
+///
+/// @param kept  of recordTriangles()
 Result<std::vector<PosedMesh>> recordPose(graph::FrameGraph& graph, gl::Context& context,
-                                          const std::vector<DrawnMesh>& meshes, float time);
+                                          const std::vector<DrawnMesh>& meshes, float time,
+                                          KeptTriangles* kept = nullptr);
 
 /// The box around all of them in world space, at any time.
 Bounds boundsOfAll(const std::vector<DrawnMesh>& meshes);

@@ -138,7 +138,30 @@ std::size_t TriangleTextures::bytes() const {
     return sources_.desc().bytes() + links_.desc().bytes() + 4 * std::size_t(indices_.count());
 }
 
-Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vector<PosedMesh>& meshes) {
+namespace {
+
+constexpr const char *kCornersLabel = "views.corners", *kNormalsLabel = "views.cornerNormals",
+                     *kLinksLabel = "views.links";
+
+// Brings the kept images into the graph, of the right size.
+TriangleImages importKept(graph::FrameGraph& graph, gl::Context& context, KeptTriangles& kept, ivec2 size) {
+    const auto import = [&](graph::Texture& texture, Format format, const char* label) {
+        const graph::TextureDesc desc{.size = size, .format = format};
+        if (!texture || texture.desc() != desc) {
+            texture = graph::Texture(context.device(), desc, label);
+            kept.current = false;
+        }
+        return graph.import(texture.handle(), desc, label);
+    };
+    return {import(kept.corners, Format::RGBA32F, kCornersLabel),
+            import(kept.normals, Format::RGBA32F, kNormalsLabel),
+            import(kept.links, Format::RGBA32UI, kLinksLabel)};
+}
+
+} // namespace
+
+Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vector<PosedMesh>& meshes,
+                       KeptTriangles* kept) {
     int rows = 0;
     for (PosedMesh& mesh : meshes)
         if (const TriangleTextures* triangles = mesh.drawn.mesh->triangles()) {
@@ -152,20 +175,33 @@ Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vect
                          std::to_string(kVerticesPerRow) + " corners; must be at most " +
                          std::to_string(most) + " on this GPU",
                      Fault::Machine};
+    const ivec2 size(kVerticesPerRow, rows);
+    TriangleImages images;
+    if (kept) images = importKept(graph, context, *kept, size);
+    const auto tell = [&] {
+        for (PosedMesh& mesh : meshes)
+            if (mesh.drawn.mesh->triangles()) mesh.triangles = images;
+        return Done{};
+    };
+    if (kept && kept->current) return tell();
     Result<const gl::Program*> program = context.program("views/triangles");
     if (!program) return program.error();
     graph.addPass("views.triangles", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("triangles of the refractive objects, which rays meet in the end");
-        const ivec2 size(kVerticesPerRow, rows);
-        const graph::TextureDesc floats{.size = size, .format = Format::RGBA32F};
-        const TriangleImages images{
-            pass.createColor("views.corners", floats), pass.createColor("views.cornerNormals", floats),
-            pass.createColor("views.links", {.size = size, .format = Format::RGBA32UI})};
-        for (PosedMesh& mesh : meshes) {
+        if (kept) {
+            for (const graph::TextureId image : {images.corners, images.normals, images.links}) {
+                pass.write(image);
+                graph.keep(image);
+            }
+        } else {
+            const graph::TextureDesc floats{.size = size, .format = Format::RGBA32F};
+            images = {pass.createColor(kCornersLabel, floats), pass.createColor(kNormalsLabel, floats),
+                      pass.createColor(kLinksLabel, {.size = size, .format = Format::RGBA32UI})};
+        }
+        for (const PosedMesh& mesh : meshes) {
             if (!mesh.drawn.mesh->triangles()) continue;
             pass.sample(mesh.positions);
             pass.sample(mesh.normals);
-            mesh.triangles = images;
         }
         return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
             for (const PosedMesh& mesh : meshes) {
@@ -185,7 +221,8 @@ Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vect
             }
         };
     });
-    return Done{};
+    if (kept) kept->current = true;
+    return tell();
 }
 
 void sampleTriangles(graph::PassBuilder& pass, const TriangleImages& images) {

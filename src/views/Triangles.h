@@ -59,9 +59,18 @@ struct TriangleImages {
     graph::TextureId links;   ///< RGBA32UI, numbers counted over all meshes
 };
 
+/// Images that outlive the frame, so that meshes that stand are put into them once.
+struct KeptTriangles {
+    graph::Texture corners, normals, links;
+    bool current = false; ///< they hold the meshes as they stand: who keeps them says so
+};
+
 /// Puts those of the meshes into images that are refractive, one behind the other, and tells each mesh where.
 /// Error (Fault::Machine) where a texture, or a float, cannot number so many.
-Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vector<PosedMesh>& meshes);
+///
+/// @param kept  where they stay, and are only drawn where they are not current; null: images of this frame
+Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vector<PosedMesh>& meshes,
+                       KeptTriangles* kept = nullptr);
 
 /// What shaders/views/triangles.glsl samples.
 void sampleTriangles(graph::PassBuilder& pass, const TriangleImages& images);

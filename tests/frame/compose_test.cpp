@@ -68,13 +68,95 @@ struct Composed : support::GlTest {
     }
 };
 
-TEST_F(Composed, ABallOfGlassRunsItsTwoLayersAndTheTraceOnly) {
+TEST_F(Composed, ABallOfGlassRunsItsTwoLayersASpareOneAndTheTraceOnly) {
     addBall();
-    EXPECT_EQ(runs("views.peel"), 2);
+    EXPECT_EQ(runs("views.peel"), 3);
     EXPECT_EQ(runs("refract.trace"), 1);
     EXPECT_EQ(runs("brdf.shade"), 0);
     EXPECT_EQ(runs("relief.light"), 0);
     EXPECT_EQ(runs("views.surface"), 0);
+}
+
+// Balls in a row, seen from the side or along it.
+TEST_F(Composed, LayersThatAppearAreDrawnWithoutReadingBack) {
+    for (int i = 0; i < 3; ++i) {
+        addBall();
+        scene.objects.back().name = "ball " + std::to_string(i);
+        scene.objects.back().shape = scene::Sphere{0.4f};
+        scene.objects.back().transform.translate = {float(i) - 1, 0, 0};
+    }
+    scene.view.show = scene::Aov::Layers;
+    const vec3 across{0, 0, 4}, along{4, 0, 0};
+    for (const int delay : {0, 3}) { // of the answers
+        context->device().delayQueries(delay);
+        Renderer renderer(*context);
+        std::uint64_t revision = 0;
+        for (const vec3 eye : {across, along, across}) {
+            scene.camera.eye = eye;
+            ++revision;
+            int frames = 0;
+            for (bool complete = false; !complete; ++frames) {
+                const Result<Progress> progress = renderer.advance(scene, revision, scene.size);
+                ASSERT_TRUE(progress.ok()) << progress.error().message;
+                complete = progress->complete;
+                ASSERT_LT(frames, 60);
+            }
+            const Result<Image> found = renderer.read(scene, scene::Aov::Layers);
+            ASSERT_TRUE(found.ok());
+            const float most = *std::max_element(found->pixels.begin(), found->pixels.end());
+            EXPECT_EQ(most, eye == along ? 6 : 2) << delay;
+        }
+    }
+    context->device().delayQueries(0);
+}
+
+TEST_F(Composed, ALookWaitsForNoAnswer) {
+    addBall();
+    context->device().delayQueries(1000);
+    Renderer renderer(*context);
+    for (std::uint64_t revision = 1; revision < 4; ++revision) {
+        scene.camera.eye.x += 0.1f;
+        const Result<Progress> look = renderer.advance(scene, revision, scene.size, true);
+        ASSERT_TRUE(look.ok());
+        EXPECT_TRUE(look->complete);
+    }
+    // An answer that does not come is read back in the end.
+    int frames = 0;
+    for (bool complete = false; !complete; ++frames) {
+        const Result<Progress> progress = renderer.advance(scene, 9, scene.size);
+        ASSERT_TRUE(progress.ok());
+        complete = progress->complete;
+        ASSERT_LT(frames, 30);
+    }
+    context->device().delayQueries(0);
+}
+
+TEST_F(Composed, TrianglesAreMadeAnewOnlyWhereSomethingMoved) {
+    addBall();
+    scene.objects[0].wave.amplitude = {0, 0.05f, 0};
+    Renderer renderer(*context);
+    std::uint64_t revision = 0;
+    const auto passesAfter = [&] {
+        EXPECT_TRUE(renderer.finish(scene, ++revision, scene.size).ok());
+        return renderer.stats().passes;
+    };
+    const auto same = [&] {
+        const Result<Image> kept = renderer.read(scene, scene::Aov::Color);
+        EXPECT_EQ(kept->pixels, picture().pixels);
+    };
+    const int first = passesAfter();
+    scene.camera.eye.x = 0.3f;
+    EXPECT_LT(passesAfter(), first);
+    same();
+    scene.view.time = 0.2f;
+    EXPECT_EQ(passesAfter(), first);
+    same();
+    scene.objects[0].transform.translate.x = 0.1f;
+    EXPECT_EQ(passesAfter(), first);
+    same();
+    scene.objects[0].material.ior = 1.2f;
+    EXPECT_LT(passesAfter(), first);
+    same();
 }
 
 TEST_F(Composed, AFloorRunsNoLayers) {
