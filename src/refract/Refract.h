@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace lucent::refract {
 
@@ -32,6 +33,9 @@ struct Settings {
 /// Which choices go together: pyramids need the objects, sides and normals that only peeled layers hold, and
 /// know no other normals.
 Status check(const Settings& settings);
+/// Whether a parameter changes anything beside these choices: of slices only voxels are made, other normals
+/// than the stored ones only bisection asks for, and the first and the last surface are two.
+bool acts(const Settings& settings, std::string_view id);
 /// How the view is cut into slices.
 views::VoxelSettings voxelSettings(const Settings& settings);
 

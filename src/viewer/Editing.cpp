@@ -1,4 +1,5 @@
 // The scene of a viewer: its controls, what is set, what is taken back.
+#include "refract/Refract.h"
 #include "viewer/State.h"
 
 #include <algorithm>
@@ -9,10 +10,15 @@ namespace {
 
 constexpr double kBurst = 1; // s within which changes of one parameter are one step
 
-// Settings of a technique that this scene does not need.
+// Settings of a technique that this scene does not need, and those that do nothing beside others.
 bool isIdle(const scene::Scene& scene, std::string_view path) {
-    for (const auto& [name, settings] : scene.technique)
-        if (path.starts_with("technique." + name + ".")) return !frame::need(scene, name);
+    for (const auto& [name, settings] : scene.technique) {
+        const std::string owner = "technique." + name + ".";
+        if (!path.starts_with(owner)) continue;
+        const bool idle =
+            name == "refract" && !refract::acts(settings.as<refract::Settings>(), path.substr(owner.size()));
+        return idle || !frame::need(scene, name);
+    }
     return false;
 }
 

@@ -16,6 +16,11 @@ protected:
         return {panel[path][0].get<float>(), panel[path][1].get<float>(), panel[path][2].get<float>(),
                 panel[path][3].get<float>()};
     }
+    bool isOffered(const std::string& path) {
+        for (const nlohmann::json& control : nlohmann::json::parse(viewer->controls()))
+            if (control["path"] == path) return control["group"] != "";
+        return false;
+    }
     vec2 inside(vec4 rect, float u, float v) { return {rect.x + u * rect.z, rect.y + v * rect.w}; }
     void type(const std::string& text) {
         for (const char c : text)
@@ -230,16 +235,29 @@ TEST_F(PanelTest, WhatPlaysHasASwitchAndATime) {
 }
 
 TEST_F(PanelTest, OnlyTechniquesThatTheSceneNeedsHaveControls) {
-    const auto hasMethod = [&] {
-        for (const nlohmann::json& control : nlohmann::json::parse(viewer->controls()))
-            if (control["path"] == "technique.relief.method") return control["group"] != "";
-        return false;
-    };
     load(kLampScene);
-    EXPECT_TRUE(hasMethod());
+    EXPECT_TRUE(isOffered("technique.relief.method"));
     load(kGlassScene);
-    EXPECT_FALSE(hasMethod());
+    EXPECT_FALSE(isOffered("technique.relief.method"));
     EXPECT_TRUE(viewer->set("technique.relief.method", "march").ok()); // a scene file may still say it
+}
+
+TEST_F(PanelTest, SlicesHaveControlsOnlyWhereThereAreVoxels) {
+    const char* const slices[] = {"technique.refract.slices", "technique.refract.bounds",
+                                  "technique.refract.peeling"};
+    load(kGlassScene);
+    for (const char* path : slices)
+        EXPECT_FALSE(isOffered(path)) << path;
+    EXPECT_FALSE(isOffered("technique.refract.normals")); // pyramids know the stored ones only
+    EXPECT_TRUE(isOffered("technique.refract.maxLayers"));
+    EXPECT_TRUE(viewer->set("technique.refract.slices", "512").ok()); // a scene file may still say it
+    for (const auto& [key, value] :
+         {std::pair("layers", "voxels"), {"trace", "bisection"}, {"normals", "delta1"}})
+        ASSERT_TRUE(viewer->set(std::string("technique.refract.") + key, value).ok());
+    settle();
+    for (const char* path : slices)
+        EXPECT_TRUE(isOffered(path)) << path;
+    EXPECT_TRUE(isOffered("technique.refract.normals"));
 }
 
 } // namespace
