@@ -11,6 +11,7 @@
 #include "gl/Context.h"
 #include "measure/BudgetProof.h"
 #include "measure/CausticsPlan.h"
+#include "measure/GlassProof.h"
 #include "measure/RefractPlan.h"
 #include "measure/ReliefPlan.h"
 #include "scene/Load.h"
@@ -41,12 +42,12 @@ struct BenchOptions {
     std::string commit = LUCENT_COMMIT;
 };
 
-constexpr std::string_view kParts[] = {"relief", "environment", "scaling",  "hard",
-                                       "all",    "refraction",  "caustics", "budget"};
+constexpr std::string_view kParts[] = {"relief",     "environment", "scaling", "hard",        "all",
+                                       "refraction", "caustics",    "budget",  "budget-glass"};
 
 struct Parts {
     measure::ReliefParts relief;
-    bool refraction = false, caustics = false;
+    bool refraction = false, caustics = false, glassBudget = false;
 };
 
 // --- the machine
@@ -98,6 +99,7 @@ Result<Parts> parseParts(const std::vector<std::string>& names) {
         parts.relief.scaling |= all || name == "scaling";
         parts.relief.hard |= all || name == "hard";
         parts.relief.budget |= name == "budget";
+        parts.glassBudget |= name == "budget-glass";
         parts.refraction |= name == "refraction";
         parts.caustics |= name == "caustics";
     }
@@ -285,6 +287,22 @@ Status proveBudget(gl::Context& context, const BenchOptions& options, measure::B
     return writeAll({{options.output + "/budget.json", toBytes(proof->json())}});
 }
 
+// The same for light through glass.
+Status proveGlass(gl::Context& context, const BenchOptions& options, measure::BenchReport& report) {
+    constexpr int kSide = 96; // pixels
+    Result<measure::BenchEnvironment> window = environmentOf(options.gallery + "/window.exr");
+    if (!window) return window.error();
+    const auto say = [](const std::string& line) {
+        std::fprintf(stderr, "bench: budget of glass: %s\n", line.c_str());
+    };
+    const Result<measure::BudgetReport> proof = measure::proveGlassBudget(context, {*window}, kSide, say);
+    if (!proof) return proof.error();
+    std::fputs(proof->text().c_str(), stdout);
+    const std::vector<measure::Ratio> totals = proof->totals();
+    report.ratios.insert(report.ratios.end(), totals.begin(), totals.end());
+    return writeAll({{options.output + "/budget-glass.json", toBytes(proof->json())}});
+}
+
 // The books of caustics, into the report.
 Status proveCaustics(gl::Context& context, const BenchOptions& options, measure::BenchReport& report) {
     const auto meshes = causticMeshes(options);
@@ -328,6 +346,8 @@ Status bench(const BenchOptions& options) {
     report.peakMB = peakMB;
     if (parts->relief.budget)
         if (Status proved = proveBudget(**context, options, report); !proved) return proved;
+    if (parts->glassBudget)
+        if (Status proved = proveGlass(**context, options, report); !proved) return proved;
     if (parts->caustics)
         if (Status proved = proveCaustics(**context, options, report); !proved) return proved;
     report.ratios.push_back({"MB resident with a relief of 512^2 texels", peakMB, 256, false});
@@ -347,9 +367,9 @@ Command addBench(CLI::App& program) {
     CLI::App* parser =
         program.add_subcommand("bench", "Measures speed against error, all methods in one run");
     const auto options = std::make_shared<BenchOptions>();
-    parser->add_option(
-        "NAMES", options->parts,
-        "Parts: relief, environment, scaling, hard, all of them without; refraction; caustics; budget");
+    parser->add_option("NAMES", options->parts,
+                       "Parts: relief, environment, scaling, hard, all of them without; refraction; "
+                       "caustics; budget; budget-glass");
     parser->add_flag("--quick", options->quick, "Smaller scenes, fewer repeats: two minutes without a GPU");
     parser->add_option("-o,--output", options->output, "Folder for bench.json and report.html")
         ->required()
@@ -371,7 +391,8 @@ Command addBench(CLI::App& program) {
                    "  lucent bench relief environment -o build/bench\n"
                    "  lucent bench refraction --quick -o build/bench-refraction\n"
                    "  lucent bench caustics --quick -o build/bench-caustics\n"
-                   "  lucent bench budget -o build/budget   # proves quality.maxError: half an hour");
+                   "  lucent bench budget -o build/budget   # proves quality.maxError: half an hour\n"
+                   "  lucent bench budget-glass -o build/budget-glass   # the same for light through glass");
     return {parser, [options] { return bench(*options); }};
 }
 

@@ -140,21 +140,6 @@ relief::Settings& settingsOf(scene::Scene& scene) {
     return *static_cast<relief::Settings*>(scene.technique.at("relief").data());
 }
 
-// RMSE over the mean on the pixels that show an object.
-double relativeError(const Image& image, const Image& exact) {
-    double sum = 0, mean = 0, covered = 0;
-    for (std::size_t i = 0; i < exact.pixels.size(); i += 4) {
-        if (exact.pixels[i + 3] == 0) continue;
-        covered += 3;
-        for (std::size_t c = i; c < i + 3; ++c) {
-            const double d = double(image.pixels[c]) - exact.pixels[c];
-            sum += d * d;
-            mean += exact.pixels[c];
-        }
-    }
-    return std::sqrt(sum / covered) / (mean / covered);
-}
-
 struct Tried {
     std::string name;
     double ms, error;
@@ -298,6 +283,20 @@ std::string formatted(const char* format, auto... values) {
 
 } // namespace
 
+double relativeError(const Image& image, const Image& exact) {
+    double sum = 0, mean = 0, covered = 0;
+    for (std::size_t i = 0; i < exact.pixels.size(); i += 4) {
+        if (exact.pixels[i + 3] == 0) continue;
+        covered += 3;
+        for (std::size_t c = i; c < i + 3; ++c) {
+            const double d = double(image.pixels[c]) - exact.pixels[c];
+            sum += d * d;
+            mean += exact.pixels[c];
+        }
+    }
+    return std::sqrt(sum / covered) / (mean / covered);
+}
+
 Result<BudgetReport> proveBudget(gl::Context& context, const std::vector<BenchField>& given,
                                  const std::vector<BenchEnvironment>& environments, int side,
                                  const Say& say) {
@@ -353,7 +352,7 @@ std::vector<Ratio> BudgetReport::totals() const {
             kept += r.kept();
             quick += r.quick();
         }
-        const std::string name = formatted("maxError %.3f on %d scenes: ", double(wanted), count);
+        const std::string name = formatted("maxError %.3f on %d %s: ", double(wanted), count, what.c_str());
         list.push_back({name + "share that keeps it", double(kept) / count, 0.95, true});
         list.push_back({name + "share within 1.5 of the best time", double(quick) / count, 0.95, true});
     }
