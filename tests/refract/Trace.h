@@ -47,6 +47,8 @@ struct Errors {
 };
 
 struct Refraction : support::GlTest {
+    float nearest = 1e-3f; ///< of views::makeEye()
+
     void SetUp() override {
         GlTest::SetUp();
         if (context) context->device().checkTargets(true); // NaN and infinity are errors
@@ -60,7 +62,7 @@ struct Refraction : support::GlTest {
             places(context->device(), desc, "places"), target(context->device(), desc, "target");
         context->device().upload(places.handle(), 0,
                                  std::vector<vec4>(std::size_t(size.x * size.y), vec4(0)));
-        const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
+        const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y), nearest);
         graph::TexturePool pool(context->device());
         views::ImageCache images(*context);
         const auto drawn = views::drawnMeshes(scene, images);

@@ -47,7 +47,7 @@ TEST_F(HardRefraction, OutlinesStayBounded) {
 TEST_F(HardRefraction, FortySurfacesAreCapped) {
     std::vector<scene::Object> balls;
     for (int i = 0; i < 20; ++i)
-        balls.push_back(glass(scene::Sphere{1 - 0.02f * float(i)}, i % 2 ? 1.3f : 1.4f));
+        balls.push_back(meshed(scene::meshOf(scene::Sphere{1 - 0.02f * float(i)}, 48), i % 2 ? 1.3f : 1.4f));
     const scene::Scene scene = seenFrom(3, balls);
     const Image layers = trace(scene, kSize, scene::Aov::Layers);
     EXPECT_EQ(layers.at(64, 64)[0], float(views::kMostLayers));
@@ -73,6 +73,41 @@ TEST_F(HardRefraction, AnOpenSheetIsEnteredAndNeverLeft) {
             EXPECT_NEAR(test::degrees(test::angleBetween(rgb(found, {x, y}), dvec3(0, 0, -1))), expected,
                         1e-3);
         }
+}
+
+TEST_F(HardRefraction, ACupWithoutALidIsEnteredOftenerThanItIsLeft) {
+    // A box without its upper side, seen from above: rays leave through sides they are inside of, and those
+    // that go in by the hole are in nothing when they come to a side from within. Odd numbers of layers.
+    scene::Mesh mesh = scene::meshOf(scene::Box{{1.2f, 1, 1.2f}});
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const auto isUp = [&](std::size_t k) { return mesh.normals[mesh.indices[i + k]].y > 0.9f; };
+        if (!isUp(0)) kept.insert(kept.end(), &mesh.indices[i], &mesh.indices[i] + 3);
+    }
+    ASSERT_EQ(kept.size(), 30u);
+    mesh.indices = kept;
+    scene::Scene scene = seenFrom(3, {meshed(mesh, 1.5f)});
+    scene.camera.eye = {0.7f, 2, 2.2f};
+    const Errors errors = against(scene, 2);
+    EXPECT_GT(errors.compared, 2000);
+    EXPECT_LE(errors.median, 1e-3);
+    EXPECT_LE(errors.p95, 0.1);
+    EXPECT_LE(errors.wrong, 0.01);
+}
+
+TEST_F(HardRefraction, FacesInOnePlaneAreCrossedByTheMediumBehindThem) {
+    // Ice that fills the upper half of water, four sides and the top in the same planes, and a block that
+    // stands beside it: faces of two and of three objects in one place.
+    const scene::Object water = glass(scene::Box{{1, 1, 1}}, 1.33f);
+    const scene::Object ice = glass(scene::Box{{1, 0.5f, 1}}, 1.31f, {0, 0.25f, 0});
+    const scene::Object beside = glass(scene::Box{{0.5f, 0.5f, 1}}, 1.6f, {0.75f, 0.25f, 0});
+    scene::Scene scene = seenFrom(3, {water, ice, beside});
+    scene.camera.eye = {0.6f, 0.8f, 3};
+    const Errors errors = against(scene, 2);
+    EXPECT_GT(errors.compared, 1500);
+    EXPECT_LE(errors.median, 1e-3);
+    EXPECT_LE(errors.p95, 0.1);
+    EXPECT_LE(errors.wrong, 0.01);
 }
 
 TEST_F(HardRefraction, FlippedTrianglesAreCrossedAsTheyAre) {
@@ -112,6 +147,58 @@ TEST_F(HardRefraction, TheEyeMayTouchTheGlass) {
     const Errors errors = against(seenFrom(1.005f, {glass(scene::Sphere{1}, 1.5f)}), 2);
     EXPECT_LE(errors.median, 0.1);
     EXPECT_LE(errors.wrong, 0.05);
+}
+
+TEST_F(HardRefraction, GlassAMillimetreFromTheEyeIsNotCut) {
+    // Half of the near plane's distance for everything opaque, 1e-3 of 2 m; layers have one of their own.
+    nearest = 1e-6f;
+    const Errors errors = against(seenFrom(1.001f, {glass(scene::Sphere{1}, 1.5f)}), 2);
+    EXPECT_GT(errors.compared, 5000);
+    EXPECT_LE(errors.median, 0.1);
+    EXPECT_LE(errors.wrong, 0.05);
+}
+
+TEST_F(HardRefraction, AShellThinnerThanARoundingOfDepthsKeepsBothItsSurfaces) {
+    // Ten micrometres of glass around air: a millionth of the way that light takes. What lies behind it is
+    // seen where it is, but for rays that graze it.
+    const scene::Object ball = glass(scene::Sphere{1}, 1.5f), hollow = glass(scene::Sphere{0.99999f}, 1);
+    const Errors errors = against(seenFrom(3, {ball, hollow}), 2);
+    EXPECT_GT(errors.compared, 5000);
+    EXPECT_LE(errors.median, 0.1);
+    EXPECT_LE(errors.p95, 2);
+}
+
+TEST_F(HardRefraction, ABubbleMirrorsAllAtItsRim) {
+    // Air of radius r in a block of glass. Light at h from the axis meets it under asin(h / r): up to h = r
+    // / 1.5 it goes through, turned twice by asin(1.5 h / r) - asin(h / r) on its way and by the block's far
+    // side; beyond, all of it is mirrored.
+    const float r = 2;
+    scene::Scene scene = seenStraight(7, {glass(scene::Box{{6, 6, 5}}, 1.5f), glass(scene::Sphere{r}, 1)});
+    const Image found = trace(scene, kSize), exact = truthOf(scene, kSize);
+    int mirrored = 0, through = 0, lost = 0;
+    for (int y = 0; y < kSize.y; ++y)
+        for (int x = 0; x < kSize.x; ++x) {
+            const double h = 7.0 / 128 * glm::distance(vec2(x, y) + 0.5f, vec2(64)) / double(r);
+            if (h > 0.95 || std::abs(h - 1 / 1.5) < 0.03) continue; // grazing
+            const bool isMirrored = h > 1 / 1.5;
+            ++(isMirrored ? mirrored : through);
+            if (found.at(x, y)[3] == 0) ++lost;
+            const double turned = 2 * (std::asin(std::min(1.0, 1.5 * h)) - std::asin(h));
+            const double leaves = 1.5 * std::sin(turned);
+            const double off = test::degrees(test::angleBetween(rgb(found, {x, y}), dvec3(0, 0, -1)));
+            if (!isMirrored && leaves < 0.95) {
+                EXPECT_NEAR(off, test::degrees(std::asin(leaves)), 0.5) << x << " " << y;
+            }
+            if (isMirrored && exact.at(x, y)[3] == 1 && found.at(x, y)[3] == 1) {
+                EXPECT_GT(off, 5) << x << " " << y;
+            }
+        }
+    EXPECT_GT(mirrored, 1000);
+    EXPECT_GT(through, 1000);
+    const Errors errors = against(scene, 2);
+    EXPECT_LE(errors.median, 0.1);
+    EXPECT_LE(errors.p95, 2);
+    std::cout << lost << " of " << mirrored + through << " rays were given up\n";
 }
 
 TEST_F(HardRefraction, ABallHalfOutsideThePictureIsRightWhereItIsShown) {
