@@ -2,13 +2,13 @@
 //
 // in    uPlace, uFlux  caustics/photon.frag, VERTICES
 //       uLanding       caustics/land.frag
-// out   oBeams  of both triangles of the square that begins at the ray: the texels over which its flux is spread, 0
-//               where it is no beam; the share of its flux that a point gets
+// out   oBeams  of both triangles of the square that begins at the ray: its area on the map in texels, or below 0 their
+//               number, over which its flux is spread; 0 where it is no beam; the share of its flux that points get
 // model flux over area (beams after Watt 1990), so that triangles that lie side by side are evenly bright. Of small ones
-//       many hold no texel's middle: part of their flux, at last all of it, is drawn as a point. Small ones and thin
-//       ones, as at folds, which lie on each other rather than side by side: flux over the number of texels that
-//       they cover, so that it is kept; those that cover none are points. The light of triangles that are no beams is carried by rays of
-//       their own
+//       a few hold texels' middles and most do not: part of their flux, at last all of it, is drawn as points. Thin
+//       ones, as at folds, which lie on each other rather than side by side: flux over the number of texels that they
+//       cover, so that it is kept; those that cover none are points. The light of triangles that are no beams is carried
+//       by rays of their own
 #include "caustics/deposit_block.glsl"
 #include "caustics/grid.glsl"
 #include "caustics/sixths.glsl"
@@ -25,9 +25,15 @@ const float kMostStretch = 30.0;
 // is the same to a percent from 32 rays a side on.
 const float kMostSpread = 8.0;
 
+// Unless they part evenly, as off a mirror: the next ones go on by a step that differs by no more than this part of it.
+// Chosen by eye.
+const float kMostBend = 0.25;
+
 const float kMostCounted = 16.0; // texels a side of the box around a thin triangle
-const float kThin = 0.15;       // area over the square of the longest side; 0.43 where all are alike
-const vec2 kSmall = vec2(0.5, 2.0); // texels, of what is all and not at all a point
+const float kThin = 0.5;         // texels across a thin triangle, and ...
+const float kLong = 2.0;         // ... along it
+const vec2 kSmall = vec2(0.25, 1.0); // texels, of what is all and not at all points
+const float kLeastArea = 1e-6;          // texels: what is a beam has more than 0
 
 float crossOf(vec2 u, vec2 v) { return u.x * v.y - u.y * v.x; }
 
@@ -44,22 +50,37 @@ float covered(vec2 a, vec2 b, vec2 c, vec2 low, vec2 size) {
     return count;
 }
 
-// x: texels over which a triangle's flux is spread; y: share of the flux that a point gets.
+// What oBeams holds of a triangle.
 vec2 spreadOf(vec2 a, vec2 b, vec2 c) {
     float area = 0.5 * abs(crossOf(b - a, c - a));
     float longest = max(dot(b - a, b - a), max(dot(c - b, c - b), dot(a - c, a - c)));
     vec2 low = ceil(min(a, min(b, c)) - 0.5) + 0.5; // the lowest texel's middle
     vec2 size = floor(max(a, max(b, c)) - low) + 1.0;
-    float part = clamp((kSmall.y - area) / (kSmall.y - kSmall.x), 0.0, 1.0);
-    bool thin = area <= kThin * longest && max(size.x, size.y) <= kMostCounted;
-    if (!thin && part == 0.0) return vec2(area, 0.0);
-    if (part == 1.0 && !thin) return vec2(1.0, 1.0);
+    bool thin = longest > kLong * kLong && 4.0 * area * area < kThin * kThin * longest;
+    if (!thin || max(size.x, size.y) > kMostCounted)
+        return vec2(max(area, kLeastArea), clamp((kSmall.y - area) / (kSmall.y - kSmall.x), 0.0, 1.0));
     float count = covered(a, b, c, low, size);
-    return vec2(max(count, 1.0), count == 0.0 ? 1.0 : thin ? 0.0 : part);
+    return count == 0.0 ? vec2(kLeastArea, 1.0) : vec2(-count, 0.0);
+}
+
+// Where a ray of the same way lands; w 0: there is none.
+vec4 landingLike(ivec2 ray, float way) {
+    if (any(lessThan(ray, ivec2(0))) || any(greaterThanEqual(ray, light.grid))) return vec4(0.0);
+    vec4 landing = texelFetch(uLanding, ray, 0);
+    return landing.w == way ? landing : vec4(0.0);
+}
+
+// Whether rays part evenly before two neighbours and behind them.
+bool partEvenly(ivec2 ray, ivec2 next, vec4 a, vec4 b) {
+    vec4 before = landingLike(2 * ray - next, a.w);
+    vec4 after = landingLike(2 * next - ray, a.w);
+    if (before.w == 0.0 || after.w == 0.0) return false;
+    float most = kMostBend * distance(a.xyz, b.xyz);
+    return distance(before.xyz + b.xyz, 2.0 * a.xyz) <= most && distance(a.xyz + after.xyz, 2.0 * b.xyz) <= most;
 }
 
 // Whether all three rays land on one surface and took the same way, so that light between them lands between them.
-bool isBeam(vec4 places[3], vec4 landings[3]) {
+bool isBeam(ivec2 square, int triangle, vec4 places[3], vec4 landings[3]) {
     View face = light.faces[0]; // all look from the same point
     bool perspective = face.eye.w > 0.5;
     vec3 along = perspective ? normalize(landings[0].xyz - face.eye.xyz) : face.forward.xyz;
@@ -70,7 +91,9 @@ bool isBeam(vec4 places[3], vec4 landings[3]) {
         if (landings[i].w != landings[0].w || !isNear(landings[i].xyz, landings[next].xyz, along)) return false;
         if (distance(places[i].xyz, places[next].xyz) >= kMostStretch * light.size * depth) return false;
 #ifdef REFINE
-        if (distance(landings[i].xyz, landings[next].xyz) >= kMostSpread * light.size * reach) return false;
+        bool isWide = distance(landings[i].xyz, landings[next].xyz) >= kMostSpread * light.size * reach;
+        ivec2 ray = cornerOf(square, triangle, i);
+        if (isWide && !partEvenly(ray, cornerOf(square, triangle, next), landings[i], landings[next])) return false;
 #endif
     }
     return true;
@@ -89,7 +112,7 @@ vec2 beamOf(ivec2 square, int triangle) {
         places[corner] = texelFetch(uPlace, ray, 0);
         sum += landings[corner].xyz / 3.0;
     }
-    if (!isBeam(places, landings)) return vec2(0.0);
+    if (!isBeam(square, triangle, places, landings)) return vec2(0.0);
     int face = faceOf(sum);
     vec3 a = onMap(face, landings[0].xyz);
     vec3 b = onMap(face, landings[1].xyz);

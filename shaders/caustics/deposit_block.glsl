@@ -1,7 +1,9 @@
-// caustics/deposit_block.glsl: the caustic map, which lies in the light's views of the receivers.
+// caustics/deposit_block.glsl: the caustic map, which lies in the light's views of the receivers: below, of those that it
+// sees; above, of those behind them.
 #include "views/view.glsl"
 layout(std140) uniform DepositBlock {
     View faces[6];
+    vec4 frame; // what is drawn of the map: corner and size, texels
     ivec2 grid; // rays a side
     int faceCount;
     int face;   // that is drawn
@@ -10,6 +12,7 @@ layout(std140) uniform DepositBlock {
     int padding0, padding1;
 } light;
 #include "views/shadow.glsl"
+#include "caustics/behind.glsl"
 
 // Pixel coordinates in a face; z: depth.
 vec3 onMap(int number, vec3 place) {
@@ -18,9 +21,18 @@ vec3 onMap(int number, vec3 place) {
     return vec3(pixelOf(face, seen), seen.z);
 }
 
-vec4 clipFromMap(vec2 pixel) { return vec4(2.0 * pixel / light.faces[light.face].size - 1.0, 0.0, 1.0); }
+// Where the face that is drawn begins on the map.
+vec2 mapCorner(int layer) {
+    int rows = (light.faceCount + 2) / 3;
+    return vec2(light.face % 3, light.face / 3 + layer * rows) * light.faces[light.face].size;
+}
 
-// The middle of the texel: a point of one texel on the border between two may be drawn on both or none.
-vec4 clipFromTexel(vec2 pixel) { return clipFromMap(floor(pixel) + 0.5); }
+vec4 clipFromMap(vec2 pixel) { return vec4(2.0 * (pixel - light.frame.xy) / light.frame.zw - 1.0, 0.0, 1.0); }
+
+// Whether a pixel of the map belongs to another face.
+bool isBesideFace(vec2 pixel, int layer) {
+    pixel -= mapCorner(layer);
+    return any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, light.faces[light.face].size));
+}
 
 const vec4 kAway = vec4(2.0, 2.0, 0.0, 1.0); // outside of every face

@@ -6,20 +6,23 @@
 // out   vFlux flat     [light.unit] of a texel
 //       vMiddle flat   [texels] of the whole map
 //       vInverse flat  from texels beside the middle to the parallelogram's own coordinates, -1/2 to 1/2; zeros: a
-//                      single texel
+//                      point (caustics/tent.glsl)
+//       vLayer flat    of the map
 // model half the way between the neighbouring rays that landed on the same surface (photon differentials after
 //       Schjoth 2007), or the whole way to one of them
 #include "caustics/deposit_block.glsl"
 #include "caustics/grid.glsl"
+#include "caustics/tent.glsl"
 uniform sampler2D uFlux;
 flat out vec3 vFlux;
 flat out vec2 vMiddle;
 flat out vec4 vInverse;
+flat out int vLayer;
 #ifdef OF_RESTS
 uniform sampler2D uGridLanding;
 #endif
 
-const float kSmall = 2.0; // texels, of what is a single one
+const float kSmall = 2.0; // texels, of what is a point
 
 vec4 neighbour(ivec2 ray, vec4 landing, vec3 along) {
     if (any(lessThan(ray, ivec2(0))) || any(greaterThanEqual(ray, light.grid))) return vec4(0.0);
@@ -60,10 +63,11 @@ void main() {
     ivec2 ray = ivec2(gl_VertexID % light.grid.x, gl_VertexID / light.grid.x);
     vec4 landing = texelFetch(uLanding, ray, 0);
     gl_Position = kAway;
-    gl_PointSize = 1.0;
+    gl_PointSize = kTentSize;
     vFlux = vec3(0.0);
     vMiddle = vec2(0.0);
     vInverse = vec4(0.0);
+    vLayer = layerOf(landing.w);
     if (landing.w == 0.0 || faceOf(landing.xyz) != light.face) return;
     View face = light.faces[light.face];
     vec3 along = face.eye.w > 0.5 ? normalize(landing.xyz - face.eye.xyz) : face.forward.xyz;
@@ -81,15 +85,15 @@ void main() {
     v *= shrink;
     float area = u.x * v.y - u.y * v.x;
     vFlux = texelFetch(uFlux, ray, 0).rgb / light.unit;
-    gl_Position = clipFromTexel(place);
+    vMiddle = mapCorner(vLayer) + place;
+    gl_Position = clipFromMap(tentMiddle(vMiddle));
     if (abs(area) < kSmall) return;
     vec4 inverse_ = vec4(v.y, -v.x, -u.y, u.x) / area;
     float side = ceil(max(reach.x, reach.y));
     float count = side <= kMostCounted ? covered(place, inverse_, side) : abs(area); // of large ones their area
     if (count == 0.0) return;
-    gl_Position = clipFromMap(place);
+    gl_Position = clipFromMap(vMiddle);
     vFlux /= count;
     vInverse = inverse_;
-    vMiddle = place + vec2(light.face % 3, light.face / 3) * face.size;
     gl_PointSize = ceil(shrink * max(reach.x, reach.y)) + 1.0;
 }

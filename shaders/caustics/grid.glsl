@@ -9,6 +9,14 @@ ivec2 cornerOf(ivec2 square, int triangle, int corner) {
     return square + low;
 }
 
+// Flux of a triangle [W]: six lie around each ray.
+vec3 triangleFlux(sampler2D flux, ivec2 square, int triangle) {
+    vec3 sum = vec3(0.0);
+    for (int corner = 0; corner < 3; ++corner)
+        sum += texelFetch(flux, cornerOf(square, triangle, corner), 0).rgb;
+    return sum / 6.0;
+}
+
 // Receivers that are steeper against the light are two, of which one lies behind the other.
 const float kMostSteep = 8.0;
 

@@ -2,7 +2,9 @@
 //
 // in    uPlace, uDirection  caustics/photon.frag
 //       uShadow             depths of the receivers, seen from the light
-// out   oLanding  world place; w: the way the light took, 0: it meets no receiver that the light's view shows
+//       uBehind, uBack      USE_BEHIND: of those behind them, and of what is turned away from the light behind the first
+// out   oLanding  world place; w: the way the light took (caustics/behind.glsl), 0: it meets no receiver that the light's
+//                 view shows
 //       oEffort   r: looks at the receivers' image; g: how far before the surface the place lies, in texels
 // model FIXED_POINT: d <- |receiver(P) - v| from d = 1 m (dissertation 2007, 5.3.3); NEWTON, SECANT: roots of the
 //       depth between P and the receiver, which has a sign where the text's distance has none, so that its slope
@@ -17,6 +19,7 @@ layout(std140) uniform LandBlock {
     int padding0, padding1;
 } light;
 #include "caustics/receivers.glsl"
+#include "caustics/behind.glsl"
 uniform sampler2D uPlace;
 uniform sampler2D uDirection;
 layout(location = 0) out vec4 oLanding;
@@ -24,10 +27,11 @@ layout(location = 1) out vec2 oEffort;
 
 const float kNowhere = -1.0;
 int looks = 0;
+int layer = 0; // of the receivers, in which the ray meets one
 
 float gapAt(vec3 v, vec3 r, float d) {
     ++looks;
-    return lookFrom(v + d * r).gap;
+    return lookFrom(v + d * r, layer).gap;
 }
 
 #if defined(FIXED_POINT)
@@ -35,7 +39,7 @@ float distanceAlong(vec3 v, vec3 r) {
     float d = 1.0;
     while (looks < light.steps) {
         ++looks;
-        Glance glance = lookFrom(v + d * r);
+        Glance glance = lookFrom(v + d * r, 0);
         if (glance.gap > kFar) return kNowhere;
         d = distance(glance.surface, v);
     }
@@ -73,45 +77,91 @@ float distanceAlong(vec3 v, vec3 r) {
 #else
 #include "caustics/box.glsl"
 
+int mostLooks = 0; // at one of the layers
+
 const int kStretches = 8;      // of the ray, in each of which one crossing is looked for
 const float kSteepest = 200.0; // metres of gap a metre of ray: beyond it the light's view jumps from one surface to another
 
-// A crossing of [a, b], before the surface at a and behind it at b; kNowhere where the ray passes behind an edge:
-// what it meets there is turned away from the light.
-float crossingIn(vec3 v, vec3 r, float a, float gapA, float b, float gapB) {
-    float enough = 1e-3 * texelAt(v + b * r);
-    bool middle = gapA > kFar;
-    float d = b;
-    while (looks < light.steps) {
-        d = middle ? 0.5 * (a + b) : a + (b - a) * gapA / (gapA - gapB);
+// A stretch of the ray, before the surface at a and behind it at b.
+struct Bracket {
+    float a, gapA, b, gapB;
+};
+
+// The crossing in it; kNowhere where the ray passes behind an edge: what it meets there is turned away from the light.
+// The bracket is then what lies around the edge.
+float crossingIn(inout Bracket at, vec3 v, vec3 r) {
+    float enough = 1e-3 * texelAt(v + at.b * r);
+    bool middle = at.gapA > kFar;
+    float d = at.b;
+    while (looks < mostLooks) {
+        d = middle ? 0.5 * (at.a + at.b) : at.a + (at.b - at.a) * at.gapA / (at.gapA - at.gapB);
         float gap = gapAt(v, r, d);
         if (abs(gap) < enough) return d;
-        float width = b - a;
+        float width = at.b - at.a;
         if (gap > 0.0) {
-            a = d;
-            gapA = gap;
+            at.a = d;
+            at.gapA = gap;
         } else {
-            b = d;
-            gapB = gap;
+            at.b = d;
+            at.gapB = gap;
         }
-        middle = gapA > kFar || (!middle && b - a > 0.5 * width);
+        middle = at.gapA > kFar || (!middle && at.b - at.a > 0.5 * width);
     }
-    return gapA - gapB < kSteepest * (b - a) + enough ? d : kNowhere;
+    return at.gapA - at.gapB < kSteepest * (at.b - at.a) + enough ? d : kNowhere;
+}
+
+// From before the first surface to behind an edge of it: there the second ones lie before it, if any do. A ray that
+// enters what is solid instead has met a side that is turned away from the light.
+//
+// @return  the way on from behind the edge to b; its gapA is not above 0 where there is none
+Bracket passBehind(float edge, float b, vec3 v, vec3 r) {
+    layer = 2;
+    float within = gapAt(v, r, edge);
+    layer = 1;
+    mostLooks = looks + light.steps;
+    float gap = gapAt(v, r, edge);
+    return Bracket(edge, within > 0.0 && within < gap ? -1.0 : gap, b, gapAt(v, r, b));
 }
 
 float distanceAlong(vec3 v, vec3 r) {
     vec2 part = insideBox(v, r, light.low.xyz, light.high.xyz);
     if (part.x >= part.y) return kNowhere;
+    mostLooks = light.steps;
     float a = part.x;
     float gapA = gapAt(v, r, a);
     if (gapA <= 0.0) { // as where glass stands on a receiver
         float step_ = texelAt(v + a * r);
-        return gapA > -0.5 * step_ && gapAt(v, r, a + step_) < gapA ? a : kNowhere;
+        if (gapA > -0.5 * step_ && gapAt(v, r, a + step_) < gapA) return a;
+#ifdef USE_BEHIND
+        layer = 1;
+        gapA = gapAt(v, r, a);
+#endif
+        if (gapA <= 0.0) return kNowhere;
     }
-    for (int i = 1; i <= kStretches && looks < light.steps; ++i) {
+    for (int i = 1; i <= kStretches && looks < mostLooks; ++i) {
         float b = mix(part.x, part.y, float(i) / float(kStretches));
         float gapB = gapAt(v, r, b);
-        if (gapB <= 0.0) return crossingIn(v, r, a, gapA, b, gapB);
+#ifdef USE_BEHIND
+        if (layer == 1) { // out from behind the first?
+            layer = 0;
+            float gap = gapAt(v, r, b);
+            if (gap > 0.0) gapB = gap;
+            else layer = 1;
+        }
+#endif
+        if (gapB <= 0.0) {
+            Bracket at = Bracket(a, gapA, b, gapB);
+            float d = crossingIn(at, v, r);
+#ifdef USE_BEHIND
+            if (d == kNowhere && layer == 0) {
+                at = passBehind(at.b, b, v, r);
+                if (at.gapA <= 0.0) return kNowhere;
+                if (at.gapB <= 0.0) return crossingIn(at, v, r);
+                gapB = at.gapB;
+            } else
+#endif
+                return d;
+        }
         a = b;
         gapA = gapB;
     }
@@ -134,8 +184,8 @@ void main() {
     oEffort = vec2(looks, 0.0);
     if (d < 0.0) return;
     vec3 landing = place.xyz + d * direction.xyz;
-    Glance glance = lookFrom(landing);
+    Glance glance = lookFrom(landing, layer);
     if (glance.gap > kFar) return;
-    oLanding = vec4(landing, place.w);
+    oLanding = vec4(landing, place.w + (layer == 1 ? kBehind : 0.0));
     oEffort.y = glance.gap / texelAt(landing);
 }

@@ -2,6 +2,8 @@
 //
 // in    uMap     [light.unit] flux on each texel
 //       uShadow  depths of the receivers, seen from the light
+//       uBehind  USE_BEHIND: of those behind them, whose light lies above that on the first ones
+//       uSolid   FROM_SOLID: what each pixel shows, height fields too (views/geometry.frag)
 //       uBefore  USE_BEFORE: the sum so far
 // out   oSum.rgb [W/m²]
 // model flux of the texels around over the area that a texel covers on the surface; as a mean over the pixel, of at
@@ -16,13 +18,43 @@ layout(std140) uniform LookupBlock {
     int padding0, padding1;
 } light;
 #include "lib/octahedral.glsl"
+#ifdef FROM_SOLID
+uniform sampler2D uSolid;
+#else
 #include "views/surface_pixel.glsl"
+#endif
 #include "views/shadow.glsl"
 uniform sampler2D uMap;
+#ifdef USE_BEHIND
+uniform sampler2D uBehind;
+#endif
 #ifdef USE_BEFORE
 uniform sampler2D uBefore;
 #endif
 layout(location = 0) out vec4 oSum;
+
+// How far from a pixel's own plane its surface may lie, in texels: for a height field's smooth normals, which hide what
+// its cells do, more than half a texel.
+#ifdef FROM_SOLID
+const float kMargin = 2.0;
+#else
+const float kMargin = 0.5;
+#endif
+
+struct Shown {
+    vec3 normal;
+    float depth; // m; 1e30: nothing that receives
+};
+
+Shown shownHere() {
+#ifdef FROM_SOLID
+    vec4 solid = texelFetch(uSolid, ivec2(gl_FragCoord.xy), 0);
+    return Shown(fromOctahedral(solid.yz), solid.a > 0.0 ? solid.x : 1e30);
+#else
+    SurfacePixel pixel = readSurface();
+    return Shown(fromOctahedral(pixel.g), pixel.face == kMeshFace ? pixel.z : 1e30);
+#endif
+}
 
 // Where a place lies on the map, in texels.
 vec2 mapAt(vec3 place) {
@@ -46,7 +78,7 @@ vec3 fluxOnArea(vec3 place, vec3 normal) {
     if (cosine <= 0.0) return vec3(0.0);
 
     float width = max(length(face.right.xyz), length(face.up.xyz)) * (perspective ? seen.z : 1.0);
-    float margin = width * (0.5 + kSteepMargin * sqrt(1.0 - cosine * cosine) / max(cosine, 1e-6));
+    float margin = width * (kMargin + kSteepMargin * sqrt(1.0 - cosine * cosine) / max(cosine, 1e-6));
     ivec2 corner = ivec2(number % 3, number / 3) * ivec2(face.size);
     vec2 low = floor(pixel - 0.5);
     vec2 f = pixel - 0.5 - low;
@@ -55,11 +87,19 @@ vec3 fluxOnArea(vec3 place, vec3 normal) {
     for (int i = 0; i < 4; ++i) {
         vec2 step_ = vec2(i & 1, i >> 1);
         vec2 at = clamp(low + step_, vec2(0.0), face.size - 1.0);
-        float nearest = texelFetch(uShadow, corner + ivec2(at), 0).r;
-        if (abs(nearest - planeDepth(face, at + 0.5, v, normal)) > margin) continue; // another surface
+        ivec2 texel = corner + ivec2(at);
+        float depth = planeDepth(face, at + 0.5, v, normal);
+        if (abs(texelFetch(uShadow, texel, 0).r - depth) > margin) { // another surface
+#ifdef USE_BEHIND
+            if (abs(texelFetch(uBehind, texel, 0).r - depth) > margin) continue;
+            texel.y += textureSize(uBehind, 0).y;
+#else
+            continue;
+#endif
+        }
         vec2 share = mix(1.0 - f, f, step_);
         weights += share.x * share.y;
-        sum += share.x * share.y * texelFetch(uMap, corner + ivec2(at), 0).rgb;
+        sum += share.x * share.y * texelFetch(uMap, texel, 0).rgb;
     }
     if (weights == 0.0) return vec3(0.0);
     float area = length(face.right.xyz) * length(face.up.xyz);
@@ -87,10 +127,10 @@ void main() {
 #else
     oSum = vec4(0.0);
 #endif
-    SurfacePixel pixel = readSurface();
-    if (pixel.face != kMeshFace) return;
-    vec3 normal = fromOctahedral(pixel.g);
-    vec3 place = light.view.eye.xyz + placeFrom(light.view, gl_FragCoord.xy, pixel.z);
+    Shown shown = shownHere();
+    if (shown.depth == 1e30) return;
+    vec3 normal = shown.normal;
+    vec3 place = light.view.eye.xyz + placeFrom(light.view, gl_FragCoord.xy, shown.depth);
     vec2 u = mapAt(besides(place, normal, vec2(0.5, 0.0))) - mapAt(besides(place, normal, vec2(-0.5, 0.0)));
     vec2 v = mapAt(besides(place, normal, vec2(0.0, 0.5))) - mapAt(besides(place, normal, vec2(0.0, -0.5)));
     vec2 taps = clamp(ceil(vec2(length(u), length(v)) - 0.01), 1.0, kMostTaps);

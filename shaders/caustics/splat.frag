@@ -3,14 +3,13 @@
 // model weights exp(-r²/2) over the disc of radius kRadius, whose integral is 2 pi (1 - exp(-kRadius²/2))
 #include "caustics/deposit_block.glsl"
 flat in vec3 vFlux;
+flat in int vLayer;
 layout(location = 0) out vec4 oFlux;
 const float kRadius = 2.5; // standard deviations
 const float kPi = 3.14159265;
 
 void main() {
-    vec2 corner = vec2(light.face % 3, light.face / 3) * light.faces[light.face].size;
-    vec2 pixel = gl_FragCoord.xy - corner;
-    if (any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, light.faces[light.face].size))) discard;
+    if (isBesideFace(gl_FragCoord.xy, vLayer)) discard;
     vec2 r = kRadius * (2.0 * gl_PointCoord - 1.0);
     float square = dot(r, r);
     if (square > kRadius * kRadius) discard;

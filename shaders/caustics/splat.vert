@@ -3,17 +3,20 @@
 // in    gl_VertexID  one a ray
 //       uFlux [W]    caustics/photon.frag
 // out   vFlux flat   [light.unit] of the whole point
+//       vLayer flat  of the map
 #include "caustics/deposit_block.glsl"
 #include "caustics/grid.glsl"
 uniform sampler2D uFlux;
 flat out vec3 vFlux;
+flat out int vLayer;
 
 void main() {
     ivec2 ray = ivec2(gl_VertexID % light.grid.x, gl_VertexID / light.grid.x);
     vec4 landing = texelFetch(uLanding, ray, 0);
     vFlux = texelFetch(uFlux, ray, 0).rgb / light.unit;
+    vLayer = layerOf(landing.w);
     gl_PointSize = light.size;
     gl_Position = kAway;
     if (landing.w == 0.0 || faceOf(landing.xyz) != light.face) return;
-    gl_Position = clipFromMap(onMap(light.face, landing.xyz).xy);
+    gl_Position = clipFromMap(mapCorner(vLayer) + onMap(light.face, landing.xyz).xy);
 }

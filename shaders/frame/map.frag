@@ -18,7 +18,7 @@ const float kMostTaps = 16.0; // along a side of a pixel
 void main() {
     oValue = vec4(0.0);
     vec2 low = (gl_FragCoord.xy - 0.5 - shown.corner) * shown.texels;
-    ivec2 size = textureSize(uMap, 0);
+    ivec2 size = textureSize(uShadow, 0); // light on what lies behind stands above it
     float taps = clamp(ceil(shown.texels), 1.0, kMostTaps);
     float count = 0.0;
     for (float y = 0.5; y < taps; ++y)

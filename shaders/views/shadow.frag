@@ -1,11 +1,25 @@
 // views/shadow.frag: how far from a light the nearest surface is that stands in its way.
 //
+// in    uFirst  BEHIND: depths of the nearest ones; what is drawn are the nearest behind those that face the light, or
+//               BACK: that are turned away from it, at which solid things end
 // out   oDepth  [m]  along the view's forward: evenly spaced, which a depth buffer of a perspective view is not
 #include "views/mesh_block.glsl"
 in float vDepth;
 layout(location = 0) out float oDepth;
+#ifdef BEHIND
+uniform sampler2D uFirst;
+const float kSame = 1e-5; // of a depth: what rounding may part
+#endif
 
 void main() {
+#ifdef BEHIND
+#ifdef BACK
+    bool counts = !gl_FrontFacing;
+#else
+    bool counts = gl_FrontFacing;
+#endif
+    if (!counts || vDepth <= (1.0 + kSame) * texelFetch(uFirst, ivec2(gl_FragCoord.xy), 0).r) discard;
+#endif
     oDepth = vDepth;
     gl_FragDepth = bufferDepth(mesh.view, vDepth);
 }

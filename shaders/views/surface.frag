@@ -1,11 +1,21 @@
 // views/surface.frag: the first point of a height field that an eye ray meets.
 //
+// in    uFirst    AS_SHADOW, BEHIND: as in views/shadow.frag
 // out   oSurface  see surface_pixel.glsl
+//       oDepth    AS_SHADOW: [m] along the view, as in views/shadow.frag
 // model the bilinear field itself, met exactly; side walls down to field.bottom; open below
 #include "views/surface_block.glsl"
 #include "views/surface_pixel.glsl"
 uniform sampler2D uAlpha;
+#ifdef AS_SHADOW
+layout(location = 0) out float oDepth;
+#else
 layout(location = 0) out vec4 oSurface;
+#endif
+#ifdef BEHIND
+uniform sampler2D uFirst;
+const float kSame = 1e-5; // of a depth: what rounding may part
+#endif
 
 // Coverage at g: the alpha image stretched over the footprint, bilinear between its texel centres.
 float coverageAt(vec2 g) {
@@ -34,7 +44,7 @@ int wallFace(vec2 g, vec3 direction) {
 
 void main() {
     // The ray from the pixel's own coordinates: what rasterisers interpolate carries their rounding of corners.
-    vec4 onFarPlane = surface.objectFromPixel * vec4(gl_FragCoord.xy - 0.5 * surface.size, 1.0, 1.0);
+    vec4 onFarPlane = surface.objectFromPixel * vec4(gl_FragCoord.xy - surface.corner - 0.5 * surface.size, 1.0, 1.0);
     vec3 far = onFarPlane.xyz / onFarPlane.w;
     bool parallel = surface.eye.w == 0.0;
     vec3 direction = parallel ? surface.eye.xyz : normalize(far - surface.eye.xyz);
@@ -54,8 +64,17 @@ void main() {
     if (isWall && (z < surface.field.bottom || direction.xy == vec2(0.0))) discard;
     float coverage = surface.hasAlpha != 0 ? clamp(coverageAt(hitG), 0.0, 1.0) : 1.0;
     if (coverage == 0.0) discard;
+    vec4 place = vec4(objectFromGrid(hitG, surface.field), z, 1.0);
+#ifdef AS_SHADOW
+    oDepth = dot(surface.depthFromObject, place);
+#ifdef BEHIND
+    if (oDepth <= (1.0 + kSame) * texelFetch(uFirst, ivec2(gl_FragCoord.xy), 0).r) discard;
+#endif
+    gl_FragDepth = clamp((oDepth - surface.depths.x) / (surface.depths.y - surface.depths.x), 0.0, 1.0);
+#else
     int face = isWall ? wallFace(hitG, direction) : 1;
     oSurface = vec4(hitG, z, packSurface(surface.object, face, coverage));
-    vec4 clip = surface.clipFromObject * vec4(objectFromGrid(hitG, surface.field), z, 1.0);
+    vec4 clip = surface.clipFromObject * place;
     gl_FragDepth = clamp(0.5 + 0.5 * clip.z / clip.w, 0.0, 1.0);
+#endif
 }

@@ -116,7 +116,8 @@ Result<TextureId> recordLamp(graph::FrameGraph& graph, gl::Context& context, con
 // The light of all lamps on each pixel; none without lamps.
 Result<TextureId> recordLamps(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
                               const Settings& settings) {
-    const views::Bounds casters = boundsOfAll(in.casters);
+    const std::vector<views::DrawnObject> fields(in.fields.begin(), in.fields.end());
+    const views::Bounds casters = boundsOfAll(in.casters, fields);
     const views::Bounds receivers = views::seenBy(in.eye, boundsOfAll(in.solids));
     TextureId sum;
     for (const views::LampPoint& lamp : views::lampPoints(in.scene, settings.lightSamples)) {
@@ -124,7 +125,8 @@ Result<TextureId> recordLamps(graph::FrameGraph& graph, gl::Context& context, co
         const views::ShadowViews views = views::shadowViews(lamp.source, casters, receivers, size);
         TextureId shadow;
         if (!views.faces.empty()) {
-            Result<TextureId> drawn = views::recordShadow(graph, context, views, in.casters, receivers);
+            Result<TextureId> drawn =
+                views::recordShadow(graph, context, views, in.casters, receivers, fields);
             if (!drawn) return drawn.error();
             shadow = *drawn;
         }
@@ -217,8 +219,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in, const Settings& 
         blocks.push_back(shadeBlock(in, first));
     graph.addPass("brdf.shade", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(std::to_string(in.solids.size()) + " opaque or mirroring object(s)" +
-                    (hasSky ? "; the environment lights them past everything" : "") +
-                    "; height fields cast no shadow on them");
+                    (hasSky ? "; the environment lights them past everything" : ""));
         pass.sample(surface);
         if (irradiance) pass.sample(irradiance);
         if (flux) pass.sample(flux);

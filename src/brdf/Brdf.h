@@ -7,6 +7,7 @@
 #include "views/Surface.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,12 +30,13 @@ struct Inputs {
     graph::TextureId target;                      ///< RGBA32F
     scene::Aov show;                              ///< Color or Irradiance
     ivec2 size;
+    std::span<const views::DrawnObject> fields{}; ///< height fields that cast shadows too
 };
 
 /// Radiance of a matt surface: base + diffuse * E / pi, with E of
 /// - the lamps in physical units (views/Lamps.h), past everything that casts shadows: refractive objects cast
 /// full
-///   ones, since the light that they let through is that of caustics; height fields cast none here;
+///   ones, since the light that they let through is that of caustics;
 /// - the flux of caustics;
 /// - the environment, which nothing stands in the way of (SkyIrradiance.h).
 /// Radiance of a mirror: reflectance times the environment in the mirrored direction, whatever lies there.

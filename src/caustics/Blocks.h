@@ -80,6 +80,48 @@ struct Faces {
     }
 };
 
+struct WaterRaysBlock {
+    Faces faces;
+    mat4 worldFromObject, normalFromObject;
+    LampBlock lamp;
+    views::GlassBlock water;
+    vec4 place, tint;
+    ivec2 cells, grid;
+    int faceCount, channel;
+    float area;
+    int padding = 0;
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {
+            {"faces[0].eye", offsetof(WaterRaysBlock, faces)},
+            {"worldFromObject", offsetof(WaterRaysBlock, worldFromObject)},
+            {"normalFromObject", offsetof(WaterRaysBlock, normalFromObject)},
+            {"lamp.color", offsetof(WaterRaysBlock, lamp.color)},
+            {"lamp.cone", offsetof(WaterRaysBlock, lamp.cone)},
+            {"water.ior", offsetof(WaterRaysBlock, water.ior)},
+            {"water.absorption", offsetof(WaterRaysBlock, water.absorption)},
+            {"place", offsetof(WaterRaysBlock, place)},
+            {"tint", offsetof(WaterRaysBlock, tint)},
+            {"cells", offsetof(WaterRaysBlock, cells)},
+            {"grid", offsetof(WaterRaysBlock, grid)},
+            {"faceCount", offsetof(WaterRaysBlock, faceCount)},
+            {"channel", offsetof(WaterRaysBlock, channel)},
+            {"area", offsetof(WaterRaysBlock, area)}};
+        static const graph::BlockLayout layout{"WaterRaysBlock", sizeof(WaterRaysBlock), members};
+        return layout;
+    }
+};
+
+struct SoakBlock {
+    vec4 absorption;
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {{"absorption", offsetof(SoakBlock, absorption)}};
+        static const graph::BlockLayout layout{"SoakBlock", sizeof(SoakBlock), members};
+        return layout;
+    }
+};
+
 struct LandBlock {
     Faces faces;
     vec4 low, high;
@@ -99,6 +141,7 @@ struct LandBlock {
 
 struct DepositBlock {
     Faces faces;
+    vec4 frame;
     ivec2 grid;
     int faceCount, face;
     float unit, size;
@@ -106,9 +149,10 @@ struct DepositBlock {
 
     static const graph::BlockLayout& layout() {
         static const graph::BlockLayout::Member members[] = {
-            {"faces[0].eye", offsetof(DepositBlock, faces)},  {"grid", offsetof(DepositBlock, grid)},
-            {"faceCount", offsetof(DepositBlock, faceCount)}, {"face", offsetof(DepositBlock, face)},
-            {"unit", offsetof(DepositBlock, unit)},           {"size", offsetof(DepositBlock, size)}};
+            {"faces[0].eye", offsetof(DepositBlock, faces)}, {"frame", offsetof(DepositBlock, frame)},
+            {"grid", offsetof(DepositBlock, grid)},          {"faceCount", offsetof(DepositBlock, faceCount)},
+            {"face", offsetof(DepositBlock, face)},          {"unit", offsetof(DepositBlock, unit)},
+            {"size", offsetof(DepositBlock, size)}};
         static const graph::BlockLayout layout{"DepositBlock", sizeof(DepositBlock), members};
         return layout;
     }

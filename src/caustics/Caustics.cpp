@@ -2,6 +2,7 @@
 
 #include "caustics/LightPasses.h"
 #include "views/Glass.h"
+#include "views/Surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +43,68 @@ views::ShadowSource aimedAt(views::ShadowSource source, const std::vector<views:
 int borderOf(const std::vector<views::Eye>& faces, int size) {
     if (faces.size() == 1) return 0;
     return int(std::lround(0.5f * float(size) * (1 - 1 / faces.front().halfExtent.x)));
+}
+
+// What the camera shows of a box, and a little around it: beams that end beside the map are no beams, and so
+// are frayed where it ends.
+views::Bounds seenWithMargin(const views::Eye& eye, const views::Bounds& all) {
+    constexpr float kMargin = 1.0f / 16; // of the longest side; a few rays wide
+    const views::Bounds seen = views::seenBy(eye, all);
+    const vec3 size = seen.high - seen.low;
+    const vec3 margin(kMargin * std::max({size.x, size.y, size.z}));
+    return {glm::max(seen.low - margin, all.low), glm::min(seen.high + margin, all.high)};
+}
+
+// Whether what light falls on cannot lie behind itself: one surface that bends nowhere away from any lamp.
+bool isConvex(const scene::Object& object) {
+    return object.wave.amplitude == vec3(0) && (std::holds_alternative<scene::Plane>(object.shape) ||
+                                                std::holds_alternative<scene::Box>(object.shape) ||
+                                                std::holds_alternative<scene::Sphere>(object.shape));
+}
+
+// Whether a light sees receivers behind others, farther than where one pixel of its map cannot tell.
+Result<bool> liesBehind(graph::TexturePool& pool, gl::Context& context, views::ShadowViews views,
+                        const std::vector<views::DrawnMesh>& receivers,
+                        const std::vector<views::DrawnObject>& fields, float time) {
+    if (fields.empty() && receivers.size() == 1 && isConvex(*receivers.front().object)) return false;
+    constexpr int kLooked = 128; // pixels a side: smaller things are not looked for
+    views.size = std::min(views.size, kLooked);
+    graph::FrameGraph graph;
+    Result<std::vector<views::PosedMesh>> posed = views::recordPose(graph, context, receivers, time);
+    if (!posed) return posed.error();
+    const views::Bounds bounds = boundsOfAll(receivers, fields);
+    Result<graph::TextureId> depths = views::recordShadow(graph, context, views, *posed, bounds, fields);
+    if (!depths) return depths.error();
+    Result<graph::TextureId> behind =
+        views::recordShadow(graph, context, views, *posed, bounds, fields, *depths);
+    if (!behind) return behind.error();
+    const graph::TextureDesc desc{.size = views.imageSize(), .format = graph::Format::RG32F};
+    const graph::Texture both(context.device(), desc, "caustics.both");
+    const graph::TextureId target = graph.import(both.handle(), desc, both.label());
+    graph.keep(target);
+    Result<const gl::Program*> program = context.program("caustics/both");
+    if (!program) return program.error();
+    graph.addPass("caustics.both", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("whether receivers lie behind others");
+        pass.sample(*depths);
+        pass.sample(*behind);
+        pass.write(target);
+        return [program = *program, depths = *depths, behind = *behind](const graph::Resources& resources,
+                                                                        graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .textures = {{"uShadow", resources[depths]}, {"uBehind", resources[behind]}}});
+        };
+    });
+    if (Status s = graph.compile(); !s) return s.error();
+    graph.execute(pool);
+    const Image image = context.device().read(both.handle());
+    const views::Eye& face = views.faces.front();
+    for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+        const float depth = image.pixels[i], next = image.pixels[i + 1];
+        const float texel = 2 * face.halfExtent.x / float(views.size) * (face.perspective ? depth : 1);
+        if (next < 1e29f && next - depth > texel) return true;
+    }
+    return false;
 }
 
 } // namespace
@@ -105,6 +168,16 @@ const ParamTable& Caustics::params() {
                                    .group = Group::Caustics,
                                    .doc = "Looks at the receivers' image, at most, to find where a ray meets "
                                           "them."}),
+        declare(&Settings::receiverLayers,
+                {.id = "receiverLayers",
+                 .label = "Receivers behind each other",
+                 .min = 1,
+                 .max = 2,
+                 .group = Group::Caustics,
+                 .doc =
+                     "2: light that passes an edge of what the lamp sees first, as under a table, falls on "
+                     "what lies behind. Of the hybrid intersection; where nothing lies behind, it costs "
+                     "nothing."}),
         declare(&Settings::lightSamples,
                 {.id = "lightSamples",
                  .label = "Points of a lamp in caustics",
@@ -133,38 +206,45 @@ const ParamTable& Caustics::params() {
 
 std::optional<std::string> Caustics::need(const scene::Scene& scene) {
     const auto find = [&](auto wanted) -> const scene::Object* {
-        const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), [&](const auto& one) {
-            return !one.isField() && wanted(one.material);
-        });
+        const auto found = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                        [&](const auto& one) { return wanted(one); });
         return found == scene.objects.end() ? nullptr : &*found;
     };
-    const scene::Object* bends =
-        find([](const scene::Material& m) { return m.isRefractive() || m.isMirror(); });
-    const scene::Object* receives =
-        find([](const scene::Material& m) { return !m.isRefractive() && !m.isMirror(); });
+    const auto bendsLight = [](const scene::Object& one) {
+        return !one.isField() && (one.material.isRefractive() || one.material.isMirror());
+    };
+    const scene::Object* bends = find(bendsLight);
+    const scene::Object* receives = find([&](const scene::Object& one) { return !bendsLight(one); });
     if (scene.lights.empty() || !bends || !receives) return std::nullopt;
     return "object \"" + bends->name + "\" throws the lamps' light on \"" + receives->name + "\"";
 }
 
 Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
-                            const views::DrawnMeshes& meshes, const Settings& settings) const {
+                            const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
+                            const Settings& settings) const {
     Plan plan;
     const views::Bounds glass = boundsOfAll(meshes.glass), mirrors = boundsOfAll(mirrorsOf(meshes.solid));
     std::vector<views::DrawnMesh> all = meshes.solid; // what stands before glass and mirrors hides them
     all.insert(all.end(), meshes.glass.begin(), meshes.glass.end());
-    const views::Bounds everything = boundsOfAll(all);
-    const views::Bounds receivers = views::seenBy(eye, boundsOfAll(receiversOf(meshes.solid)));
+    const views::Bounds everything = boundsOfAll(all, fields);
+    const views::Bounds receivers = seenWithMargin(eye, boundsOfAll(receiversOf(meshes.solid), fields));
     for (const views::LampPoint& lamp : views::lampPoints(scene, settings.lightSamples)) {
         if (lamp.color == vec3(0)) continue;
         views::ShadowSource around = lamp.source; // light leaves the cone of a spot where it is bent
         around.tangent = views::ShadowSource().tangent;
-        Plan::Light light{lamp, {}, {}, views::shadowViews(around, receivers, receivers, settings.mapSize)};
+        Plan::Light light{.lamp = lamp,
+                          .receivers = views::shadowViews(around, receivers, receivers, settings.mapSize)};
         if (light.receivers.faces.empty()) continue;
         const int size = viewSizeOf(settings.grid).x;
         const auto viewsOf = [&](const std::vector<views::DrawnMesh>& bending, const views::Bounds& bounds) {
             return views::shadowViews(aimedAt(lamp.source, bending, bounds), everything, bounds, size).faces;
         };
-        const std::vector<views::Eye> faces = viewsOf(meshes.glass, glass);
+        const bool isOnWater = beginsOnWater(settings, lamp, meshes);
+        if (isOnWater)
+            light.water = {
+                views::shadowViews(lamp.source, boundsOfAll(meshes.solid, fields), glass, settings.mapSize)};
+        const std::vector<views::Eye> faces =
+            isOnWater ? std::vector<views::Eye>{} : viewsOf(meshes.glass, glass);
         for (const views::Eye& face : faces) {
             Result<int> count =
                 views::countLayers(pool, context_, face, meshes.glass, scene.view.time, ivec2(size));
@@ -174,7 +254,14 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
         const std::vector<views::Eye> mirroring = viewsOf(mirrorsOf(meshes.solid), mirrors);
         for (const views::Eye& face : mirroring)
             light.mirrors.push_back({face, 0, borderOf(mirroring, size)});
-        if (!light.glass.empty() || !light.mirrors.empty()) plan.lights.push_back(std::move(light));
+        if (!light.water && light.glass.empty() && light.mirrors.empty()) continue;
+        if (settings.receiverLayers > 1 && settings.intersect == Intersect::Hybrid) {
+            Result<bool> lies = liesBehind(pool, context_, light.receivers, receiversOf(meshes.solid), fields,
+                                           scene.view.time);
+            if (!lies) return lies.error();
+            light.hasBehind = *lies;
+        }
+        plan.lights.push_back(std::move(light));
     }
     return plan;
 }
@@ -201,8 +288,16 @@ Result<graph::TextureId> Caustics::record(graph::FrameGraph& graph, const Inputs
     if (Status legal = checkLimits(in, settings); !legal) return legal.error();
     graph::TextureId sum;
     Targets targets(graph);
+    Inputs all = in;
+    if (!in.fields.empty() && !plan.lights.empty()) {
+        all.solid = graph.create("caustics.shown", {.size = in.size, .format = graph::Format::RGBA32F});
+        if (Status s = views::recordSolid(graph, context_, in.eye, in.fields, in.solids, in.surface,
+                                          all.solid, in.size);
+            !s)
+            return s.error();
+    }
     for (const Plan::Light& light : plan.lights)
-        if (Status s = LightPasses(graph, context_, targets, in, light, settings).record(sum); !s)
+        if (Status s = LightPasses(graph, context_, targets, all, light, settings).record(sum); !s)
             return s.error();
     return sum;
 }
@@ -250,7 +345,8 @@ private:
 } // namespace
 
 Result<Energy> Caustics::measure(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
-                                 const views::DrawnMeshes& meshes, const Plan& plan,
+                                 const views::DrawnMeshes& meshes,
+                                 const std::vector<views::DrawnObject>& fields, const Plan& plan,
                                  const Settings& settings) const {
     Energy energy;
     double rays = 0;
@@ -262,7 +358,7 @@ Result<Energy> Caustics::measure(graph::TexturePool& pool, const scene::Scene& s
         Result<std::vector<views::PosedMesh>> solids =
             views::recordPose(graph, context_, meshes.solid, scene.view.time);
         if (!solids) return solids.error();
-        const Inputs in{scene, eye, *glass, *solids, {}, {}};
+        const Inputs in{scene, eye, *glass, *solids, {}, {}, fields};
         Targets targets(graph, &context_.device());
         graph::TextureId none;
         LightPasses passes(graph, context_, targets, in, light, settings);

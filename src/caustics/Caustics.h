@@ -22,21 +22,24 @@ std::string_view nameOf(Deposit deposit);
 struct Settings {
     Intersect intersect = Intersect::Hybrid;
     Deposit deposit = Deposit::Beam;
-    int grid = 128;        ///< rays a side
-    bool refine = true;    ///< beams: rays through single pixels where no beam carries light
-    int mapSize = 512;     ///< texels a side of the caustic map
-    int steps = 32;        ///< looks at the receivers' image for a ray, at most
-    int lightSamples = 16; ///< points that stand for a lamp with a size
-    int wavelengths = 3;   ///< of white light in glass that disperses
+    int grid = 128;         ///< rays a side
+    bool refine = true;     ///< beams: rays through single pixels where no beam carries light
+    int mapSize = 512;      ///< texels a side of the caustic map
+    int steps = 32;         ///< looks at the receivers' image for a ray, at most
+    int receiverLayers = 2; ///< receivers behind each other on which light is found
+    int lightSamples = 16;  ///< points that stand for a lamp with a size
+    int wavelengths = 3;    ///< of white light in glass that disperses
 };
 
 struct Inputs {
     const scene::Scene& scene;
-    const views::Eye& eye;                       ///< the camera's
-    const std::vector<views::PosedMesh>& glass;  ///< refractive objects, hidden or not
-    const std::vector<views::PosedMesh>& solids; ///< opaque objects and mirrors, hidden or not
-    graph::TextureId surface;                    ///< views.surface; none: nothing is looked up
-    ivec2 size;                                  ///< of the camera's picture
+    const views::Eye& eye;                         ///< the camera's
+    const std::vector<views::PosedMesh>& glass;    ///< refractive objects, hidden or not
+    const std::vector<views::PosedMesh>& solids;   ///< opaque objects and mirrors, hidden or not
+    graph::TextureId surface;                      ///< views.surface; none: nothing is looked up
+    ivec2 size;                                    ///< of the camera's picture
+    const std::vector<views::DrawnObject>& fields; ///< height fields, which receive
+    graph::TextureId solid{};                      ///< record() makes it, where there are fields
 };
 
 /// What is drawn for each light; made once for as long as lights and objects stay where they are.
@@ -46,11 +49,17 @@ struct Plan {
         int layers = 0; ///< surfaces of refractive objects behind each other
         int border = 0; ///< pixels at each side that belong to the light's next view
     };
+    /// Water under a lamp that is high above it: its light is followed from the surface on.
+    struct Water {
+        views::ShadowViews over; ///< on what may hide the lamp; none: nothing can
+    };
     struct Light {
         views::LampPoint lamp;
-        std::vector<View> glass;      ///< that show what refracts
-        std::vector<View> mirrors;    ///< that show what mirrors
+        std::optional<Water> water{}; ///< instead of `glass`, where that is all that refracts
+        std::vector<View> glass{};    ///< that show what refracts
+        std::vector<View> mirrors{};  ///< that show what mirrors
         views::ShadowViews receivers; ///< in which the caustic map lies
+        bool hasBehind = false;       ///< behind what receives light lies more that does
     };
     std::vector<Light> lights;
 };
@@ -70,16 +79,16 @@ struct Energy {
 
 /// What one point of a light leaves on what it sees.
 struct Map {
-    graph::TextureId
-        flux; ///< RGBA16F; 1: what the light leaves on a texel undisturbed, in its brightest colour
-    graph::TextureId depths; ///< R32F: of the receivers; 1e30 where there is none
-    ivec2 size{0};           ///< of both
+    graph::TextureId flux;   ///< 1: what the light leaves on a texel undisturbed, in its brightest colour.
+                             ///< Above what lies on the receivers that it sees: on those behind, if any
+    graph::TextureId depths; ///< R32F: of the receivers that it sees; 1e30 where there is none
+    ivec2 size{0};           ///< of the latter
 };
 
 /// Not drawn: light that glass or mirrors reflect on (but for total reflection inside), light by way of a
-/// mirror and glass or of two mirrors, what falls on places that the lamp does not see past other receivers
-/// (in their shadows, on sides turned away from it), and what lamps inside of glass send out of it. Mirrors
-/// hide glass from a lamp, but stop no light behind it. Height fields neither receive nor hide anything.
+/// mirror and glass or of two mirrors, what falls on receivers that the lamp sees past two or more others, or
+/// on sides turned away from it, and what lamps inside of glass send out of it. Mirrors
+/// hide glass from a lamp, but stop no light behind it.
 class Caustics {
 public:
     static const ParamTable& params();
@@ -90,11 +99,13 @@ public:
 
     /// Chooses the views of each light and counts their layers, which reads pictures back.
     ///
-    /// @param eye  the camera's: what it does not show receives nothing
+    /// @param eye     the camera's: what it does not show receives nothing
+    /// @param fields  height fields, which receive
     Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
-                      const views::DrawnMeshes& meshes, const Settings& settings) const;
+                      const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
+                      const Settings& settings) const;
 
-    /// Adds the passes that give each pixel of opaque objects the irradiance of caustics.
+    /// Adds the passes that give each pixel of opaque objects and height fields the irradiance of caustics.
     ///
     /// @return  RGBA32F, W/m², of `in.size`; none where the plan has no light. Error (Fault::Machine) for
     ///          more than views::kMostGlass refractive objects or images larger than the GPU's textures
@@ -107,8 +118,8 @@ public:
 
     /// Runs the same passes and sums what they carry. Reads pictures back.
     Result<Energy> measure(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
-                           const views::DrawnMeshes& meshes, const Plan& plan,
-                           const Settings& settings) const;
+                           const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
+                           const Plan& plan, const Settings& settings) const;
 
 private:
     Status checkLimits(const Inputs& in, const Settings& settings) const;

@@ -24,6 +24,7 @@ float LightPasses::splatSize(const views::Eye& glass) const {
 
 DepositBlock LightPasses::depositBlock(const Photons& photons, float size) const {
     return {.faces = Faces(light_.receivers),
+            .frame = vec4(0),
             .grid = photons.count,
             .faceCount = int(light_.receivers.faces.size()),
             .face = 0,
@@ -35,9 +36,9 @@ Status LightPasses::deposit() {
     // One kind of what is drawn of the rays of a sheet.
     struct Kind {
         const gl::Program* program = nullptr;
-        graph::Topology topology = graph::Topology::Points;
-        bool rest = false; // of what no beam carries
-        int perSquare = 0; // vertices of a square between rays; 0: one for each ray
+        std::vector<std::pair<const char*, TextureId Sheet::*>> samples{}; // beside the rays themselves
+        bool rest = false;                                                 // of what no beam carries
+        bool triangles = false;                                            // between rays; else points
     };
     std::vector<Kind> kinds;
     const auto add = [&](const char* stem, std::vector<std::string> defines, Kind kind) -> Status {
@@ -47,57 +48,65 @@ Status LightPasses::deposit() {
         kinds.push_back(kind);
         return Done{};
     };
+    const views::ShadowViews& views = light_.receivers;
     if (settings_.deposit == Deposit::Beam) {
-        if (Status s = add("caustics/beam", {}, {.topology = graph::Topology::Triangles, .perSquare = 6}); !s)
-            return s;
-        if (Status s = add("caustics/beam", {"AS_POINTS"}, {.perSquare = 2}); !s) return s;
-        const std::vector<std::string> defines =
-            refines() ? std::vector<std::string>{} : std::vector<std::string>{"OF_RESTS"};
-        if (Status s = add("caustics/footprint", defines, {.rest = true}); !s) return s;
+        std::vector<std::string> ofBeams, ofRests;
+        if (views.faces.size() > 1) ofBeams.push_back("SEVERAL_VIEWS");
+        if (!refines()) ofRests.push_back("OF_RESTS");
+        Status s =
+            add("caustics/beam", ofBeams,
+                {.samples = {{"uBeams", &Sheet::beams}, {"uDensity", &Sheet::density}}, .triangles = true});
+        if (s) s = add("caustics/point", {}, {.samples = {{"uPoint", &Sheet::points}}});
+        if (s) s = add("caustics/footprint", ofRests, {.rest = true});
+        if (!s) return s;
     } else if (Status s = add("caustics/splat", {}, {}); !s) {
         return s;
     }
-    map_ = targets_.make("caustics.map", {.size = light_.receivers.imageSize(), .format = sumFormat()});
+    map_ = targets_.make("caustics.map", {.size = mapSize(), .format = sumFormat()});
     graph_.addPass("caustics.deposit", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("light on the receivers, by " + std::string(nameOf(settings_.deposit)));
+        pass.reason("light on the receivers, by " + std::string(nameOf(settings_.deposit)) +
+                    (light_.hasBehind ? "; on those behind others too" : ""));
         struct Step {
-            Kind kind;
+            graph::Draw draw;
             DepositBlock block;
-            Photons photons;
-            TextureId beams, gridLanding;
+            std::vector<std::pair<const char*, TextureId>> samples;
         };
         std::vector<Step> steps;
         for (const Sheet& sheet : sheets_)
             for (const Kind& kind : kinds) {
                 const Photons& photons = kind.rest ? sheet.rest : sheet.grid;
                 const float size = kind.rest ? context_.caps().maxPointSize : splatSize(sheet.eye);
-                pass.sample(photons.landing);
-                pass.sample(photons.flux);
-                if (kind.perSquare > 0) pass.sample(sheet.beams);
-                steps.push_back(
-                    {kind, depositBlock(photons, size), photons, sheet.beams, sheet.grid.landing});
+                const ivec2 squares = photons.count - 1;
+                Step step{.draw = {.program = kind.program,
+                                   .vertices = kind.triangles ? 6 * squares.x * squares.y
+                                                              : photons.count.x * photons.count.y,
+                                   .topology =
+                                       kind.triangles ? graph::Topology::Triangles : graph::Topology::Points,
+                                   .blend = graph::Blend::Add},
+                          .block = depositBlock(photons, size),
+                          .samples = {{"uLanding", photons.landing}, {"uFlux", photons.flux}}};
+                for (const auto& [name, texture] : kind.samples)
+                    step.samples.push_back({name, sheet.*texture});
+                if (kind.rest && !refines()) step.samples.push_back({"uGridLanding", sheet.grid.landing});
+                for (const auto& [name, texture] : step.samples)
+                    pass.sample(texture);
+                steps.push_back(std::move(step));
             }
         pass.write(map_);
         pass.clear(map_, vec4(0));
-        return [steps = std::move(steps), refines = refines(),
-                views = light_.receivers](const graph::Resources& resources, graph::Commands& commands) {
+        return [steps = std::move(steps), views, all = ivec4(0, 0, mapSize()),
+                hasBehind = light_.hasBehind](const graph::Resources& resources, graph::Commands& commands) {
             for (int face = 0; face < int(views.faces.size()); ++face)
-                for (const auto& [kind, block, photons, beams, gridLanding] : steps) {
-                    DepositBlock here = block;
-                    here.face = face;
-                    const ivec2 squares = photons.count - 1;
-                    std::vector<graph::Binding> textures{{"uLanding", resources[photons.landing]},
-                                                         {"uFlux", resources[photons.flux]}};
-                    if (kind.perSquare > 0) textures.push_back({"uBeams", resources[beams]});
-                    if (kind.rest && !refines) textures.push_back({"uGridLanding", resources[gridLanding]});
-                    commands.draw({.program = kind.program,
-                                   .vertices = kind.perSquare > 0 ? kind.perSquare * squares.x * squares.y
-                                                                  : photons.count.x * photons.count.y,
-                                   .topology = kind.topology,
-                                   .region = ivec4(views.corner(face), views.size, views.size),
-                                   .blend = graph::Blend::Add,
-                                   .block = here,
-                                   .textures = std::move(textures)});
+                for (const Step& step : steps) {
+                    graph::Draw draw = step.draw;
+                    draw.region = hasBehind ? all : ivec4(views.corner(face), views.size, views.size);
+                    DepositBlock block = step.block;
+                    block.face = face;
+                    block.frame = vec4(draw.region);
+                    draw.block = block;
+                    for (const auto& [name, texture] : step.samples)
+                        draw.textures.push_back({name, resources[texture]});
+                    commands.draw(draw);
                 }
         };
     });
@@ -105,25 +114,32 @@ Status LightPasses::deposit() {
 }
 
 Status LightPasses::lookUp(TextureId& sum) {
-    Result<const gl::Program*> looking =
-        program("caustics/lookup", sum ? std::vector<std::string>{"USE_BEFORE"} : std::vector<std::string>{});
+    std::vector<std::string> defines;
+    if (sum) defines.push_back("USE_BEFORE");
+    if (behind_) defines.push_back("USE_BEHIND");
+    if (in_.solid) defines.push_back("FROM_SOLID");
+    const char* const name = in_.solid ? "uSolid" : "uSurface";
+    const TextureId pixels = in_.solid ? in_.solid : in_.surface;
+    Result<const gl::Program*> looking = program("caustics/lookup", defines);
     if (!looking) return looking.error();
     const TextureId before = sum;
     graph_.addPass("caustics.lookup", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("irradiance that one point of a light throws on each pixel by way of glass");
-        pass.sample(in_.surface);
+        pass.sample(pixels);
         pass.sample(map_);
         pass.sample(depths_);
+        if (behind_) pass.sample(behind_);
         if (before) pass.sample(before);
         sum = pass.createColor("caustics.irradiance", {.size = in_.size, .format = Format::RGBA32F});
         const LookupBlock block{.view = views::viewBlock(in_.eye, in_.size),
                                 .faces = Faces(light_.receivers),
                                 .faceCount = int(light_.receivers.faces.size()),
                                 .unit = unit()};
-        return [=, program = *looking, surface = in_.surface, map = map_,
-                depths = depths_](const graph::Resources& resources, graph::Commands& commands) {
+        return [=, program = *looking, map = map_, depths = depths_,
+                behind = behind_](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{
-                {"uSurface", resources[surface]}, {"uMap", resources[map]}, {"uShadow", resources[depths]}};
+                {name, resources[pixels]}, {"uMap", resources[map]}, {"uShadow", resources[depths]}};
+            if (behind) textures.push_back({"uBehind", resources[behind]});
             if (before) textures.push_back({"uBefore", resources[before]});
             commands.draw({.program = program, .block = block, .textures = std::move(textures)});
         };

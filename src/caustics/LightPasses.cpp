@@ -46,15 +46,32 @@ PhotonBlock LightPasses::photonBlock(const Plan::View& view, const Tint& tint) c
 
 Result<views::Layers> LightPasses::layersOf(const Plan::View& view, TextureId& solid) {
     const ivec2 size = viewSize();
-    if (!in_.solids.empty()) {
+    if (!in_.solids.empty() || !in_.fields.empty()) {
         const TextureDesc desc{.size = size, .format = Format::RGBA32F};
         const TextureId surface = graph_.create("caustics.surface", desc);
         solid = graph_.create("caustics.solid", desc);
-        Status s = views::recordSurface(graph_, context_, view.eye, {}, in_.solids, surface, size);
-        if (s) s = views::recordSolid(graph_, context_, view.eye, {}, in_.solids, surface, solid, size);
+        Status s = views::recordSurface(graph_, context_, view.eye, in_.fields, in_.solids, surface, size);
+        if (s)
+            s = views::recordSolid(graph_, context_, view.eye, in_.fields, in_.solids, surface, solid, size);
         if (!s) return s.error();
     }
     return views::recordLayers(graph_, context_, view.eye, in_.glass, size, view.layers, solid);
+}
+
+namespace {
+graph::Draw filled(graph::Draw draw, const gl::Program& program, const graph::Block& block,
+                   std::vector<graph::Binding> textures) {
+    draw.program = &program;
+    draw.block = block;
+    draw.textures = std::move(textures);
+    return draw;
+}
+} // namespace
+
+// Rays through single pixels are begun in cells that no beam carries alone: a point is drawn for each.
+graph::Draw LightPasses::drawOf(Part part) const {
+    if (part != Part::Pixels) return {};
+    return {.vertices = settings_.grid * settings_.grid, .topology = graph::Topology::Points};
 }
 
 std::vector<std::string> LightPasses::Start::defines() const {
@@ -79,14 +96,16 @@ Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views:
         views::sampleLayers(pass, layers);
         if (solid) pass.sample(solid);
         if (start.usesBeams()) pass.sample(start.beams);
-        for (const TextureId target : start.targets)
+        for (const TextureId target : start.targets) {
             pass.write(target);
-        return [=, program = *traced, block = photonBlock(view, tint)](const graph::Resources& resources,
-                                                                       graph::Commands& commands) {
+            if (start.part == Part::Pixels) pass.clear(target, vec4(0));
+        }
+        return [=, draw = drawOf(start.part), program = *traced, block = photonBlock(view, tint)](
+                   const graph::Resources& resources, graph::Commands& commands) {
             auto textures = views::layerBindings(resources, layers);
             if (solid) textures.push_back({"uSolid", resources[solid]});
             if (start.usesBeams()) textures.push_back({"uBeams", resources[start.beams]});
-            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+            commands.draw(filled(draw, *program, block, std::move(textures)));
         };
     });
     return Done{};
@@ -107,7 +126,8 @@ Result<TextureId> LightPasses::surfaceOf(const views::Eye& eye) {
     everything.insert(everything.end(), in_.glass.begin(), in_.glass.end());
     const TextureId surface =
         graph_.create("caustics.surface", {.size = viewSize(), .format = Format::RGBA32F});
-    if (Status s = views::recordSurface(graph_, context_, eye, {}, everything, surface, viewSize()); !s)
+    if (Status s = views::recordSurface(graph_, context_, eye, in_.fields, everything, surface, viewSize());
+        !s)
         return s.error();
     return surface;
 }
@@ -121,13 +141,15 @@ Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Sta
                                      : "rays of one point of a light off mirrors");
         pass.sample(surface);
         if (start.usesBeams()) pass.sample(start.beams);
-        for (const TextureId target : start.targets)
+        for (const TextureId target : start.targets) {
             pass.write(target);
-        return [=, program = *reflecting, block = mirrorBlock(view)](const graph::Resources& resources,
-                                                                     graph::Commands& commands) {
+            if (start.part == Part::Pixels) pass.clear(target, vec4(0));
+        }
+        return [=, draw = drawOf(start.part), program = *reflecting,
+                block = mirrorBlock(view)](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
             if (start.usesBeams()) textures.push_back({"uBeams", resources[start.beams]});
-            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+            commands.draw(filled(draw, *program, block, std::move(textures)));
         };
     });
     return Done{};
@@ -145,7 +167,7 @@ Result<LightPasses::Photons> LightPasses::send(Part part, TextureId beams, const
     if (Status s = trace({part, beams, {photons.place, photons.direction, photons.flux}}); !s)
         return s.error();
     if (isInPicture()) return photons; // they land there
-    if (Status s = land(photons); !s) return s.error();
+    if (Status s = land(photons, part, beams); !s) return s.error();
     return photons;
 }
 
@@ -167,9 +189,10 @@ Status LightPasses::carry(const views::Eye& eye, const Trace& trace) {
     if (!grid) return grid.error();
     sheet.grid = *grid;
     if (beams) {
-        Result<TextureId> mask = beamsOf(eye, *grid);
+        Result<TextureId> mask = beamsOf(*grid, 2 * eye.halfExtent.x / float(grid->count.x));
         if (!mask) return mask.error();
         sheet.beams = *mask;
+        if (Status s = weigh(sheet); !s) return s;
     }
     if (Status s = keepBook(part, sheet.beams, *grid, trace); !s) return s;
     if (beams) {
@@ -185,16 +208,18 @@ Status LightPasses::carry(const views::Eye& eye, const Trace& trace) {
 
 // A little larger, so that flat ones have an inside.
 views::Bounds LightPasses::boxOfReceivers() const {
-    views::Bounds box = boundsOfAll(receivers_);
+    views::Bounds box = boundsOfAll(receivers_, in_.fields);
     const float margin = 1e-3f * box.radius();
     return {box.low - margin, box.high + margin};
 }
 
-Status LightPasses::land(Photons& photons) {
+Status LightPasses::land(Photons& photons, Part part, TextureId beams) {
     static const char* const kVariants[] = {nullptr, "FIXED_POINT", "NEWTON", "SECANT"};
-    const char* variant = kVariants[std::size_t(settings_.intersect)];
-    Result<const gl::Program*> landing =
-        program("caustics/land", variant ? std::vector<std::string>{variant} : std::vector<std::string>{});
+    std::vector<std::string> defines;
+    if (const char* variant = kVariants[std::size_t(settings_.intersect)]) defines.push_back(variant);
+    if (behind_) defines.push_back("USE_BEHIND");
+    if (part == Part::Pixels) defines.push_back("PIXELS");
+    Result<const gl::Program*> landing = program("caustics/land", defines);
     if (!landing) return landing.error();
     const views::Bounds box = boxOfReceivers();
     photons.landing = targets_.make("caustics.landing", {.size = photons.count, .format = Format::RGBA32F});
@@ -205,26 +230,38 @@ Status LightPasses::land(Photons& photons) {
         pass.sample(photons.place);
         pass.sample(photons.direction);
         pass.sample(depths_);
-        pass.write(photons.landing);
-        pass.write(effort);
+        if (behind_) {
+            pass.sample(behind_);
+            pass.sample(back_);
+        }
+        for (const TextureId target : {photons.landing, effort}) {
+            pass.write(target);
+            if (part == Part::Pixels) pass.clear(target, vec4(0));
+        }
+        if (part == Part::Pixels) pass.sample(beams);
         const LandBlock block{.faces = Faces(light_.receivers),
                               .low = vec4(box.low, 0),
                               .high = vec4(box.high, 0),
                               .faceCount = int(light_.receivers.faces.size()),
                               .steps = settings_.steps};
-        return [=, program = *landing, depths = depths_](const graph::Resources& resources,
-                                                         graph::Commands& commands) {
-            commands.draw({.program = program,
-                           .block = block,
-                           .textures = {{"uPlace", resources[photons.place]},
-                                        {"uDirection", resources[photons.direction]},
-                                        {"uShadow", resources[depths]}}});
+        return [=, draw = drawOf(part), program = *landing, depths = depths_, behind = behind_,
+                back = back_](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uPlace", resources[photons.place]},
+                                                 {"uDirection", resources[photons.direction]},
+                                                 {"uShadow", resources[depths]}};
+            if (behind) {
+                textures.push_back({"uBehind", resources[behind]});
+                textures.push_back({"uBack", resources[back]});
+            }
+            if (part == Part::Pixels) textures.push_back({"uBeams", resources[beams]});
+            commands.draw(filled(draw, *program, block, std::move(textures)));
         };
     });
     return Done{};
 }
 
-Result<TextureId> LightPasses::beamsOf(const views::Eye& eye, const Photons& photons) {
+// @param cell  width of a ray's: m, or of a point's light m for each metre from it
+Result<TextureId> LightPasses::beamsOf(const Photons& photons, float cell) {
     Result<const gl::Program*> choosing = program(
         "caustics/beams", refines() ? std::vector<std::string>{"REFINE"} : std::vector<std::string>{});
     if (!choosing) return choosing.error();
@@ -235,7 +272,7 @@ Result<TextureId> LightPasses::beamsOf(const views::Eye& eye, const Photons& pho
         pass.sample(photons.flux);
         pass.sample(photons.landing);
         beams = pass.createColor("caustics.beams", {.size = photons.count, .format = Format::RGBA32F});
-        const DepositBlock block = depositBlock(photons, 2 * eye.halfExtent.x / float(photons.count.x));
+        const DepositBlock block = depositBlock(photons, cell);
         return [photons, block, program = *choosing](const graph::Resources& resources,
                                                      graph::Commands& commands) {
             commands.draw({.program = program,
@@ -248,15 +285,76 @@ Result<TextureId> LightPasses::beamsOf(const views::Eye& eye, const Photons& pho
     return beams;
 }
 
+// What the triangles around each ray leave where it lands.
+Status LightPasses::weigh(Sheet& sheet) {
+    Result<const gl::Program*> weighing = program("caustics/density");
+    if (!weighing) return weighing.error();
+    graph_.addPass("caustics.density", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("how densely the triangles around each ray light what they fall on");
+        pass.sample(sheet.beams);
+        pass.sample(sheet.grid.flux);
+        const TextureDesc desc{.size = sheet.grid.count, .format = Format::RGBA32F};
+        sheet.density = pass.createColor("caustics.density", desc);
+        sheet.points = pass.createColor("caustics.points", desc);
+        return [beams = sheet.beams, flux = sheet.grid.flux, block = depositBlock(sheet.grid, 0),
+                program = *weighing](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uBeams", resources[beams]}, {"uFlux", resources[flux]}}});
+        };
+    });
+    return Done{};
+}
+
+// Depths at which what the light sees ends, where it is solid.
+Status LightPasses::recordBack() {
+    Result<const gl::Program*> drawing = program("views/shadow", {"BEHIND", "BACK"});
+    if (!drawing) return drawing.error();
+    graph_.addPass("caustics.back", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("how thick what the light sees is, past which it may come");
+        for (const views::PosedMesh& mesh : receivers_) {
+            pass.sample(mesh.positions);
+            pass.sample(mesh.normals);
+        }
+        pass.sample(depths_);
+        const ivec2 size = light_.receivers.imageSize();
+        back_ = pass.createColor("caustics.back", {.size = size, .format = Format::R32F});
+        pass.clear(back_, vec4(1e30f));
+        pass.clear(pass.createDepth("caustics.backDepth", size, Format::Depth32F), 1.0f);
+        return [program = *drawing, views = light_.receivers, meshes = receivers_,
+                first = depths_](const graph::Resources& resources, graph::Commands& commands) {
+            for (int face = 0; face < int(views.faces.size()); ++face)
+                for (const views::PosedMesh& mesh : meshes)
+                    views::drawMesh(commands, *program, resources, mesh, views.faces[std::size_t(face)],
+                                    ivec2(views.size), mesh.drawn.index,
+                                    {.region = ivec4(views.corner(face), views.size, views.size),
+                                     .depthTest = graph::DepthTest::Less,
+                                     .textures = {{"uFirst", resources[first]}}});
+        };
+    });
+    return Done{};
+}
+
 // --- all of them
 
 Status LightPasses::record(TextureId& sum) {
-    Result<TextureId> depths =
-        views::recordShadow(graph_, context_, light_.receivers, receivers_, boundsOfAll(receivers_));
+    Result<TextureId> depths = views::recordShadow(graph_, context_, light_.receivers, receivers_,
+                                                   boundsOfAll(receivers_, in_.fields), in_.fields);
     if (!depths) return depths.error();
     depths_ = *depths;
+    if (light_.hasBehind) {
+        Result<TextureId> behind =
+            views::recordShadow(graph_, context_, light_.receivers, receivers_,
+                                boundsOfAll(receivers_, in_.fields), in_.fields, depths_);
+        if (!behind) return behind.error();
+        behind_ = *behind;
+        if (Status s = recordBack(); !s) return s;
+    }
     const std::vector<Tint> light =
         views::disperses(in_.glass) ? tints(settings_.wavelengths) : std::vector<Tint>{{}};
+    if (light_.water)
+        for (const Tint& tint : light)
+            if (Status s = carryFromWater(tint); !s) return s;
     for (const Plan::View& view : light_.glass) {
         TextureId solid;
         Result<views::Layers> layers = layersOf(view, solid);

@@ -26,6 +26,9 @@ std::vector<Mesh> mirrorsOf(std::vector<Mesh> solids) {
     return solids;
 }
 
+/// Whether all that refracts is water that a lamp looks down on, so that rays may begin on it.
+bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const views::DrawnMeshes& meshes);
+
 /// Pixels of a light's view of what bends its light, for a grid of rays.
 ivec2 viewSizeOf(int grid);
 
@@ -73,7 +76,7 @@ private:
     struct Sheet {
         views::Eye eye; // of the light
         Photons grid{}, rest{};
-        graph::TextureId beams{};
+        graph::TextureId beams{}, density{}, points{};
     };
     // Which rays a pass begins (shaders/caustics/photon.glsl).
     enum class Part { Cells, Vertices, Rests, Pixels };
@@ -105,17 +108,29 @@ private:
     Status carry(const views::Eye& eye, const Trace& trace);
     Result<Photons> send(Part part, graph::TextureId beams, const Trace& trace);
     Status keepBook(Part part, graph::TextureId beams, const Photons& photons, const Trace& trace);
-    Status land(Photons& photons);
-    Result<graph::TextureId> beamsOf(const views::Eye& eye, const Photons& photons);
+    graph::Draw drawOf(Part part) const;
+    Status land(Photons& photons, Part part = Part::Cells, graph::TextureId beams = {});
+    Status recordBack();
+    Result<graph::TextureId> beamsOf(const Photons& photons, float cell);
+    Status weigh(Sheet& sheet);
+
+    WaterRaysBlock waterBlock(const Tint& tint, ivec2 rays) const;
+    Status beginOnWater(const Tint& tint, ivec2 rays, graph::TextureId shadow,
+                        const std::vector<graph::TextureId>& targets, bool book);
+    Status soak(const Photons& photons, graph::TextureId before, graph::TextureId met,
+                graph::TextureId target);
+    Status leaveAlone(Sheet& sheet);
+    Status carryFromWater(const Tint& tint);
 
     float splatSize(const views::Eye& glass) const;
     DepositBlock depositBlock(const Photons& photons, float size) const;
+    ivec2 mapSize() const { return light_.receivers.imageSize() * ivec2(1, light_.hasBehind ? 2 : 1); }
     Status deposit();
     Status lookUp(graph::TextureId& sum);
 
     // Lines are drawn in the camera's picture; where that is not asked for, their rays are splats.
     // The points of a lamp with a size blur each other's edges.
-    bool refines() const { return settings_.refine && !light_.lamp.isPart; }
+    bool refines() const { return settings_.refine && !light_.lamp.isPart && !light_.water; }
     bool isInPicture() const { return settings_.deposit == Deposit::Lines && in_.surface; }
     Status drawLines(graph::TextureId& sum);
     Status gather(graph::TextureId flux, graph::TextureId& sum);
@@ -135,6 +150,7 @@ private:
     std::vector<views::PosedMesh> receivers_;
     std::vector<Sheet> sheets_;
     graph::TextureId depths_, map_;
+    graph::TextureId behind_, back_; // none where no receiver lies behind another
 };
 
 } // namespace lucent::caustics

@@ -51,6 +51,20 @@ struct BackgroundBlock {
     }
 };
 
+struct FieldLightBlock {
+    vec4 diffuse;
+    vec2 texels;
+    int object, padding = 0;
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {{"diffuse", offsetof(FieldLightBlock, diffuse)},
+                                                             {"texels", offsetof(FieldLightBlock, texels)},
+                                                             {"object", offsetof(FieldLightBlock, object)}};
+        static const graph::BlockLayout layout{"FieldLightBlock", sizeof(FieldLightBlock), members};
+        return layout;
+    }
+};
+
 } // namespace
 
 Result<Drawn> drawnOf(const scene::Scene& scene, views::ImageCache& images, const views::Waters& waters) {
@@ -89,10 +103,11 @@ views::Eye Compose::closeEye(const Inputs& in) {
 Status Compose::prepare(const Inputs& in) {
     unsure_ = false;
     caustic_.reset();
-    if (!in.drawn.meshes.solid.empty() && caustics::Caustics::need(in.scene)) {
+    if (caustics::Caustics::need(in.scene)) {
         Result<views::DrawnMeshes> all = views::drawnMeshes(in.scene, images_, true, &waters_);
         if (!all) return all.error();
-        Result<caustics::Plan> plan = caustics_.plan(pool_, in.scene, in.eye, *all, causticSettings(in));
+        Result<caustics::Plan> plan =
+            caustics_.plan(pool_, in.scene, in.eye, *all, in.drawn.fields, causticSettings(in));
         if (!plan) return plan.error();
         caustic_ = std::move(*plan);
     }
@@ -160,7 +175,7 @@ Result<bool> Compose::settle(const Inputs& in) {
 }
 
 Status Compose::record(graph::FrameGraph& graph, const Inputs& in) {
-    if (in.drawn.count() == in.drawn.fields.size()) return Done{};
+    if (!isNeeded(in.scene, in.drawn)) return Done{};
     // Every mesh is posed once, hidden ones too: they cast shadows and caustics.
     Result<views::DrawnMeshes> all = views::drawnMeshes(in.scene, images_, true, &waters_);
     if (!all) return all.error();
@@ -172,8 +187,13 @@ Status Compose::record(graph::FrameGraph& graph, const Inputs& in) {
     if (isNumbered(in.scene.view.show)) return recordInside(graph, in, *solids, *glass);
     const TextureId surface = import(graph, in.surface), shown = import(graph, in.shown);
     graph.keep(shown);
+    TextureId flux;
+    if (caustic_)
+        if (Status s = recordCaustics(graph, in, *solids, *glass, surface, flux); !s) return s;
+    if (flux && !in.drawn.fields.empty())
+        if (Status s = recordOnFields(graph, in, surface, flux, shown); !s) return s;
     if (!in.drawn.meshes.solid.empty())
-        if (Status s = recordSolids(graph, in, *solids, *glass, surface, shown); !s) return s;
+        if (Status s = recordSolids(graph, in, *solids, *glass, surface, flux, shown); !s) return s;
     if (!in.drawn.meshes.glass.empty())
         return recordThrough(graph, in, seen(*solids), seen(*glass), surface, shown);
     if (replaces(in.scene, in.drawn)) return recordBackground(graph, in, surface, shown);
@@ -191,6 +211,10 @@ Result<std::vector<views::PosedMesh>> Compose::recordGlass(graph::FrameGraph& gr
     triangled_ = std::move(standing);
     watersThen_ = waters_.changes();
     return views::recordPose(graph, context_, glass, scene.view.time, &triangles_);
+}
+
+bool Compose::isNeeded(const scene::Scene& scene, const Drawn& drawn) {
+    return drawn.count() > drawn.fields.size() || (!drawn.fields.empty() && caustics::Caustics::need(scene));
 }
 
 bool Compose::replaces(const scene::Scene& scene, const Drawn& drawn) {
@@ -213,7 +237,7 @@ Status Compose::recordInside(graph::FrameGraph& graph, const Inputs& in,
                           target);
             return Done{};
         }
-        const caustics::Inputs inputs{in.scene, in.eye, glass, solids, {}, size};
+        const caustics::Inputs inputs{in.scene, in.eye, glass, solids, {}, size, in.drawn.fields};
         Result<caustics::Map> map = caustics_.recordMap(
             graph, inputs, caustic_->lights[std::size_t(view.layer - 1)], causticSettings(in));
         return map ? recordMapView(graph, context_, *map, target, size) : map.error();
@@ -230,8 +254,10 @@ Result<std::optional<caustics::Energy>> Compose::energy(const Inputs& in) {
     if (!caustic_) return std::optional<caustics::Energy>();
     Result<views::DrawnMeshes> all = views::drawnMeshes(in.scene, images_, true, &waters_);
     if (!all) return all.error();
+    Result<std::vector<views::DrawnObject>> fields = views::drawnObjects(in.scene, images_);
+    if (!fields) return fields.error();
     Result<caustics::Energy> energy =
-        caustics_.measure(pool_, in.scene, in.eye, *all, *caustic_, causticSettings(in));
+        caustics_.measure(pool_, in.scene, in.eye, *all, *fields, *caustic_, causticSettings(in));
     if (!energy) return energy.error();
     return std::optional(*energy);
 }
@@ -265,23 +291,80 @@ Status Compose::recordBackground(graph::FrameGraph& graph, const Inputs& in, Tex
     return Done{};
 }
 
+Status Compose::recordCaustics(graph::FrameGraph& graph, const Inputs& in,
+                               const std::vector<views::PosedMesh>& solids,
+                               const std::vector<views::PosedMesh>& glass, TextureId surface,
+                               TextureId& flux) {
+    Result<TextureId> irradiance = caustics_.record(graph,
+                                                    {.scene = in.scene,
+                                                     .eye = in.eye,
+                                                     .glass = glass,
+                                                     .solids = solids,
+                                                     .surface = surface,
+                                                     .size = in.shown.desc().size,
+                                                     .fields = in.drawn.fields},
+                                                    *caustic_, causticSettings(in));
+    if (!irradiance) return irradiance.error();
+    flux = *irradiance;
+    return Done{};
+}
+
+// Adds caustics to the light on height fields. Where an image is read and drawn in turn it needs another one.
+Status Compose::recordOnFields(graph::FrameGraph& graph, const Inputs& in, TextureId surface, TextureId flux,
+                               TextureId shown) {
+    if (in.scene.view.show != scene::Aov::Color) return Done{};
+    Result<const gl::Program*> copying = context_.program("frame/field_light", {"COPY"});
+    if (!copying) return copying.error();
+    std::vector<const gl::Program*> lighting;
+    for (const views::DrawnObject& field : in.drawn.fields) {
+        const bool hasMap = field.diffuseMap != graph::TextureHandle::None;
+        Result<const gl::Program*> program = context_.program(
+            "frame/field_light", hasMap ? std::vector<std::string>{"USE_MAP"} : std::vector<std::string>{});
+        if (!program) return program.error();
+        lighting.push_back(*program);
+    }
+    TextureId lit;
+    graph.addPass("frame.fieldLight", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("light of caustics on " + std::to_string(lighting.size()) + " height field(s)");
+        pass.sample(surface);
+        pass.sample(flux);
+        pass.sample(shown);
+        lit = pass.createColor("frame.fieldLight", {.size = in.shown.desc().size, .format = Format::RGBA32F});
+        pass.clear(lit, vec4(0));
+        return [=, fields = in.drawn.fields](const graph::Resources& resources, graph::Commands& commands) {
+            for (std::size_t i = 0; i < fields.size(); ++i) {
+                const scene::Material& material = fields[i].object->material;
+                const FieldLightBlock block{.diffuse = vec4((1 - material.specularity) * material.diffuse, 0),
+                                            .texels =
+                                                fields[i].field->block(fields[i].object->field()).texels,
+                                            .object = fields[i].index};
+                std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
+                                                     {"uFlux", resources[flux]},
+                                                     {"uShown", resources[shown]}};
+                if (fields[i].diffuseMap != graph::TextureHandle::None)
+                    textures.push_back({"uDiffuseMap", fields[i].diffuseMap});
+                commands.draw({.program = lighting[i], .block = block, .textures = std::move(textures)});
+            }
+        };
+    });
+    graph.addPass("frame.keepFieldLight", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("that light, where it belongs");
+        pass.sample(surface);
+        pass.sample(lit);
+        pass.write(shown);
+        return [=, program = *copying](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .textures = {{"uSurface", resources[surface]}, {"uShown", resources[lit]}}});
+        };
+    });
+    return Done{};
+}
+
 Status Compose::recordSolids(graph::FrameGraph& graph, const Inputs& in,
                              const std::vector<views::PosedMesh>& solids,
-                             const std::vector<views::PosedMesh>& glass, TextureId surface, TextureId shown) {
+                             const std::vector<views::PosedMesh>& glass, TextureId surface, TextureId flux,
+                             TextureId shown) {
     const ivec2 size = in.shown.desc().size;
-    TextureId flux;
-    if (caustic_) {
-        Result<TextureId> irradiance = caustics_.record(graph,
-                                                        {.scene = in.scene,
-                                                         .eye = in.eye,
-                                                         .glass = glass,
-                                                         .solids = solids,
-                                                         .surface = surface,
-                                                         .size = size},
-                                                        *caustic_, causticSettings(in));
-        if (!irradiance) return irradiance.error();
-        flux = *irradiance;
-    }
     std::vector<views::PosedMesh> casters = solids;
     casters.insert(casters.end(), glass.begin(), glass.end());
     const scene::Aov show = in.scene.view.show;
@@ -333,7 +416,8 @@ Status Compose::recordSurfaces(graph::FrameGraph& graph, const Inputs& in,
                          .environment = *environment,
                          .target = target,
                          .show = in.scene.view.show,
-                         .size = in.shown.desc().size},
+                         .size = in.shown.desc().size,
+                         .fields = in.drawn.fields},
                         settings);
 }
 

@@ -40,8 +40,10 @@ public:
     views::Waters& waters() { return waters_; }
     /// What record() needs to know of the scene before.
     Status prepare(const Inputs& in);
-    /// Adds all passes; nothing for a scene of height fields.
+    /// Adds all passes; nothing where !isNeeded().
     Status record(graph::FrameGraph& graph, const Inputs& in);
+    /// Whether record() adds anything: all that is no height field, and caustics on those.
+    static bool isNeeded(const scene::Scene& scene, const Drawn& drawn);
     /// Whether the picture stands in through() and not in `shown`: where something refracts, and where an
     /// environment stands behind meshes.
     static bool replaces(const scene::Scene& scene, const Drawn& drawn);
@@ -67,10 +69,16 @@ public:
     void clear();
 
 private:
+    Status recordCaustics(graph::FrameGraph& graph, const Inputs& in,
+                          const std::vector<views::PosedMesh>& solids,
+                          const std::vector<views::PosedMesh>& glass, graph::TextureId surface,
+                          graph::TextureId& flux);
+    Status recordOnFields(graph::FrameGraph& graph, const Inputs& in, graph::TextureId surface,
+                          graph::TextureId flux, graph::TextureId shown);
     Status recordSolids(graph::FrameGraph& graph, const Inputs& in,
                         const std::vector<views::PosedMesh>& solids,
                         const std::vector<views::PosedMesh>& glass, graph::TextureId surface,
-                        graph::TextureId shown);
+                        graph::TextureId flux, graph::TextureId shown);
     Status recordSurfaces(graph::FrameGraph& graph, const Inputs& in,
                           const std::vector<views::PosedMesh>& shaded,
                           const std::vector<views::PosedMesh>& casters, graph::TextureId flux,

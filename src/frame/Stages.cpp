@@ -297,7 +297,7 @@ Status Renderer::State::recordRelief(graph::FrameGraph& graph, const scene::Scen
 // All that is no height field, over the finished light on the fields.
 Status Renderer::State::addOthers(const scene::Scene& scene, const Drawn& drawn) {
     composed = Compose::replaces(scene, drawn) && !isGeometric(scene.view.show);
-    if (drawn.count() == drawn.fields.size() || isGeometric(scene.view.show)) return Done{};
+    if (!Compose::isNeeded(scene, drawn) || isGeometric(scene.view.show)) return Done{};
     const double before = now();
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
     const scene::Scene used = chosen(scene);

@@ -214,9 +214,9 @@ Result<caustics::Energy> energyOf(gl::Context& context, const scene::Scene& scen
     if (!drawn) return drawn.error();
     const views::Eye eye = views::makeEye(scene, float(scene.size.x) / float(scene.size.y));
     const caustics::Caustics technique(context);
-    const Result<caustics::Plan> plan = technique.plan(pool, scene, eye, *drawn, settings);
+    const Result<caustics::Plan> plan = technique.plan(pool, scene, eye, *drawn, {}, settings);
     if (!plan) return plan.error();
-    return technique.measure(pool, scene, eye, *drawn, *plan, settings);
+    return technique.measure(pool, scene, eye, *drawn, {}, *plan, settings);
 }
 
 double total(const dvec3& flux) { return flux.r + flux.g + flux.b; }

@@ -162,7 +162,8 @@ ShadowViews shadowViews(const ShadowSource& source, const Bounds& casters, const
 
 Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& context,
                                       const ShadowViews& views, const std::vector<PosedMesh>& casters,
-                                      const Bounds& receivers) {
+                                      const Bounds& receivers, const std::vector<DrawnObject>& fields,
+                                      graph::TextureId first) {
     const ivec2 imageSize = views.imageSize();
     const int most = context.caps().maxTextureSize;
     if (std::max(imageSize.x, imageSize.y) > most)
@@ -170,15 +171,26 @@ Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& con
                          std::to_string(imageSize.y) + " texels; must be at most " + std::to_string(most) +
                          " a side on this GPU",
                      Fault::Machine};
-    Result<const gl::Program*> program = context.program("views/shadow");
+    std::vector<std::string> defines;
+    if (first) defines.push_back("BEHIND");
+    Result<const gl::Program*> program = context.program("views/shadow", defines);
     if (!program) return program.error();
+    const gl::Program* ofFields = nullptr;
+    if (!fields.empty()) {
+        defines.push_back("AS_SHADOW");
+        Result<const gl::Program*> found = context.program("views/surface", defines);
+        if (!found) return found.error();
+        ofFields = *found;
+    }
     std::vector<Bounds> bounds;
     for (const PosedMesh& caster : casters)
         bounds.push_back(boundsOf(*caster.drawn.object));
     graph::TextureId depths;
     graph.addPass("views.shadow", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("what stands in the way of one point of a light, in " +
+        pass.reason((first ? "what lies behind what one point of a light sees, in "
+                           : "what stands in the way of one point of a light, in ") +
                     std::to_string(views.faces.size()) + " view(s)");
+        if (first) pass.sample(first);
         for (const PosedMesh& caster : casters) {
             pass.sample(caster.positions);
             pass.sample(caster.normals);
@@ -187,14 +199,21 @@ Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& con
         pass.clear(depths, vec4(kNothing));
         pass.clear(pass.createDepth("views.shadowDepth", imageSize, graph::Format::Depth32F), 1.0f);
         return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> before;
+            if (first) before.push_back({"uFirst", resources[first]});
             for (std::size_t face = 0; face < views.faces.size(); ++face) {
                 const Eye& eye = views.faces[face];
                 if (!mayShow(eye, receivers)) continue;
+                const graph::Draw draw{.region = ivec4(views.corner(int(face)), views.size, views.size),
+                                       .depthTest = graph::DepthTest::Less,
+                                       .textures = before};
                 for (std::size_t i = 0; i < casters.size(); ++i)
                     if (mayShow(eye, bounds[i]))
                         drawMesh(commands, *program, resources, casters[i], eye, ivec2(views.size), int(i),
-                                 {.region = ivec4(views.corner(int(face)), views.size, views.size),
-                                  .depthTest = graph::DepthTest::Less});
+                                 draw);
+                for (const DrawnObject& field : fields)
+                    if (mayShow(eye, boundsOf(*field.object)))
+                        drawField(commands, *ofFields, field, eye, ivec2(views.size), draw);
             }
         };
     });

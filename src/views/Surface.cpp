@@ -8,16 +8,20 @@ namespace {
 
 struct SurfaceBlock {
     mat4 clipFromObject, objectFromPixel;
-    vec4 eye;
+    vec4 depthFromObject, eye;
     FieldBlock field;
     vec2 size;
     int object, hasAlpha;
+    vec2 corner, depths;
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
             auto list = fieldMembers(offsetof(SurfaceBlock, field));
             list.insert(list.end(), {{"clipFromObject", offsetof(SurfaceBlock, clipFromObject)},
                                      {"objectFromPixel", offsetof(SurfaceBlock, objectFromPixel)},
+                                     {"depthFromObject", offsetof(SurfaceBlock, depthFromObject)},
+                                     {"corner", offsetof(SurfaceBlock, corner)},
+                                     {"depths", offsetof(SurfaceBlock, depths)},
                                      {"size", offsetof(SurfaceBlock, size)},
                                      {"eye", offsetof(SurfaceBlock, eye)},
                                      {"object", offsetof(SurfaceBlock, object)},
@@ -98,32 +102,31 @@ Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCa
     return drawn;
 }
 
-namespace {
-
 void drawField(graph::Commands& commands, const gl::Program& program, const DrawnObject& drawn,
-               const Eye& eye, ivec2 size, graph::DepthTest depthTest) {
+               const Eye& eye, ivec2 size, graph::Draw draw) {
     const auto clipFromPixel = glm::scale(glm::dmat4(1), glm::dvec3(2.0 / size.x, 2.0 / size.y, 1));
     const mat4 worldFromObject = drawn.object->transform.worldFromObject();
     const mat4 clipFromObject = eye.clipFromWorld * worldFromObject;
-    const SurfaceBlock block{.clipFromObject = clipFromObject,
-                             .objectFromPixel =
-                                 mat4(glm::inverse(glm::dmat4(clipFromObject)) * clipFromPixel),
-                             .eye = eye.inObject(worldFromObject),
-                             .field = drawn.field->block(drawn.object->field()),
-                             .size = vec2(size),
-                             .object = drawn.index,
-                             .hasAlpha = drawn.alpha != graph::TextureHandle::None};
-    auto textures = drawn.field->bindings();
-    if (block.hasAlpha) textures.push_back({"uAlpha", drawn.alpha});
-    commands.draw({.program = &program,
-                   .vertices = 36,
-                   .cull = graph::Cull::Front,
-                   .depthTest = depthTest,
-                   .block = block,
-                   .textures = std::move(textures)});
+    const SurfaceBlock block{
+        .clipFromObject = clipFromObject,
+        .objectFromPixel = mat4(glm::inverse(glm::dmat4(clipFromObject)) * clipFromPixel),
+        .depthFromObject = vec4(eye.forward, -glm::dot(eye.forward, eye.position)) * worldFromObject,
+        .eye = eye.inObject(worldFromObject),
+        .field = drawn.field->block(drawn.object->field()),
+        .size = vec2(size),
+        .object = drawn.index,
+        .hasAlpha = drawn.alpha != graph::TextureHandle::None,
+        .corner = vec2(draw.region),
+        .depths = {eye.nearest, eye.farthest}};
+    const auto textures = drawn.field->bindings();
+    draw.textures.insert(draw.textures.end(), textures.begin(), textures.end());
+    if (block.hasAlpha) draw.textures.push_back({"uAlpha", drawn.alpha});
+    draw.program = &program;
+    draw.vertices = 36;
+    draw.cull = graph::Cull::Front;
+    draw.block = block;
+    commands.draw(draw);
 }
-
-} // namespace
 
 Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
                      const std::vector<DrawnObject>& fields, const std::vector<PosedMesh>& solids,
@@ -153,7 +156,7 @@ Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& 
         const auto depthTest = several ? graph::DepthTest::Less : graph::DepthTest::None;
         return [=](const graph::Resources& resources, graph::Commands& commands) {
             for (const DrawnObject& drawn : fields)
-                drawField(commands, *ofFields, drawn, eye, size, depthTest);
+                drawField(commands, *ofFields, drawn, eye, size, {.depthTest = depthTest});
             for (const PosedMesh& solid : solids)
                 drawMesh(commands, *ofSolids, resources, solid, eye, size, solid.drawn.index,
                          {.depthTest = depthTest});

@@ -24,6 +24,14 @@ struct DrawnObject {
 /// Looks the textures of a scene's visible height fields up.
 Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCache& images);
 
+/// Draws one height field with shaders/views/surface.vert.
+///
+/// @param program  views/surface, or a variant of it
+/// @param size     of the view in pixels; it stands at the corner of draw.region
+/// @param draw     how, and what else is bound
+void drawField(graph::Commands& commands, const gl::Program& program, const DrawnObject& drawn,
+               const Eye& eye, ivec2 size, graph::Draw draw);
+
 /// Draws the surface image (layout: shaders/views/surface_pixel.glsl) into `target`, RGBA32F.
 ///
 /// @param solids  opaque objects and mirrors that are no height fields

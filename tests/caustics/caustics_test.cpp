@@ -40,34 +40,54 @@ scene::Scene floorUnder(scene::Object object, float height) {
 }
 
 struct Caustics : support::GlTest {
-    struct Shown {
-        Image light;
-        Energy energy;
+    // A scene with all that the technique asks for.
+    struct Stage {
+        graph::TexturePool pool;
+        views::ImageCache images;
+        views::Waters waters;
+        views::Eye eye;
+        views::DrawnMeshes drawn{};
+        std::vector<views::DrawnObject> fields{};
+        Plan plan{};
+
+        Stage(gl::Context& context, const scene::Scene& scene, ivec2 size, const Settings& settings)
+            : pool(context.device()), images(context), waters(context),
+              eye(views::makeEye(scene, float(size.x) / float(size.y))) {
+            EXPECT_TRUE(waters.advance(scene).ok());
+            drawn = *views::drawnMeshes(scene, images, true, &waters);
+            fields = *views::drawnObjects(scene, images);
+            const caustics::Caustics technique(context);
+            auto planned = technique.plan(pool, scene, eye, drawn, fields, settings);
+            EXPECT_TRUE(planned.ok()) << planned.error().message;
+            plan = std::move(*planned);
+        }
     };
-    Shown show(const scene::Scene& scene, ivec2 size, const Settings& settings = {},
-               bool alsoDirect = false) {
-        graph::TexturePool pool(context->device());
-        views::ImageCache images(*context);
+    Plan planOf(const scene::Scene& scene) { return Stage(*context, scene, ivec2(1), {}).plan; }
+    Energy energyOf(const scene::Scene& scene, ivec2 size, const Settings& settings = {}) {
+        Stage stage(*context, scene, size, settings);
+        context->device().checkTargets(false); // they have passed in lightOf()
+        const auto energy = caustics::Caustics(*context).measure(stage.pool, scene, stage.eye, stage.drawn,
+                                                                 stage.fields, stage.plan, settings);
+        EXPECT_TRUE(energy.ok()) << energy.error().message;
+        return *energy;
+    }
+    Image lightOf(const scene::Scene& scene, ivec2 size, const Settings& settings = {},
+                  bool alsoDirect = false) {
+        Stage stage(*context, scene, size, settings);
+        context->device().checkTargets(true);
+        const views::Eye& eye = stage.eye;
         const graph::TextureDesc desc{.size = size, .format = graph::Format::RGBA32F};
         const graph::Texture target(context->device(), desc, "target");
-        const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
-        views::Waters waters(*context);
-        EXPECT_TRUE(waters.advance(scene).ok());
-        const auto drawn = views::drawnMeshes(scene, images, true, &waters);
-        const caustics::Caustics technique(*context);
-        context->device().checkTargets(true);
-        const auto plan = technique.plan(pool, scene, eye, *drawn, settings);
-        EXPECT_TRUE(plan.ok()) << plan.error().message;
         graph::FrameGraph graph;
-        const auto glass = views::recordPose(graph, *context, drawn->glass, scene.view.time);
-        const auto solids = views::recordPose(graph, *context, drawn->solid, scene.view.time);
+        const auto glass = views::recordPose(graph, *context, stage.drawn.glass, scene.view.time);
+        const auto solids = views::recordPose(graph, *context, stage.drawn.solid, scene.view.time);
         const graph::TextureId surface = graph.create("surface", desc);
         std::vector<views::PosedMesh> seen = *solids, casters = *solids;
         std::erase_if(seen, [](const views::PosedMesh& mesh) { return !mesh.drawn.object->visible; });
         casters.insert(casters.end(), glass->begin(), glass->end());
-        EXPECT_TRUE(views::recordSurface(graph, *context, eye, {}, seen, surface, size).ok());
-        const auto light =
-            technique.record(graph, {scene, eye, *glass, *solids, surface, size}, *plan, settings);
+        EXPECT_TRUE(views::recordSurface(graph, *context, eye, stage.fields, seen, surface, size).ok());
+        const auto light = caustics::Caustics(*context).record(
+            graph, {scene, eye, *glass, *solids, surface, size, stage.fields}, stage.plan, settings);
         EXPECT_TRUE(light.ok()) << light.error().message;
         const graph::TextureId targetId = graph.import(target.handle(), desc, target.label());
         graph.keep(targetId);
@@ -86,10 +106,16 @@ struct Caustics : support::GlTest {
         EXPECT_TRUE(brdf::Brdf(*context).record(graph, shading, {}).ok());
         const Status compiled = graph.compile();
         EXPECT_TRUE(compiled.ok()) << compiled.error().message;
-        graph.execute(pool);
-        const auto energy = technique.measure(pool, scene, eye, *drawn, *plan, settings);
-        EXPECT_TRUE(energy.ok()) << energy.error().message;
-        return {context->device().read(target.handle()), *energy};
+        graph.execute(stage.pool);
+        return context->device().read(target.handle());
+    }
+    struct Shown {
+        Image light;
+        Energy energy;
+    };
+    Shown show(const scene::Scene& scene, ivec2 size, const Settings& settings = {},
+               bool alsoDirect = false) {
+        return {lightOf(scene, size, settings, alsoDirect), energyOf(scene, size, settings)};
     }
 };
 
@@ -189,7 +215,7 @@ TEST_F(Caustics, EachFaceOfASlabTransmitsTheFresnelShare) {
     for (const float ior : {1.5f, 2.4f}) {
         const scene::Scene scene = floorUnder(glass(scene::Box{{1, 0.5f, 1}}, ior, {0, 1, 0}), 1);
         const double mirrored = std::pow((ior - 1) / (ior + 1), 2);
-        const Image light = show(scene, {64, 64}).light;
+        const Image light = lightOf(scene, {64, 64});
         for (int y = 8; y < 56; ++y)
             for (int x = 8; x < 56; ++x)
                 ASSERT_NEAR(light.at(x, y)[1], std::pow(1 - mirrored, 2), 0.005) << x << ", " << y;
@@ -208,7 +234,7 @@ TEST_F(Caustics, ASlabShiftsAnEdgeByItsThicknessTimesTheDifferenceOfTangents) {
         scene.objects.push_back(mirror(scene::Box{{2, 0.1f, 4}}, {-1.8f, 1, 0}));
         scene.objects.back().visible = false;
         scene.lights = {scene::DistantLight{.direction = {1, -1, 0}, .irradiance = 1}};
-        const Image light = show(scene, {256, 256}, {.grid = 256}).light;
+        const Image light = lightOf(scene, {256, 256}, {.grid = 256});
         std::vector<double> row(256, 0); // mean over columns of the middle
         for (int y = 96; y < 160; ++y)
             for (int x = 0; x < 256; ++x)
@@ -251,7 +277,7 @@ TEST_F(Caustics, AGlassBallLightsTheFloorAsTheSumOverItsBranches) {
 
 TEST_F(Caustics, TheNumberOfRaysChangesNeitherWhatMeetsABallNorTheMeanLight) {
     double mean = 0;
-    for (const int grid : {32, 100, 316}) {
+    for (const int grid : {32, 100, 316}) { // 1e3 to 1e5 rays
         const scene::Scene scene = floorUnder(glass(scene::Sphere{1}, 1.5f, {0, 1.2f, 0}), 4);
         const Shown shown = show(scene, {64, 64}, {.grid = grid});
         EXPECT_NEAR(shown.energy.met.g, kTau / 2, 0.005 * kTau / 2) << grid;
@@ -365,7 +391,7 @@ TEST_F(Caustics, SixViewsOfALampMeetNoLightTwice) {
     scene::Scene scene = floorUnder(glass(scene::Sphere{0.5f}, 1.0f, {0, 1, 0}), 3);
     scene.lights = {scene::PointLight{
         .position = {0, 1, 0}, .intensity = 1, .falloff = scene::LightFalloff::InverseSquare}};
-    const Energy energy = show(scene, {16, 16}).energy;
+    const Energy energy = energyOf(scene, {16, 16});
     EXPECT_NEAR(energy.met.g / (2 * kTau), 1, 0.005);
 }
 
@@ -385,8 +411,8 @@ TEST_F(Caustics, LinesInThePictureBringAsMuchLightAsBeams) {
     scene::Scene scene = floorUnder(glass(scene::Sphere{1}, 1.5f, {0, 1.2f, 0}), 4);
     scene.camera.eye = {0, 15, 12};
     scene.camera.up = {0, 1, 0};
-    const Image beams = show(scene, {128, 128}).light;
-    const Image lines = show(scene, {128, 128}, {.deposit = Deposit::Lines}).light;
+    const Image beams = lightOf(scene, {128, 128});
+    const Image lines = lightOf(scene, {128, 128}, {.deposit = Deposit::Lines});
     EXPECT_NEAR(sumOf(lines) / sumOf(beams), 1, 0.01);
     EXPECT_LT(misplaced(lines, beams, 32), 0.02);
     EXPECT_EQ(findNonFinite(lines), ivec2(-1));
@@ -489,6 +515,81 @@ TEST_F(Caustics, ReceiversAtDifferentDepthsAndEdgeOnToTheLightAgreeWithTruth) {
     EXPECT_EQ(findNonFinite(shown.light), ivec2(-1));
 }
 
+TEST_F(Caustics, LightPastTheEdgeOfATableFallsOnTheFloorBelowIt) {
+    // A part of a ball's light falls on a table's top; more of it crosses the axis below its edge and lands
+    // under the table, where the lamp does not look.
+    scene::Scene scene = floorUnder(glass(scene::Sphere{0.5f}, 1.5f, {0, 1.2f, 0}), 2);
+    scene.objects.push_back(matt(scene::Box{{1, 0.02f, 1}}, {-0.55f, 0.62f, 0}));
+    scene.camera.eye = {4, 6, 0}; // sees the table's top, and the floor past its edge
+    scene.camera.up = {0, 1, 0};
+    const Image truth = truthOf(scene, {60, 60}, 200000);
+    const Shown both = show(scene, {60, 60});
+    const Shown one = show(scene, {60, 60}, {.receiverLayers = 1});
+    EXPECT_NEAR(sumOf(both.light) / sumOf(truth), 1, 0.02);
+    EXPECT_LT(misplaced(both.light, truth), 0.04);
+    EXPECT_GT(misplaced(one.light, truth), 0.2);
+    expectClosed(both.energy);
+    expectClosed(one.energy);
+}
+
+TEST_F(Caustics, OneReceiverBehindAnotherCostsNothingWhereNoneIs) {
+    scene::Scene scene = floorUnder(glass(scene::Sphere{0.5f}, 1.5f, {0, 1.2f, 0}), 2);
+    EXPECT_FALSE(planOf(scene).lights.at(0).hasBehind);
+    scene.objects.push_back(matt(scene::Box{{0.3f, 0.3f, 0.3f}}, {0.5f, 0.15f, 0})); // stands on the floor
+    EXPECT_TRUE(planOf(scene).lights.at(0).hasBehind);                               // which goes on below it
+}
+
+// --- water
+
+TEST_F(Caustics, RaysThatBeginOnWaterAgreeWithRaysThroughItsLayers) {
+    // A beam hides a part of the water, a block receives beside the floor. Far away another glass makes it
+    // be seen as layers.
+    scene::Water water{.size = {2, 1.5f}, .cells = 128, .damping = 0, .amplitude = 0.01f, .wavelength = 0.4f};
+    scene::Scene scene = floorUnder(glass(water, 1.33f, {0, 0.5f, 0}), 1);
+    scene.objects.push_back(matt(scene::Box{{0.2f, 0.1f, 3}}, {-0.2f, 1, 0}));
+    scene.objects.push_back(matt(scene::Box{{0.3f, 0.2f, 0.3f}}, {0.2f, 0.1f, 0.1f}));
+    scene.objects[2].visible = false;
+    const scene::Light lamps[] = {scene::DistantLight{.direction = {0.2f, -1, 0.1f}},
+                                  scene::PointLight{.position = {0.1f, 4, 0},
+                                                    .intensity = 10,
+                                                    .falloff = scene::LightFalloff::InverseSquare}};
+    for (const scene::Light& lamp : lamps) {
+        scene.lights = {lamp};
+        ASSERT_TRUE(planOf(scene).lights.at(0).water);
+        const Shown direct = show(scene, {60, 60});
+        expectClosed(direct.energy);
+        scene.objects.push_back(glass(scene::Sphere{0.01f}, 1.5f, {15, 0.5f, 0}));
+        scene.objects.back().visible = false;
+        ASSERT_FALSE(planOf(scene).lights.at(0).water);
+        const Image through = lightOf(scene, {60, 60});
+        scene.objects.pop_back();
+        // Of a million rays of truth the parallel light has 0.995 times this sum, the layers 0.991: edges of
+        // the shadow and of the block lie between rays.
+        EXPECT_NEAR(sumOf(direct.light) / sumOf(through), 1, 0.025);
+        EXPECT_LT(misplaced(direct.light, through), 0.03);
+    }
+}
+
+TEST_F(Caustics, FlatWaterLightsTheFloorEvenlyUpToTheEdgeOfThePicture) {
+    // Of what enters, e^(-absorption * depth) is left.
+    scene::Scene scene = floorUnder(glass(scene::Water{.size = {3, 3}}, 1.33f, {0, 0.5f, 0}), 1);
+    scene.objects[1].material.setAbsorption(vec3(0.5f));
+    const Shown shown = show(scene, {64, 64});
+    expectClosed(shown.energy);
+    const double wanted = (1 - std::pow(0.33 / 2.33, 2)) * std::exp(-0.5 * 0.5);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) // rounding of sums
+            ASSERT_NEAR(shown.light.at(x, y)[1], wanted, 0.001 * wanted) << x << ", " << y;
+}
+
+TEST_F(Caustics, ASlabLightsTheFloorEvenlyUpToTheEdgeOfThePicture) {
+    const scene::Scene scene = floorUnder(glass(scene::Box{{2, 0.2f, 2}}, 1.5f, {0, 1, 0}), 1);
+    const Image light = lightOf(scene, {32, 32});
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x)
+            ASSERT_NEAR(light.at(x, y)[1], 0.96 * 0.96, 0.002) << x << ", " << y; // as in the slab above
+}
+
 TEST_F(Caustics, GlassThatStandsOnTheFloorAgreesWithTruth) {
     scene::Scene scene = floorUnder(glass(scene::Box{{1, 0.5f, 1}}, 1.5f, {0, 0.25f, 0}), 3);
     scene.lights = {scene::DistantLight{.direction = {0.5f, -1, 0.2f}, .irradiance = 2}};
@@ -515,7 +616,7 @@ TEST_F(Caustics, ALampNearABallWhoseBoxIsTooWideForOneViewAgreesWithTruth) {
 
 TEST_F(Caustics, EveryMethodFindsAFlatFloor) {
     const scene::Scene scene = floorUnder(glass(scene::Sphere{1}, 1.5f, {0, 1.2f, 0}), 4);
-    const Image wanted = show(scene, {128, 128}).light;
+    const Image wanted = lightOf(scene, {128, 128});
     for (const Intersect method : {Intersect::FixedPoint, Intersect::Newton, Intersect::Secant}) {
         const Shown shown = show(scene, {128, 128}, {.intersect = method});
         EXPECT_LT(misplaced(shown.light, wanted), 0.01) << int(method);
@@ -528,8 +629,8 @@ TEST_F(Caustics, TheBracketFindsASlopeOnWhichTheFixedPointSwingsBetweenTwoPlaces
     scene::Scene scene = floorUnder(glass(scene::Sphere{1}, 1.5f, {0, 1.6f, 0}), 6);
     scene.objects.push_back(matt(scene::Plane{{6, 6}}, {0.6f, 0.5f, 0}));
     scene.objects.back().transform.rotate = {0, 0, 80};
-    const Energy hybrid = show(scene, {16, 16}, {.steps = 16}).energy;
-    const Energy fixed = show(scene, {16, 16}, {.intersect = Intersect::FixedPoint, .steps = 16}).energy;
+    const Energy hybrid = energyOf(scene, {16, 16}, {.steps = 16});
+    const Energy fixed = energyOf(scene, {16, 16}, {.intersect = Intersect::FixedPoint, .steps = 16});
     EXPECT_LT(total(hybrid.astray) + total(hybrid.missed), 0.01 * total(hybrid.met));
     EXPECT_GT(total(fixed.astray), 0.03 * total(fixed.met));
 }
@@ -538,12 +639,12 @@ TEST_F(Caustics, TheBracketFindsASlopeOnWhichTheFixedPointSwingsBetweenTwoPlaces
 
 TEST_F(Caustics, WithoutBlendingOfFloatsAFocusLosesAPercentOfItsLight) {
     const scene::Scene scene = floorUnder(glass(scene::Sphere{1}, 1.5f, {0, 1.2f, 0}), 4);
-    const Image full = show(scene, {128, 128}).light;
+    const Image full = lightOf(scene, {128, 128});
     const std::string_view missing[] = {"EXT_float_blend"};
     const auto lesser = gl::Context::create(missing);
     ASSERT_TRUE(lesser.ok());
     gl::Context* const before = std::exchange(context, lesser->get());
-    const Image half = show(scene, {128, 128}).light;
+    const Image half = lightOf(scene, {128, 128});
     EXPECT_EQ(context->takeError(), "");
     context = before;
     // Each addition to a bright texel cuts off what lies beyond its 11 binary digits: 1 % of all light is

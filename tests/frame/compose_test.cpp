@@ -317,6 +317,73 @@ TEST_F(Composed, ACausticMapOfIor1IsAsBrightAsTheUndisturbedLight) {
 }
 
 // Compared with the finest settings that are tried.
+// A scene seen and lit straight from above; a height field of the same height everywhere is a floor.
+struct FlatField : Composed {
+    FlatField() {
+        scene.environment.reset();
+        scene.size = {64, 64};
+        scene.camera = {};
+        scene.camera.eye = {0, 20, 0};
+        scene.camera.up = {0, 0, -1};
+        scene.camera.height = 3;
+        scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
+    }
+    scene::Object flatField(float width) const {
+        scene::Object field;
+        field.name = "field";
+        scene::HeightField shape;
+        shape.width = width;
+        shape.heights = std::make_shared<Image>(48, 48, 1);
+        field.shape = shape;
+        field.transform.rotate = {-90, 0, 0};
+        return field;
+    }
+};
+
+TEST_F(FlatField, ACausticOnAHeightFieldIsThatOnAFloor) {
+    addBall();
+    scene.objects[0].visible = false;
+    scene.objects[0].transform.translate = {0, 1.2f, 0};
+    scene::Object floor;
+    floor.name = "floor";
+    floor.shape = scene::Plane{{4, 4}};
+    scene.objects.push_back(floor);
+    Image onFloor = picture(scene::Aov::Irradiance);
+    scene.objects[0].material.transmission = 0; // the light past the ball alone
+    const Image past = picture(scene::Aov::Irradiance);
+    scene.objects[0].material.transmission = 1;
+    scene.objects[1] = flatField(4);
+    Image onField = picture();
+    scene.objects.erase(scene.objects.begin());
+    const Image without = picture();
+    const float diffuse = scene.objects[0].material.diffuse.g;
+    double apart = 0, all = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const float wanted = onFloor.at(x, y)[1] - past.at(x, y)[1];
+            const float found = (onField.at(x, y)[1] - without.at(x, y)[1]) / diffuse;
+            apart += double(std::abs(found - wanted)) / 2;
+            all += double(wanted);
+        }
+    EXPECT_GT(all * 9 / (64 * 64), 2.5); // of pi m² times what the ball lets through
+    EXPECT_LT(apart / all, 0.005);       // the map lies by the box around what receives
+}
+
+TEST_F(FlatField, AHeightFieldCastsShadowsOnOtherObjects) {
+    scene::Object floor;
+    floor.name = "floor";
+    floor.shape = scene::Plane{{4, 4}};
+    scene.objects.push_back(floor);
+    scene.objects.push_back(flatField(1));
+    scene.objects[1].transform.translate = {0, 0.5f, 0};
+    scene.lights = {scene::DistantLight{.direction = {1, -1, 0}}};
+    const Image light = picture(scene::Aov::Irradiance);
+    const auto at = [&](float x) { return light.at(int((x / 3 + 0.5f) * 64), 32)[1]; };
+    EXPECT_NEAR(at(0.75f), 0, 1e-6); // the field's shadow reaches from 0 to 1
+    EXPECT_NEAR(at(1.25f), std::sqrt(0.5), 1e-3);
+    EXPECT_NEAR(at(-0.75f), std::sqrt(0.5), 1e-3);
+}
+
 TEST_F(Composed, ACausticKeepsTheWantedErrorWithNoMoreRaysThanItNeeds) {
     addFloor();
     addBall();

@@ -1,0 +1,43 @@
+// caustics/density.frag: what the triangles around a ray of the grid bring to where it lands.
+//
+// in    uBeams, uFlux  caustics/beams.frag, caustics/photon.frag
+// out   oDensity.rgb   [light.unit] of a texel: flux of those that are drawn by their area, over that area. Between the
+//                      corners it is interpolated: each triangle's light then adds up to a third of its corners'
+//                      densities times its area, so that of all triangles nothing is lost, and sheets are smooth
+//       oPoint.rgb     [light.unit] a third of the flux of those that are too small to be drawn: a point's
+#include "caustics/deposit_block.glsl"
+#include "caustics/grid.glsl"
+uniform sampler2D uFlux;
+uniform sampler2D uBeams;
+layout(location = 0) out vec4 oDensity;
+layout(location = 1) out vec4 oPoint;
+
+struct Around {
+    vec3 flux, point;
+    float area; // texels
+};
+Around around = Around(vec3(0.0), vec3(0.0), 0.0);
+
+void add(ivec2 square, int triangle) {
+    if (any(lessThan(square, ivec2(0)))) return;
+    vec4 both = texelFetch(uBeams, square, 0);
+    vec2 spread = triangle == 0 ? both.xy : both.zw;
+    if (spread.x == 0.0) return;
+    vec3 flux = triangleFlux(uFlux, square, triangle) / light.unit;
+    around.point += spread.y * flux / 3.0;
+    if (spread.x < 0.0) return;
+    around.flux += (1.0 - spread.y) * flux;
+    around.area += (1.0 - spread.y) * spread.x;
+}
+
+void main() {
+    ivec2 ray = ivec2(gl_FragCoord.xy);
+    add(ray, 0);
+    add(ray - ivec2(1, 0), 0);
+    add(ray - ivec2(1, 0), 1);
+    add(ray - ivec2(0, 1), 0);
+    add(ray - ivec2(0, 1), 1);
+    add(ray - 1, 1);
+    oDensity = vec4(around.area > 0.0 ? around.flux / around.area : vec3(0.0), 0.0);
+    oPoint = vec4(around.point, 0.0);
+}

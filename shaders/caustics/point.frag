@@ -1,0 +1,12 @@
+// caustics/point.frag: light of one point on a texel of the map.
+#include "caustics/deposit_block.glsl"
+#include "caustics/tent.glsl"
+flat in vec3 vFlux;
+flat in vec2 vMiddle;
+flat in int vLayer;
+layout(location = 0) out vec4 oFlux;
+
+void main() {
+    if (isBesideFace(gl_FragCoord.xy, vLayer)) discard;
+    oFlux = vec4(vFlux * tentWeight(gl_FragCoord.xy - vMiddle), 1.0);
+}
