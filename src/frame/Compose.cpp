@@ -204,9 +204,9 @@ Status Compose::record(graph::FrameGraph& graph, const Inputs& in) {
 Result<std::vector<views::PosedMesh>> Compose::recordGlass(graph::FrameGraph& graph,
                                                            const scene::Scene& scene,
                                                            const std::vector<views::DrawnMesh>& glass) {
-    std::vector<SurfaceKey::Object> standing;
+    std::vector<views::ObjectKey> standing;
     for (const views::DrawnMesh& mesh : glass)
-        standing.push_back(surfaceKey(*mesh.object, scene.view.time));
+        standing.push_back(views::objectKey(*mesh.object, scene.view.time));
     if (standing != triangled_ || watersThen_ != waters_.changes()) triangles_.current = false;
     triangled_ = std::move(standing);
     watersThen_ = waters_.changes();
@@ -507,6 +507,7 @@ void Compose::clear() {
     through_ = graph::Texture();
     caustic_.reset();
     scattering_.reset();
+    subsurface_.clear();
     waters_.clear();
     voxelsChecked_ = 0;
     layerCounter_.reset();

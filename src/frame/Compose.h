@@ -122,7 +122,7 @@ private:
     std::optional<subsurface::Plan> scattering_; ///< nothing where no light scatters
     graph::Texture through_;
     views::KeptTriangles triangles_;                  ///< of refractive objects,
-    std::vector<SurfaceKey::Object> triangled_;       ///< as they stood
+    std::vector<views::ObjectKey> triangled_;       ///< as they stood
     std::uint64_t watersThen_ = 0;                    ///< Waters::changes()
     views::LayerCount layerCounter_;                  ///< of peeled ones
     std::vector<const views::MeshTextures*> counted_; ///< for which it knows

@@ -4,27 +4,6 @@
 
 namespace lucent::frame {
 
-SurfaceKey::Object surfaceKey(const scene::Object& object, float time) {
-    SurfaceKey::Object key{nullptr, nullptr, {}, object.transform.worldFromObject(), object.visible};
-    if (object.isField()) {
-        const scene::HeightField& field = object.field();
-        key.shape = field.heights;
-        key.mask = field.alpha;
-        key.numbers = {field.width, field.heightScale};
-        return key;
-    }
-    const std::shared_ptr<const scene::Mesh> mesh = scene::meshOf(object);
-    const scene::Wave& wave = object.wave;
-    const bool waved = wave.amplitude != vec3(0);
-    key.shape = mesh;
-    key.numbers = {float(object.material.isRefractive()), waved || mesh->moves() ? time : 0};
-    if (waved)
-        for (float value : {wave.amplitude.x, wave.amplitude.y, wave.amplitude.z, wave.direction.x,
-                            wave.direction.y, wave.direction.z, wave.wavelength, wave.period})
-            key.numbers.push_back(value);
-    return key;
-}
-
 SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t waters) {
     SurfaceKey key{{},
                    views::makeEye(scene, float(size.x) / float(size.y)).clipFromWorld,
@@ -32,7 +11,7 @@ SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t water
                    isGeometric(scene.view.show),
                    waters};
     for (const scene::Object& object : scene.objects)
-        key.objects.push_back(surfaceKey(object, scene.view.time));
+        key.objects.push_back(views::objectKey(object, scene.view.time));
     return key;
 }
 

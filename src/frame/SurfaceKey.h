@@ -1,28 +1,18 @@
 #pragma once
 /// What the images of a view depend on: while it stays, only light has changed.
 
-#include "scene/Scene.h"
+#include "views/ObjectKey.h"
 
 namespace lucent::frame {
 
 struct SurfaceKey {
-    struct Object {
-        std::shared_ptr<const void> shape, mask;
-        std::vector<float> numbers;
-        mat4 worldFromObject;
-        bool visible;
-        bool operator==(const Object&) const = default;
-    };
-    std::vector<Object> objects;
+    std::vector<views::ObjectKey> objects;
     mat4 clipFromWorld;
     ivec2 size;
     bool showsGlass;      // its surface, not what is behind
     std::uint64_t waters; // Waters::changes()
     bool operator==(const SurfaceKey&) const = default;
 };
-
-/// The same of one object.
-SurfaceKey::Object surfaceKey(const scene::Object& object, float time);
 
 /// @param waters  views::Waters::changes()
 SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t waters);

@@ -389,7 +389,7 @@ const ParamTable& Subsurface::params() {
              .group = Group::Light,
              .doc =
                  "Along the longest side of a body, of method diffusion: details of light finer than a cell "
-                 "are lost, and thinner parts are dark."}),
+                 "are lost, and thinner parts shine alike on both sides."}),
     };
     static const ParamTable table = tableOf<Settings>("subsurface", list, "Light inside");
     return table;
@@ -435,7 +435,16 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
         plan.state_->objects.push_back(std::move(object));
     }
     profiles_ = std::move(used); // of the last scene only
+    if (settings.method != Method::Diffusion)
+        volumes_.reset();
+    else if (!volumes_)
+        volumes_ = std::make_shared<Volumes>();
     return plan;
+}
+
+void Subsurface::clear() {
+    profiles_.clear();
+    volumes_.reset();
 }
 
 Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
@@ -443,7 +452,7 @@ Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan
     const std::vector<views::PosedMesh> objects = scattering(in.solids);
     if (objects.empty()) return Done{};
     Result<Radiosity> radiosity = settings.method == Method::Diffusion
-                                      ? recordVolumes(graph, context_, in, *plan.state_, settings)
+                                      ? recordVolumes(graph, context_, in, *plan.state_, settings, *volumes_)
                                       : recordRadiosity(graph, context_, in, *plan.state_, settings);
     if (!radiosity) return radiosity.error();
     TextureId highlight;

@@ -51,6 +51,7 @@ struct Inputs {
 };
 
 struct Profiled;
+class Volumes;
 
 /// Profiles of the scene's materials as textures, and what is drawn for its environment. Made once for as
 /// long as objects and settings stay.
@@ -99,10 +100,13 @@ public:
     /// @return  Error (Fault::Machine) for images larger than the GPU's textures
     Status record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
                   const Settings& settings) const;
+    /// Gives back what is kept between pictures.
+    void clear();
 
 private:
     gl::Context& context_;
     std::vector<std::shared_ptr<const Profiled>> profiles_; // of the last plan
+    std::shared_ptr<Volumes> volumes_;                      // null for methods that solve nothing
 };
 
 } // namespace lucent::subsurface

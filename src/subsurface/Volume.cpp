@@ -95,13 +95,15 @@ std::vector<graph::Binding> columnBindings(const graph::Resources& resources,
 class Body {
 public:
     Body(graph::FrameGraph& graph, gl::Context& context, const Inputs& in, const Plan::State::Object& plan,
-         const views::PosedMesh& mesh, const Settings& settings)
+         const views::PosedMesh& mesh, const Settings& settings, Volumes& volumes)
         : graph_(graph), context_(context), in_(in), plan_(plan), mesh_(mesh), settings_(settings),
-          bounds_(views::boundsOf(*mesh.drawn.object)), cells_(cellsOf(bounds_, settings.cells)) {}
+          bounds_(views::boundsOf(*mesh.drawn.object)), cells_(cellsOf(bounds_, settings.cells)),
+          solution_(volumes.of(plan.index, key())) {}
 
     Status record(TextureId target);
 
 private:
+    std::optional<Volumes::Key> key() const;
     VolumeBlock block() const;
     graph::TextureDesc imageDesc(Format format) const {
         return {.size = cells_.imageSize(), .format = format};
@@ -112,6 +114,7 @@ private:
     Status lay(const Points& points, vec4 lamp);
     Status light();
     Status solve();
+    TextureId kept(graph::Texture& texture, const char* label);
     Status leave(TextureId target);
 
     graph::FrameGraph& graph_;
@@ -122,9 +125,47 @@ private:
     const Settings& settings_;
     const views::Bounds bounds_;
     const Cells cells_;
+    const std::shared_ptr<Volumes::Solution> solution_;
     std::array<TextureId, 3> along_;
     TextureId cell_, faces_, lower_, upper_, diagonal_, source_, fluence_;
 };
+
+// Nothing where water moves: it does so by itself.
+std::optional<Volumes::Key> Body::key() const {
+    Volumes::Key key;
+    const float time = in_.scene.view.time;
+    key.objects.push_back(views::objectKey(*mesh_.drawn.object, time));
+    key.painting = mesh_.drawn.object->painting;
+    for (const views::PosedMesh& caster : in_.casters) {
+        if (caster.drawn.water) return std::nullopt;
+        key.objects.push_back(views::objectKey(*caster.drawn.object, time));
+    }
+    std::vector<float>& numbers = key.numbers;
+    const auto add = [&numbers](const auto& vector) {
+        for (int i = 0; i < vector.length(); ++i)
+            numbers.push_back(vector[i]);
+    };
+    for (const views::LampPoint& lamp : views::lampPoints(in_.scene, settings_.lightSamples)) {
+        add(lamp.place);
+        add(lamp.color);
+        add(lamp.axis);
+        add(lamp.cone);
+        numbers.insert(numbers.end(), {lamp.exponent, float(lamp.fades)});
+    }
+    if (in_.environment != graph::TextureHandle::None) {
+        const scene::Environment& environment = *in_.scene.environment;
+        key.map = environment.map;
+        add(environment.rotation);
+        numbers.push_back(environment.intensity);
+    }
+    for (const diffusion::Medium& medium : diffusion::mediaOf(mesh_.drawn.object->material))
+        numbers.insert(numbers.end(),
+                       {float(medium.scattering), float(medium.absorption), float(medium.ior)});
+    for (const int layers : plan_.layers)
+        numbers.push_back(float(layers));
+    add(ivec2(settings_.cells, settings_.lightSamples));
+    return key;
+}
 
 VolumeBlock Body::block() const {
     const scene::Material& material = mesh_.drawn.object->material;
@@ -194,7 +235,7 @@ Status Body::cut() {
         pass.reason("cells of object \"" + mesh_.drawn.object->name + "\", cut by its surface");
         for (const TextureId id : along_)
             pass.sample(id);
-        cell_ = pass.createColor("subsurface.cells", imageDesc(Format::RGBA32F));
+        pass.write(cell_ = kept(solution_->cells, "subsurface.cells"));
         faces_ = pass.createColor("subsurface.faces", imageDesc(Format::RGBA32F));
         return [block = block(), along = along_, program = *program](const graph::Resources& resources,
                                                                      graph::Commands& commands) {
@@ -306,10 +347,15 @@ Status Body::solve() {
                 for (const TextureId id : {lower_, upper_, now})
                     pass.sample(id);
             if (round > 1) pass.sample(before);
-            fluence_ = pass.createColor("subsurface.fluence", imageDesc(Format::RGBA32F));
+            const bool last = round + 1 == rounds.count;
+            if (last)
+                pass.write(fluence_ = kept(solution_->fluence, "subsurface.fluence"));
+            else
+                fluence_ = pass.createColor("subsurface.fluence", imageDesc(Format::RGBA32F));
             VolumeBlock block = this->block();
             block.omega = vec4(vec3(omega), 0);
             return [=, lower = lower_, upper = upper_, diagonal = diagonal_, source = source_,
+                    solution = solution_,
                     program = *program](const graph::Resources& resources, graph::Commands& commands) {
                 std::vector<graph::Binding> textures{{"uDiagonal", resources[diagonal]},
                                                      {"uSource", resources[source]}};
@@ -319,6 +365,7 @@ Status Body::solve() {
                                                      {"uNow", resources[now]}});
                 if (round > 1) textures.push_back({"uBefore", resources[before]});
                 commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+                if (last) solution->solved = true;
             };
         });
         before = now;
@@ -346,7 +393,21 @@ Status Body::leave(TextureId target) {
     return Done{};
 }
 
+// Outlives the graph.
+TextureId Body::kept(graph::Texture& texture, const char* label) {
+    if (!texture || texture.desc() != imageDesc(Format::RGBA32F))
+        texture = graph::Texture(context_.device(), imageDesc(Format::RGBA32F), label);
+    const TextureId id = graph_.import(texture.handle(), texture.desc(), texture.label());
+    if (!solution_->solved) graph_.keep(id);
+    return id;
+}
+
 Status Body::record(TextureId target) {
+    if (solution_->solved) {
+        cell_ = kept(solution_->cells, "subsurface.cells");
+        fluence_ = kept(solution_->fluence, "subsurface.fluence");
+        return leave(target);
+    }
     if (Status s = cut(); !s) return s;
     if (Status s = bind(); !s) return s;
     if (Status s = light(); !s) return s;
@@ -392,8 +453,26 @@ Rounds roundsOf(const std::array<diffusion::Medium, 3>& media, const Cells& cell
     return rounds;
 }
 
+std::shared_ptr<Volumes::Solution> Volumes::of(int object, const std::optional<Key>& key) {
+    std::shared_ptr<Solution>& solution = solutions_[object];
+    if (!solution) solution = std::make_shared<Solution>();
+    if (!key || solution->key != *key) solution->solved = false;
+    if (key) solution->key = *key;
+    return solution;
+}
+
+void Volumes::keepOnly(const std::vector<int>& objects) {
+    std::erase_if(solutions_, [&](const auto& solution) {
+        return std::find(objects.begin(), objects.end(), solution.first) == objects.end();
+    });
+}
+
 Result<Radiosity> recordVolumes(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
-                                const Plan::State& plan, const Settings& settings) {
+                                const Plan::State& plan, const Settings& settings, Volumes& volumes) {
+    std::vector<int> indices;
+    for (const Plan::State::Object& object : plan.objects)
+        indices.push_back(object.index);
+    volumes.keepOnly(indices);
     TextureId light;
     graph.addPass("subsurface.dark", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("before any light leaves there");
@@ -404,7 +483,7 @@ Result<Radiosity> recordVolumes(graph::FrameGraph& graph, gl::Context& context, 
     for (const Plan::State::Object& object : plan.objects)
         for (const views::PosedMesh& mesh : in.solids)
             if (mesh.drawn.index == object.index)
-                if (Status s = Body(graph, context, in, object, mesh, settings).record(light); !s)
+                if (Status s = Body(graph, context, in, object, mesh, settings, volumes).record(light); !s)
                     return s.error();
     return Radiosity{light, 1};
 }

@@ -1,9 +1,11 @@
 // Whole scenes in which light scatters: only the passes that they need, and scattering objects among others.
 #include "frame/Renderer.h"
+#include "subsurface/Subsurface.h"
 #include "tests/support/Gl.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace lucent::frame {
 namespace {
@@ -128,6 +130,48 @@ TEST_F(Scattering, AnEnvironmentPeelsItsSurfacesAlongThreeAxes) {
     const Image image = picture(scene::Aov::Color);
     EXPECT_GT(image.at(24, 24)[1], 0.1f);
     EXPECT_NEAR(image.at(1, 1)[1], 0.5f, 1e-3); // behind it the environment itself
+}
+
+TEST_F(Scattering, DiffusionIsSolvedAnewOnlyWhereSomethingElseThanTheCameraHasChanged) {
+    auto* settings = static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data());
+    settings->method = subsurface::Method::Diffusion;
+    settings->cells = 16;
+    scene.view.show = scene::Aov::Radiosity;
+    add("blind", scene::Box{{0.004f, 0.001f, 0.004f}}, {0, 0.015f, 0});
+    Renderer renderer(*context);
+    std::uint64_t revision = 0;
+    const auto passes = [&] {
+        EXPECT_TRUE(renderer.finish(scene, ++revision, scene.size).ok());
+        return renderer.stats().passes;
+    };
+    const int solved = passes();
+    scene.camera.eye = {0.5f, 0.3f, 0.8f};
+    EXPECT_LT(passes(), 10);
+    const Result<Image> kept = renderer.read(scene, scene::Aov::Radiosity);
+    ASSERT_TRUE(kept.ok());
+    EXPECT_GT(sumOf(*kept), 0);
+    EXPECT_EQ(kept->pixels, picture().pixels); // as one solved anew has it, bit for bit
+
+    const std::function<void()> changes[] = {
+        [&] {
+            scene.lights = {scene::DistantLight{.direction = {0.3f, -1, -0.5f}}};
+        },
+        [&] { scene.objects[0].material.scattering = vec3(1500); },
+        [&] {
+            scene.objects[0].transform.translate = {0.001f, 0, 0};
+        },
+        [&] {
+            scene.objects[1].transform.translate = {0.002f, 0.015f, 0};
+        }, // its shadow
+        [&] { settings->cells = 18; },
+    };
+    for (const auto& change : changes) {
+        change();
+        EXPECT_GT(passes(), solved / 2);
+        EXPECT_LT(passes(), 10);
+        const Result<Image> image = renderer.read(scene, scene::Aov::Radiosity);
+        EXPECT_TRUE(image.ok() && image->pixels == picture().pixels);
+    }
 }
 
 } // namespace
