@@ -23,6 +23,7 @@ sys.path.insert(0, str(ROOT / "scripts/assets"))
 import coin
 import dragon
 import gallery
+import head
 import meshes
 import pictures
 import probes
@@ -37,10 +38,12 @@ GALLERY, MESHES, FIELDS = OUT / "gallery", OUT / "meshes", OUT / "fields"
 # Order of the gallery.
 SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-backlit", "weave", "coin-sunset",
           "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff", "glass-dragon",
-          "glass-sphere", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave", "prism"]
+          "glass-sphere", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave", "prism", "skin",
+          "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
-RENDERING = ["shaders", "src/scene", "src/views", "src/relief", "src/refract", "src/caustics", "src/brdf", "src/frame"]
+RENDERING = ["shaders", "src/scene", "src/views", "src/relief", "src/refract", "src/caustics", "src/brdf", "src/diffusion",
+             "src/subsurface", "src/frame"]
 TRUTH = ["src/scene", "src/truth"]
 
 
@@ -106,6 +109,7 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(meshes.dragon_4k, [dragon_ply], [MESHES / "dragon-4k.glb"], simplifier)
     stamps.make(meshes.prism, [], [GALLERY / "prism.glb"])
     stamps.make(meshes.tiles, [], [GALLERY / "tiles.glb"])
+    stamps.make(head.head, [], [GALLERY / "head.glb"], [Path(meshes.__file__)])
     stamps.make_with_program(dragon.dragon, [MESHES / "dragon.glb"],
                              [GALLERY / "dragon.png", GALLERY / "dragon-outline.png", GALLERY / "dragon-color.png"])
 

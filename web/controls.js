@@ -5,6 +5,7 @@
 import { hexOfLinear, valueOf } from './values.js';
 
 const kSteps = 200; // of a slider: half a percent a key press
+const kColorNames = { r: 'red', g: 'green', b: 'blue' }; // of an axis; others are called by their letter
 
 /** @return element with properties, attributes ("aria-…") and children */
 function make(tag, properties = {}, ...children) {
@@ -87,6 +88,8 @@ function plainNumber(control, name, commit) {
   return { nodes: [input], show: (value) => (input.value = value) };
 }
 
+const axesOf = ({ axes }) => [...axes].map((axis) => kColorNames[axis] ?? axis);
+
 /** For each kind: (control, commit(text)) -> { nodes, show(value) } */
 const kEditors = {
   number: (control, commit) => sliderPair(control, withUnit(control.label, control), commit),
@@ -107,8 +110,8 @@ const kEditors = {
     input.addEventListener('input', () => commit(input.value));
     return { nodes: [input], show: (value) => (input.value = hexOfLinear(value)) };
   },
-  vector: (control, commit) => components(control, ['x', 'y', 'z'], plainNumber, commit),
-  pair: (control, commit) => components(control, ['x', 'z'], plainNumber, commit),
+  vector: (control, commit) => components(control, axesOf(control), plainNumber, commit),
+  pair: (control, commit) => components(control, axesOf(control), plainNumber, commit),
   range: (control, commit) => components(control, ['low end', 'high end'], sliderPair, commit),
 };
 
@@ -143,8 +146,9 @@ export class Controls {
   /**
    * Makes all controls anew.
    * @param controls  descriptors in the order of the panel; those without a group are left out
+   * @param profiles  of the objects that scatter light inside: owner, and text in place of the panel's curves
    */
-  build(controls) {
+  build(controls, profiles = []) {
     this.#built = contentOf(controls);
     this.#shows.clear();
     const groups = new Map();
@@ -154,18 +158,32 @@ export class Controls {
       ownerPart(groups.get(control.group), control.owner).append(this.#row(control));
     }
     this.element.replaceChildren(...groups.values());
-    this.update(controls);
+    this.update(controls, profiles);
   }
 
   /** Shows the values as they are now; where there are other controls than before, the focus stays on its own. */
-  update(controls) {
+  update(controls, profiles = []) {
     if (contentOf(controls) !== this.#built) {
       const focused = this.element.getRootNode().activeElement?.closest('[data-path]')?.dataset.path;
-      this.build(controls);
+      this.build(controls, profiles);
       if (this.#shows.has(focused)) this.#focus(focused);
       return;
     }
     for (const control of controls) this.#shows.get(control.path)?.(valueOf(control, control.value));
+    for (const { owner, text } of profiles) this.#profileOf(owner).textContent = text;
+  }
+
+  /** The line below the controls of an object that says how far its light spreads. */
+  #profileOf(owner) {
+    const found = [...this.element.querySelectorAll('.profile')].find((line) => line.dataset.owner === owner);
+    if (found) return found;
+    const line = make('p', { className: 'profile', role: 'note' });
+    line.dataset.owner = owner;
+    const last = [...this.element.querySelectorAll('[data-path]')].findLast(({ dataset }) =>
+      dataset.path.startsWith(`objects.${owner}.material.`),
+    );
+    last?.after(line);
+    return line;
   }
 
   #focus(path) {

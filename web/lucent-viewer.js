@@ -290,6 +290,14 @@ export class LucentViewer extends HTMLElement {
   }
 
   /**
+   * Of each object that scatters light inside: owner and profile; reach (mm) and whole (the share that leaves again) of
+   * red, green and blue; distances (mm) and values (1/mm²) of its R_d; text, the same in words.
+   */
+  profiles() {
+    return JSON.parse(this.#ask('viewer_profiles') || '[]');
+  }
+
+  /**
    * Milliseconds, passes, draws, lights, bytes, complete, frames, modes that the scene has something for, and where the
    * panel's controls lie; while the caustic map is shown, energy: W of each colour that met glass and mirrors, and what
    * became of them.
@@ -419,7 +427,7 @@ export class LucentViewer extends HTMLElement {
       if (control.attribute && this.hasAttribute(control.attribute)) this.#setFromAttribute(control);
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#revision = this.#runtime.call('viewer_revision', this.#handle);
-    this.#twin.build(this.#controls);
+    this.#twin.build(this.#controls, this.profiles());
     this.#showPlay();
     if (this.autoplay && !kCalm.matches) this.play();
     this.#layout();
@@ -511,7 +519,7 @@ export class LucentViewer extends HTMLElement {
     this.#revision = revision;
     const before = new Map(this.#controls.map((control) => [control.path, control.value]));
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
-    this.#twin.update(this.#controls);
+    this.#twin.update(this.#controls, this.profiles());
     const changed = this.#controls.filter((control) => control.value !== before.get(control.path));
     this.#compareChanged();
     this.#showPlay();

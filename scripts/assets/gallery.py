@@ -17,6 +17,10 @@ TRUTH_UNDER_SKY = 128, 256
 # Of truths with bent and mirrored light: pixels of the longer side, light rays, points of each lamp that has a size.
 TRUTH_WITH_LIGHT_RAYS = 128, 4_000_000, 16
 
+# Of truths with light inside: pixels of the longer side, lines for each of them on which light may enter. They have no
+# highlights, which a comparison shows as error.
+TRUTH_OF_DIPOLES = 128, 512
+
 
 def files_of(scene: Path) -> list[Path]:
     """Files that a scene names: every text in it that is the name of a file beside it."""
@@ -33,6 +37,12 @@ def files_of(scene: Path) -> list[Path]:
 
 def is_relief(content: dict) -> bool:
     return all(thing["shape"]["type"] == "heightfield" for thing in content["objects"])
+
+
+def scatters(content: dict) -> bool:
+    """Whether light goes on inside some of its things."""
+    materials = [thing.get("material", {}) for thing in content["objects"]]
+    return any("preset" in material or "scattering" in material for material in materials)
 
 
 def save_small(picture: Image.Image, side: int, out: Path) -> None:
@@ -67,6 +77,9 @@ def truth_of(program: Path, scene: Path, truth: Path, _facts: Path) -> None:
     if is_relief(content):
         side, directions = TRUTH_UNDER_SKY if "environment" in content else TRUTH_UNDER_LAMPS
         options = ["--directions", directions]
+    elif scatters(content):
+        side, lines = TRUTH_OF_DIPOLES
+        options = ["--estimator", "dipole", "--samples", lines]
     else:
         side, rays, points = TRUTH_WITH_LIGHT_RAYS
         options = ["--estimator", "light", "--photons", rays, "--samples", points]
@@ -90,6 +103,8 @@ def kind_of(scene: dict) -> str:
         return "Caustics"
     if any(thing["shape"]["type"] == "water" for thing in scene["objects"]):
         return "Caustics"
+    if scatters(scene):
+        return "Subsurface"
     return "Refraction" if any(material.get("transmission") for material in materials) else "Relief"
 
 

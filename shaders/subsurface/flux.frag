@@ -25,13 +25,7 @@ layout(std140) uniform FluxBlock {
 #include "subsurface/points.glsl"
 
 #ifdef FROM_SKY
-vec3 skyLight(vec3 n) {
-    return max(light.sky[0].rgb + n.y * light.sky[1].rgb + n.z * light.sky[2].rgb + n.x * light.sky[3].rgb +
-                   n.x * n.y * light.sky[4].rgb + n.y * n.z * light.sky[5].rgb +
-                   (3.0 * n.z * n.z - 1.0) * light.sky[6].rgb + n.x * n.z * light.sky[7].rgb +
-                   (n.x * n.x - n.y * n.y) * light.sky[8].rgb,
-               0.0);
-}
+#include "subsurface/sky.glsl"
 #endif
 
 #ifdef PAINTED

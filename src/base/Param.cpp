@@ -117,9 +117,9 @@ std::vector<double> parse(const Param& param, std::string_view text) {
 } // namespace
 
 std::string_view name(Group group) {
-    constexpr std::string_view names[] = {"",           "Mode",     "Light",       "Material",     "Falloff",
-                                          "Refraction", "Caustics", "Environment", "Height field", "Shape",
-                                          "Waves",      "View"};
+    constexpr std::string_view names[] = {
+        "",         "Mode",        "Light",        "Material", "Falloff", "Subsurface", "Refraction",
+        "Caustics", "Environment", "Height field", "Shape",    "Waves",   "View"};
     return names[int(group)];
 }
 

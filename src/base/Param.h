@@ -7,6 +7,7 @@
 #include "base/Result.h"
 
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -36,6 +37,7 @@ enum class Group {
     Light,
     Material,
     Falloff,
+    Subsurface,
     Refraction,
     Caustics,
     Environment,
@@ -60,6 +62,7 @@ struct Param {
     std::string_view doc;                      ///< one sentence, shown as tooltip and in the documentation
     std::span<const std::string_view> choices; ///< Choice only
     std::string_view attribute;                ///< name in the element; derived from table and id when empty
+    std::string_view axes;                     ///< a letter for each component of a vector
     Kind kind;
     std::size_t offset; ///< of the member in its struct
 };
@@ -80,6 +83,8 @@ struct ParamText {
     std::string_view attribute = "";
     bool color = false; ///< a vec3 is a colour, not a vector
     bool pair = false;  ///< a vec2 is a vector, not a range
+    std::string_view axes =
+        "xyz"; ///< of a vec3 that is a vector: "rgb" where it has a number for each colour
 };
 
 /// Declares the parameter that lives in `member`; its kind follows from the member's type.
@@ -101,8 +106,10 @@ Param declare(Member Struct::*member, const ParamText& text) {
         static_assert(std::is_same_v<Member, float>, "a parameter is a float, int, bool, enum, vec2 or vec3");
     const auto offset =
         std::size_t(reinterpret_cast<const char*>(&(probe.*member)) - reinterpret_cast<const char*>(&probe));
-    return {text.id,          text.label, text.unit, text.min,     text.max,       text.low, text.high,
-            text.logarithmic, text.group, text.doc,  text.choices, text.attribute, kind,     offset};
+    const std::string_view axes = kind == Kind::Pair ? "xz" : text.axes;
+    return {
+        text.id,    text.label, text.unit,    text.min,       text.max, text.low, text.high, text.logarithmic,
+        text.group, text.doc,   text.choices, text.attribute, axes,     kind,     offset};
 }
 
 /// All parameters of one struct. Its defaults are those of the default-constructed struct.
@@ -140,6 +147,12 @@ private:
     std::vector<std::byte> bytes_; // the allocator aligns for every scalar type
 };
 
+/// What a parameter needs that no struct holds: its value is computed from others when it is bound.
+struct Computed {
+    std::shared_ptr<const void> owner; ///< of what BoundParam::data points to
+    std::function<Status()> store;     ///< carries that over to the others; an error leaves them alone
+};
+
 /// A declared parameter bound to the struct that holds its value now.
 struct BoundParam {
     std::string path; ///< "objects.coin.material.specularity": what --set and links use
@@ -150,9 +163,12 @@ struct BoundParam {
     const void* defaults;        ///< the value to which reset goes back
     bool shown = true;           ///< false: reachable by its path, but in no panel
     std::string_view label = ""; ///< of its table
+    Group place = Group::None;   ///< where it stands instead of its param's group
+    Computed computed = {};      ///< without an owner: `data` is the value itself
 
     /// Where it stands in the panel now.
-    Group group() const { return shown ? param->group : Group::None; }
+    Group group() const { return !shown ? Group::None : place != Group::None ? place : param->group; }
+    bool isComputed() const { return computed.owner != nullptr; }
 };
 
 /// Number of float components of a kind: 3 for colours and vectors, 2 for ranges and pairs, else 1.

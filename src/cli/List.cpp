@@ -7,6 +7,7 @@
 #include "frame/Renderer.h"
 #include "scene/Keys.h"
 #include "scene/Scene.h"
+#include "scene/Translucency.h"
 
 #include <cstddef>
 #include <cstdio>
@@ -39,6 +40,7 @@ std::vector<Section> sections() {
     all.push_back({"material where light is transmitted", material, &scene::refractionParams()});
     all.push_back({"material where light is scattered", material, &scene::scatteringParams()});
     all.push_back({"layer on what scatters light", material + ".layers.N", &scene::layerParams()});
+    all.push_back({"the same in other words, not in files", material, &scene::translucencyParams()});
     all.push_back({"transform", "objects.NAME.transform", &scene::transformParams()});
     all.push_back({"wave, not of height fields and water", "objects.NAME.wave", &scene::waveParams()});
     for (const scene::TypeKeys& light : scene::lightTypes())

@@ -380,8 +380,10 @@ Status Compose::recordSolids(graph::FrameGraph& graph, const Inputs& in,
         if (!painted.empty()) matt = show == scene::Aov::Color ? recordMatt(graph, size) : shown;
         if (Status s = recordSurfaces(graph, in, painted, casters, flux, surface, matt); !s) return s;
     }
-    if (scattering_ && (show == scene::Aov::Color || show == scene::Aov::Radiosity))
-        return recordScattering(graph, in, seen(solids), casters, surface, matt, shown);
+    const bool isLight = show == scene::Aov::Radiosity || show == scene::Aov::Irradiance;
+    if (scattering_ && (show == scene::Aov::Color || isLight))
+        return recordScattering(graph, in, seen(solids), casters, surface, isLight ? TextureId{} : matt,
+                                shown);
     return Done{};
 }
 
@@ -436,6 +438,7 @@ Status Compose::recordScattering(graph::FrameGraph& graph, const Inputs& in,
                                .environment = *environment,
                                .target = shown,
                                .radiosity = in.scene.view.show == scene::Aov::Radiosity,
+                               .irradiance = in.scene.view.show == scene::Aov::Irradiance,
                                .size = in.shown.desc().size,
                                .matt = matt},
                               *scattering_, scatteringSettings(in));

@@ -4,7 +4,7 @@
 
 #include "brdf/Brdf.h"
 #include "caustics/Caustics.h"
-#include "frame/SurfaceKey.h"
+#include "views/ObjectKey.h"
 #include "refract/Refract.h"
 #include "subsurface/Subsurface.h"
 #include "views/Surface.h"

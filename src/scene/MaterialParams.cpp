@@ -2,6 +2,7 @@
 #include "base/Text.h"
 #include "scene/Keys.h"
 #include "scene/Scene.h"
+#include "scene/Translucency.h"
 
 #include <algorithm>
 #include <cmath>
@@ -126,7 +127,8 @@ const ParamTable& opticsParams() {
                  .group = Group::Material,
                  .doc =
                      "How often light is scattered on a metre of its way inside, red, green and blue; above "
-                     "0 the object is translucent."}),
+                     "0 the object is translucent.",
+                 .axes = "rgb"}),
     };
     static const ParamTable table = tableOf<Material>("material", params);
     return table;
@@ -332,7 +334,8 @@ std::string whyIdle(const Object& object, std::string_view key) {
                                 : std::string();
     const bool inside = holds(mediumParams(), key) || key == "absorption";
     const bool refracts = holds(refractionParams(), key);
-    const bool scatters = holds(scatteringParams(), key) || key == "layers" || key.starts_with("layers.");
+    const bool scatters = holds(scatteringParams(), key) || key == "layers" || key.starts_with("layers.") ||
+                          (key != "preset" && holds(translucencyParams(), key));
     if (object.isField()) {
         if (!inside && !refracts && !scatters && !holds(opticsParams(), key) && key != "preset") return {};
         return " does nothing on a height field; must stand on another shape";

@@ -3,6 +3,7 @@
 #include "base/Text.h"
 #include "scene/Keys.h"
 #include "scene/Mesh.h"
+#include "scene/Translucency.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -186,15 +187,44 @@ struct Binder {
         for (std::size_t i = 0; i < layers.size(); ++i) {
             const std::size_t start = bound.size();
             add(path + std::to_string(i), "", layerParams(), &layers[i]);
-            for (std::size_t k = start; k < bound.size(); ++k)
+            for (std::size_t k = start; k < bound.size(); ++k) {
                 bound[k].label = kLabels[i];
+                bound[k].place = Group::Subsurface;
+            }
         }
+    }
+
+    // Of an object that scatters: what it has better words for, or may not have beside, is not shown.
+    static void placeInside(BoundParam& param, const Material& material) {
+        param.place = Group::Subsurface;
+        param.shown = param.data == &material.ior || param.data == &material.anisotropy ||
+                      param.data == &material.thickness || param.data == &material.roughness;
+    }
+
+    // What is computed from a material: its words for light inside.
+    void addTranslucency(const std::string& path, std::string_view prefix, Material& material) {
+        const auto words = std::make_shared<Translucency>(translucencyOf(material));
+        const std::size_t start = bound.size();
+        add(path, prefix, translucencyParams(), words.get());
+        if (!material.isScattering()) { // a measured material may be chosen for anything
+            bound.resize(start + 1);
+            bound[start].shown = false;
+        }
+        for (std::size_t i = start; i < bound.size(); ++i)
+            bound[i].computed = {
+                words, [words, id = bound[i].param->id, &material] { return store(*words, id, material); }};
     }
 
     void addObject(Object& object, bool first) {
         const std::string path = "objects." + object.name;
+        const std::string_view prefix = first ? "material" : "";
+        const bool scatters = !object.isField() && object.material.isScattering();
+        if (!object.isField()) addTranslucency(path + ".material", prefix, object.material);
+        const std::size_t start = bound.size();
         for (const ParamTable* table : materialTables(object))
-            add(path + ".material", first ? "material" : "", *table, &object.material);
+            add(path + ".material", prefix, *table, &object.material);
+        for (std::size_t i = start; scatters && i < bound.size(); ++i)
+            placeInside(bound[i], object.material);
         if (object.material.isScattering()) addLayers(path + ".material.layers.", object.material.layers);
         add(path + ".shape", first ? "shape" : "", *typeOf(object.shape).keys.tables[0],
             dataOf(object.shape));
@@ -382,8 +412,9 @@ Status assign(Scene& scene, std::string_view path, std::string_view value) {
         return Error{std::string(path) + " is not a parameter; the nearest is " +
                      std::string(nearest(wanted, paths))};
     }
-    if (Status set = setText(*found->param, found->data, value); !set)
-        return Error{found->path + " " + set.error().message};
+    Status set = setText(*found->param, found->data, value);
+    if (set && found->isComputed()) set = found->computed.store();
+    if (!set) return Error{found->path + " " + set.error().message};
     return checkAll(scene);
 }
 

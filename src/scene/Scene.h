@@ -342,6 +342,9 @@ std::span<const std::string_view> aovNames();
 
 /// Every parameter of a scene bound to its value, in the order of the panel.
 ///
+/// Also what is computed from the material of objects that scatter (Translucency.h): it is as the material
+/// was when it was bound, and no part of a scene file.
+///
 /// The pointers stay valid while the scene's vectors keep their size. Of a camera's height and field of view
 /// only the one in use is bound, and of a material what acts on its object. A wave without amplitude and the
 /// time of a scene in which nothing moves are bound but not shown. Attributes address the first light and the

@@ -1,6 +1,7 @@
 #include "subsurface/Subsurface.h"
 
 #include "base/Log.h"
+#include "subsurface/Lambert.h"
 #include "subsurface/Splatting.h"
 #include "subsurface/Volume.h"
 #include "views/Layers.h"
@@ -15,15 +16,12 @@ using graph::TextureId;
 
 namespace {
 
-constexpr std::string_view kMethods[] = {"multires", "splat", "diffusion"};
+constexpr std::string_view kMethods[] = {"multires", "splat", "diffusion", "lambert"};
 constexpr std::string_view kProfiles[] = {"dipole", "multipole", "burley"};
 constexpr std::string_view kGeometries[] = {"planar", "offset"};
 constexpr std::string_view kSplats[] = {"bound", "paper"};
 constexpr std::string_view kExits[] = {"whole", "paper"};
 constexpr std::string_view kBlurEnergies[] = {"kept", "paper"};
-
-constexpr int kShadowSize =
-    1024; // texels a side, in which highlights are cut off; of lamps with a size half as many
 
 struct HighlightBlock {
     views::ViewBlock view;
@@ -90,24 +88,21 @@ std::vector<views::PosedMesh> scattering(const std::vector<views::PosedMesh>& so
     return list;
 }
 
+// Not a picture but the light at the surface.
+bool showsLight(const Inputs& in) { return in.radiosity || in.irradiance; }
+
 bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
 
 // Adds the highlights of one point of a lamp on all objects to those before it; or to none.
 Result<TextureId> recordHighlight(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
                                   const std::vector<views::PosedMesh>& objects, const views::LampPoint& lamp,
                                   TextureId before) {
-    const views::Bounds receivers = views::seenBy(in.eye, boundsOfAll(objects));
-    const int size = lamp.isPart ? kShadowSize / 2 : kShadowSize;
-    const views::ShadowViews views =
-        views::shadowViews(lamp.source, boundsOfAll(in.casters), receivers, size);
-    TextureId shadow;
+    Result<LampShadow> lampShadow = recordLampShadow(graph, context, in, objects, lamp);
+    if (!lampShadow) return lampShadow.error();
+    const views::ShadowViews& views = lampShadow->views;
+    const TextureId shadow = lampShadow->map;
     std::vector<std::string> defines;
-    if (!views.faces.empty()) {
-        Result<TextureId> drawn = views::recordShadow(graph, context, views, in.casters, receivers);
-        if (!drawn) return drawn.error();
-        shadow = *drawn;
-        defines.push_back("USE_SHADOW");
-    }
+    if (shadow) defines.push_back("USE_SHADOW");
     if (before) defines.push_back("USE_BEFORE");
     Result<const gl::Program*> program = context.program("subsurface/highlight", defines);
     if (!program) return program.error();
@@ -170,11 +165,11 @@ Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs&
                    const std::vector<views::PosedMesh>& objects, const Radiosity& leaving,
                    TextureId highlight, TextureId paint, const Settings& settings) {
     if (objects.empty()) return Done{};
-    const bool hasSky = in.environment != graph::TextureHandle::None && !in.radiosity;
+    const bool hasSky = in.environment != graph::TextureHandle::None && !showsLight(in);
     std::vector<std::string> defines;
     if (highlight) defines.push_back("USE_LAMPS");
     if (hasSky) defines.push_back("USE_SKY");
-    if (in.radiosity) defines.push_back("SHOW_RADIOSITY");
+    if (showsLight(in)) defines.push_back("SHOW_RADIOSITY");
     if (paint) defines.push_back("PAINTED");
     Result<const gl::Program*> program = context.program("subsurface/shade", defines);
     if (!program) return program.error();
@@ -300,15 +295,17 @@ const ParamTable& Subsurface::params() {
         declare(&Settings::method,
                 {.id = "method",
                  .label = "Method",
-                 .group = Group::Light,
-                 .doc = "How light is summed: near and far light apart, far light with few points and on few "
-                        "pixels; every splat on every pixel, as in the dissertation; or by solving diffusion "
-                        "in cells of the body itself, which is right behind bodies and in thin parts too.",
+                 .group = Group::Subsurface,
+                 .doc =
+                     "How light is summed: near and far light apart, far light with few points and on few "
+                     "pixels; every splat on every pixel, as in the dissertation; by solving diffusion "
+                     "in cells of the body itself, which is right behind bodies and in thin parts too; or, "
+                     "for comparison, lambert: as if light left where it entered.",
                  .choices = kMethods}),
         declare(&Settings::profile,
                 {.id = "profile",
                  .label = "Profile",
-                 .group = Group::Light,
+                 .group = Group::Subsurface,
                  .doc =
                      "What leaves around the place where light entered: a dipole; a multipole, for slabs of "
                      "the material's thickness; or Burley's normalised diffusion.",
@@ -316,7 +313,7 @@ const ParamTable& Subsurface::params() {
         declare(&Settings::dipoleGeometry,
                 {.id = "dipoleGeometry",
                  .label = "Dipole geometry",
-                 .group = Group::Light,
+                 .group = Group::Subsurface,
                  .doc =
                      "Where the sources of dipole and multipole stand on a curved surface: planar, by the "
                      "distance alone; offset, along the normal where light entered, which leaves less light "
@@ -330,13 +327,13 @@ const ParamTable& Subsurface::params() {
                  .low = 1e-3,
                  .high = 0.1,
                  .logarithmic = true,
-                 .group = Group::Light,
+                 .group = Group::Subsurface,
                  .doc = "Of the sum over points, over the integral that it stands for: it "
                         "decides how far splats reach and how many there are."}),
         declare(&Settings::splats,
                 {.id = "splats",
                  .label = "Number of splats",
-                 .group = Group::Light,
+                 .group = Group::Subsurface,
                  .doc =
                      "By the bound on what a lattice of points misses; or by the dissertation's eq. 6.17 and "
                      "6.18, which ask for many more.",
@@ -349,13 +346,13 @@ const ParamTable& Subsurface::params() {
                  .low = 32,
                  .high = 512,
                  .logarithmic = true,
-                 .group = Group::Light,
+                 .group = Group::Subsurface,
                  .doc = "Along a side of a light's view. Where more were needed light is "
                         "blurred until these suffice."}),
         declare(&Settings::exit,
                 {.id = "exit",
                  .label = "Light that leaves",
-                 .group = Group::Light,
+                 .group = Group::Subsurface,
                  .doc = "Whole: what arrives below the surface leaves it; paper: the surface keeps its mean "
                         "reflection a second time, as in the dissertation's eq. 6.13.",
                  .choices = kExits}),
@@ -376,7 +373,7 @@ const ParamTable& Subsurface::params() {
              .low = 1,
              .high = 64,
              .logarithmic = true,
-             .group = Group::Light,
+             .group = Group::Subsurface,
              .doc = "How many points stand for a lamp that has a size, where it lights scattering objects."}),
         declare(
             &Settings::cells,
@@ -386,7 +383,7 @@ const ParamTable& Subsurface::params() {
              .max = 128,
              .low = 16,
              .high = 96,
-             .group = Group::Light,
+             .group = Group::Subsurface,
              .doc =
                  "Along the longest side of a body, of method diffusion: details of light finer than a cell "
                  "are lost, and thinner parts shine alike on both sides."}),
@@ -411,7 +408,7 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
     Plan plan;
     std::vector<std::shared_ptr<const Profiled>> used;
     for (const views::DrawnMesh& mesh : meshes) {
-        if (!scatters(*mesh.object)) continue;
+        if (!scatters(*mesh.object) || settings.method == Method::Lambert) continue;
         Plan::State::Object object{.index = mesh.index, .profile = nullptr, .layers = {}};
         const Wanted wanted = wantedOf(mesh, settings);
         const auto known =
@@ -451,12 +448,14 @@ Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan
                           const Settings& settings) const {
     const std::vector<views::PosedMesh> objects = scattering(in.solids);
     if (objects.empty()) return Done{};
-    Result<Radiosity> radiosity = settings.method == Method::Diffusion
+    Result<Radiosity> radiosity = in.irradiance || settings.method == Method::Lambert
+                                      ? recordLambert(graph, context_, in, objects, settings)
+                                  : settings.method == Method::Diffusion
                                       ? recordVolumes(graph, context_, in, *plan.state_, settings, *volumes_)
                                       : recordRadiosity(graph, context_, in, *plan.state_, settings);
     if (!radiosity) return radiosity.error();
     TextureId highlight;
-    if (!in.radiosity)
+    if (!showsLight(in))
         for (const views::LampPoint& lamp : views::lampPoints(in.scene, settings.lightSamples)) {
             Result<TextureId> added = recordHighlight(graph, context_, in, objects, lamp, highlight);
             if (!added) return added.error();
@@ -464,7 +463,7 @@ Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan
         }
     std::vector<views::PosedMesh> plain, painted;
     for (const views::PosedMesh& mesh : objects)
-        (mesh.drawn.paint ? painted : plain).push_back(mesh);
+        (mesh.drawn.paint && !in.irradiance ? painted : plain).push_back(mesh);
     if (Status s = recordShade(graph, context_, in, plain, *radiosity, highlight, {}, settings); !s) return s;
     if (painted.empty()) return Done{};
     Result<TextureId> paint = views::recordLeaving(graph, context_, in.eye, painted, in.size);

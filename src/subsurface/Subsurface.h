@@ -17,7 +17,7 @@
 
 namespace lucent::subsurface {
 
-enum class Method : int { Multires, Splat, Diffusion };
+enum class Method : int { Multires, Splat, Diffusion, Lambert };
 enum class DipoleGeometry : int { Planar, Offset };
 enum class Splats : int { Bound, Paper };
 enum class Exit : int { Whole, Paper };
@@ -46,6 +46,7 @@ struct Inputs {
     graph::TextureHandle environment;             ///< lat-long map of scene.environment; None without one
     graph::TextureId target;                      ///< RGBA32F
     bool radiosity = false;                       ///< shows what leaves, W/m², not radiance
+    bool irradiance = false;                      ///< shows what arrives, W/m²
     ivec2 size{0};
     graph::TextureId matt{}; ///< painted objects as if they were opaque (brdf), RGBA32F; not for radiosity
 };

@@ -42,7 +42,8 @@ void Viewer::State::adopt(scene::Scene newScene) {
     loaded.clear();
     offered.clear();
     play = {};
-    mode.mode = modeFor(*scene);
+    mode = {.mode = modeFor(*scene)};
+    began = {};
     history.clear();
     grip = Grip::None;
     light = 0;
@@ -59,7 +60,9 @@ void Viewer::State::adopt(scene::Scene newScene) {
 // The controls of the scene as it is now.
 void Viewer::State::bind() {
     controls.clear();
-    offer(bindMode(mode, *scene), loaded.emplace("mode", nameOf(mode.mode)).first->second);
+    std::vector<BoundParam> modes = bindMode(mode, *scene);
+    offer(std::move(modes[0]), loaded.emplace("mode", nameOf(mode.mode)).first->second);
+    offerOfView(std::move(modes[1]));
     for (BoundParam& bound : scene::bindParams(*scene)) {
         if (isIdle(*scene, bound.path)) bound.shown = false;
         if (bound.data == &scene->view.time) offerOfView(bindPlaying(play, bound.shown));
@@ -70,7 +73,7 @@ void Viewer::State::bind() {
     for (BoundParam& bound : bindCompare(compare))
         offerOfView(std::move(bound));
     for (Control& control : controls)
-        if (control.bound.data == &scene->view.show) control.choices = viewsOf(mode.mode, scene->view.show);
+        offerChoices(control);
     const auto place = [&](const Control& control) {
         const Group group = control.bound.group();
         return std::pair(placeOf(group, mode.mode),
@@ -78,6 +81,14 @@ void Viewer::State::bind() {
     };
     std::stable_sort(controls.begin(), controls.end(),
                      [&](const Control& a, const Control& b) { return place(a) < place(b); });
+}
+
+// Leaves out choices that do nothing here, but for the one that is made.
+void Viewer::State::offerChoices(Control& control) const {
+    if (control.bound.data == &scene->view.show) control.choices = viewsOf(mode.mode, scene->view.show);
+    const std::string chosen = getText(*control.bound.param, control.bound.data);
+    if (control.bound.isComputed() && !control.choices.empty() && chosen != control.choices.front())
+        control.choices.erase(control.choices.begin()); // own
 }
 
 // What the panel has shown stays in it: a slider must not vanish under the hand that drags it to 0.
@@ -95,7 +106,8 @@ void Viewer::State::offerOfView(BoundParam bound) {
 // What belongs to the view alone: it is in no scene file.
 std::vector<BoundParam> Viewer::State::bindView() {
     std::vector<BoundParam> bound = bindCompare(compare);
-    bound.push_back(bindMode(mode, *scene));
+    for (BoundParam& one : bindMode(mode, *scene))
+        bound.push_back(std::move(one));
     if (const Control* playing = find("playing"); playing && playing->bound.shown)
         bound.push_back(playing->bound);
     return bound;
@@ -115,26 +127,72 @@ Status Viewer::State::change(const std::string& path, const std::string& value, 
     std::vector<std::string> before;
     for (const Control& control : controls)
         before.push_back(textOf(control));
-    if (Status set = scene::setParam(*scene, path, value); !set) return set;
+    const std::vector<scene::Material> held = materials();
+    const Control* control = find(path);
+    const bool isComputed = control && control->bound.isComputed();
+    if (isComputed) beginAt(path, step);
+    if (Status set = scene::setParam(*scene, path, value); !set) {
+        setMaterials(held);
+        return set;
+    }
     bool any = false;
     for (std::size_t i = 0; i < controls.size(); ++i) {
-        if (textOf(controls[i]) == before[i]) continue;
+        if (controls[i].bound.isComputed() || textOf(controls[i]) == before[i]) continue;
         history.record(step, {controls[i].bound.path, before[i], textOf(controls[i])});
         any = true;
     }
     if (!any) return Done{};
     bind(); // the projection decides what is bound
     changed();
+    if (isComputed) began.revision = revision;
     return Done{};
 }
 
-// What belongs to the view alone changes no picture and is no step to take back.
+// A value that is computed from others is carried back to them as they were when its gesture began: however
+// often a drag passes a place, it finds the same numbers there.
+void Viewer::State::beginAt(const std::string& path, std::uint64_t step) {
+    if (began.path != path || began.step != step || began.revision != revision) {
+        began = {path, step, revision, materials()};
+        return;
+    }
+    setMaterials(began.materials);
+}
+
+std::vector<scene::Material> Viewer::State::materials() const {
+    std::vector<scene::Material> list;
+    for (const scene::Object& object : scene->objects)
+        list.push_back(object.material);
+    return list;
+}
+
+void Viewer::State::setMaterials(const std::vector<scene::Material>& list) {
+    for (std::size_t i = 0; i < scene->objects.size(); ++i)
+        scene->objects[i].material = list[i];
+}
+
+// Goes back to the value as loaded. What no value says (a material of nobody's measurement) goes back with
+// all numbers of its object that it is computed from.
+void Viewer::State::reset(const std::string& path) {
+    const Control* control = find(path);
+    if (!control) return;
+    const std::uint64_t step = burst(path);
+    const bool isComputed = control->bound.isComputed();
+    if (change(path, std::string(control->loaded), step) || !isComputed) return;
+    const std::string owner = path.substr(0, path.rfind('.') + 1);
+    const std::vector<Control> before = controls; // change() binds anew
+    for (const Control& one : before)
+        if (one.bound.path.starts_with(owner) && !one.bound.isComputed())
+            (void)change(one.bound.path, one.loaded, step);
+}
+
+// What belongs to the view alone is no step to take back, and changes no picture but by `matt`.
 Status Viewer::State::changeView(const BoundParam& bound, const std::string& value) {
     const std::string before = getText(*bound.param, bound.data);
     if (Status set = setText(*bound.param, bound.data, value); !set)
         return Error{bound.path + " " + set.error().message};
     if (getText(*bound.param, bound.data) == before) return Done{};
     if (bound.data == &mode.mode) bind(); // other controls stand first
+    if (bound.data == &mode.matt) stale = true;
     ++revision;
     settled = false;
     return Done{};

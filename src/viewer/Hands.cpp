@@ -205,6 +205,12 @@ void Viewer::State::nextCompareMode() {
     (void)change("compare", std::string(modes[next]), gesture);
 }
 
+bool Viewer::State::toggleMatt() {
+    const Control* matt = find("matt");
+    if (!matt || !matt->bound.shown) return false;
+    return change("matt", mode.matt ? "false" : "true", gesture).ok();
+}
+
 bool Viewer::State::shortcut(const std::string& key, Modifiers modifiers) {
     if (key == "ArrowLeft") return arrow({-1, 0}, modifiers);
     if (key == "ArrowRight") return arrow({1, 0}, modifiers);
@@ -218,6 +224,7 @@ bool Viewer::State::shortcut(const std::string& key, Modifiers modifiers) {
         return true;
     }
     if (key == "c" || key == "C") return nextCompareMode(), true;
+    if (key == "m" || key == "M") return toggleMatt();
     if (key == "0" || key == "Home") return resetPose(), true;
     if (key == " ") return togglePlaying();
     if (key == "d" || key == "D") return fallInTheMiddle();

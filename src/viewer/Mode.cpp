@@ -1,6 +1,7 @@
 #include "viewer/Mode.h"
 
 #include "frame/Renderer.h"
+#include "subsurface/Subsurface.h"
 
 #include <algorithm>
 #include <optional>
@@ -11,12 +12,13 @@ using scene::Aov;
 
 namespace {
 
-constexpr std::string_view kModes[] = {"relief", "refraction", "caustics"};
+constexpr std::string_view kModes[] = {"relief", "refraction", "caustics", "subsurface"};
 
 // Groups that stand first; the others follow in their own order.
 constexpr Group kReliefFirst[] = {Group::Mode};
 constexpr Group kRefractionFirst[] = {Group::Mode, Group::Refraction, Group::View, Group::Environment};
 constexpr Group kCausticsFirst[] = {Group::Mode, Group::Caustics, Group::Light, Group::View};
+constexpr Group kSubsurfaceFirst[] = {Group::Mode, Group::Subsurface, Group::Light, Group::View};
 
 std::span<const Group> firstOf(Mode mode) {
     switch (mode) {
@@ -26,6 +28,8 @@ std::span<const Group> firstOf(Mode mode) {
         return kRefractionFirst;
     case Mode::Caustics:
         return kCausticsFirst;
+    case Mode::Subsurface:
+        return kSubsurfaceFirst;
     }
     return {};
 }
@@ -46,6 +50,8 @@ std::optional<Mode> modeOf(Aov aov) {
         return Mode::Refraction;
     case Aov::CausticMap:
         return Mode::Caustics;
+    case Aov::Radiosity:
+        return Mode::Subsurface;
     default:
         return std::nullopt;
     }
@@ -54,25 +60,41 @@ std::optional<Mode> modeOf(Aov aov) {
 } // namespace
 
 std::span<const Param> modeParams() {
-    static const Param params[] = {declare(
-        &ModeSettings::mode,
-        {.id = "mode",
-         .label = "What stands first",
-         .group = Group::Mode,
-         .doc = "Which sliders stand first, and which views Show offers: those of the light on a relief, of "
-                "what is seen through glass and water, or of the light that these throw.",
-         .choices = kModes,
-         .attribute = "mode"})};
+    static const Param params[] = {
+        declare(
+            &ModeSettings::mode,
+            {.id = "mode",
+             .label = "What stands first",
+             .group = Group::Mode,
+             .doc = "Which sliders stand first, and which views Show offers: those of the light on a relief, "
+                    "of what is seen through glass and water, of the light that these throw, or of light "
+                    "inside things.",
+             .choices = kModes,
+             .attribute = "mode"}),
+        declare(&ModeSettings::matt,
+                {.id = "matt",
+                 .label = "As matt",
+                 .group = Group::Subsurface,
+                 .doc = "What scatters light inside, for comparison as if light left where it entered: as "
+                        "much of it, with the same highlights (key M).",
+                 .attribute = "matt"})};
     return params;
 }
 
 std::string_view nameOf(Mode mode) { return kModes[int(mode)]; }
 
-BoundParam bindMode(ModeSettings& settings, const scene::Scene& scene) {
+std::vector<BoundParam> bindMode(ModeSettings& settings, const scene::Scene& scene) {
     static const ModeSettings defaults;
-    const Param& param = modeParams().front();
-    const bool isChoice = modesOf(scene).size() > 1;
-    return {std::string(param.id), "mode", &param, &settings.mode, &defaults.mode, isChoice};
+    const Param &mode = modeParams()[0], &matt = modeParams()[1];
+    const bool scatters = frame::need(scene, "subsurface").has_value();
+    return {{std::string(mode.id), "mode", &mode, &settings.mode, &defaults.mode, modesOf(scene).size() > 1},
+            {std::string(matt.id), "mode", &matt, &settings.matt, &defaults.matt, scatters}};
+}
+
+void applyMatt(const ModeSettings& settings, scene::Scene& scene) {
+    if (!settings.matt) return;
+    auto* technique = static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data());
+    technique->method = subsurface::Method::Lambert;
 }
 
 std::vector<Mode> modesOf(const scene::Scene& scene) {
@@ -80,6 +102,7 @@ std::vector<Mode> modesOf(const scene::Scene& scene) {
     if (frame::need(scene, "relief")) modes.push_back(Mode::Relief);
     if (frame::need(scene, "refract")) modes.push_back(Mode::Refraction);
     if (frame::need(scene, "caustics")) modes.push_back(Mode::Caustics);
+    if (frame::need(scene, "subsurface")) modes.push_back(Mode::Subsurface);
     if (modes.empty()) modes.push_back(Mode::Relief);
     return modes;
 }

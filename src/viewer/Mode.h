@@ -10,17 +10,22 @@
 
 namespace lucent::viewer {
 
-enum class Mode : int { Relief, Refraction, Caustics };
+enum class Mode : int { Relief, Refraction, Caustics, Subsurface };
 
 /// Part of the view, not of the scene: no undo step, not in a scene file.
 struct ModeSettings {
     Mode mode = Mode::Relief;
+    bool matt = false; ///< what scatters light inside is drawn as if it did not: Lambert's law and the same
+                       ///< highlights
 };
 
-/// "mode", which is also its path and attribute. Shown where there is something to choose.
+/// "mode" and "matt", which are also their paths and attributes.
 std::span<const Param> modeParams();
 std::string_view nameOf(Mode mode);
-BoundParam bindMode(ModeSettings& settings, const scene::Scene& scene);
+/// Both; each is shown where it has something to choose.
+std::vector<BoundParam> bindMode(ModeSettings& settings, const scene::Scene& scene);
+/// The scene as `matt` wants it drawn.
+void applyMatt(const ModeSettings& settings, scene::Scene& scene);
 
 /// Modes that have something to do in a scene; Relief where no other has.
 std::vector<Mode> modesOf(const scene::Scene& scene);

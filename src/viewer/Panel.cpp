@@ -186,6 +186,7 @@ private:
     bool groupHeading(Group group);
     void groupControls(Group group);
     void ownerHeading(const std::string& owner);
+    void profileOf(const std::string& owner);
     void control(const Control& control);
     void editor(const Control& control);
 
@@ -336,14 +337,17 @@ bool Panel::Frame::groupHeading(Group group) {
 }
 
 void Panel::Frame::groupControls(Group group) {
-    std::string before;
+    std::string before, owner;
     for (const Control& c : input_.controls) {
         if (c.bound.group() != group) continue;
+        if (group == Group::Subsurface && ownerOf(c.bound) != owner) profileOf(owner);
+        owner = ownerOf(c.bound);
         const std::string heading = headingOf(c, input_.controls);
         if (heading != before && !heading.empty()) ownerHeading(heading);
         before = heading;
         control(c);
     }
+    if (group == Group::Subsurface) profileOf(owner);
     const vec2 at = take(kGap);
     list_->AddLine({at.x, at.y + kGap - 1}, {at.x + width_, at.y + kGap - 1}, theme_.cardBorder);
 }
@@ -351,6 +355,14 @@ void Panel::Frame::groupControls(Group group) {
 void Panel::Frame::ownerHeading(const std::string& owner) {
     const vec2 at = take(kLine);
     text({at.x, at.y + 4}, theme_.accent, owner);
+}
+
+void Panel::Frame::profileOf(const std::string& owner) {
+    for (const ProfilePlot& plot : input_.profiles)
+        if (plot.owner == owner) {
+            drawProfilePlot(*list_, take(kPlotHeight), width_, plot, theme_);
+            take(kGap);
+        }
 }
 
 void Panel::Frame::control(const Control& control) {
@@ -406,7 +418,8 @@ void Panel::Frame::labelLine(const Control& control, const std::string& valueTex
 
 // An arrow that turns back, drawn because it must look the same in every type size.
 void Panel::Frame::resetMark(const Control& control, vec2 at) {
-    if (button("reset", at - vec2(11), vec2(22))) edit(control, control.loaded);
+    if (button("reset", at - vec2(11), vec2(22)))
+        edits_.push_back({control.bound.path, control.loaded, true});
     const ImU32 ink = ImGui::IsItemHovered() ? theme_.text : theme_.accent;
     list_->PathArcTo(im(at), 4.5f, -2.2f, 3.0f, 16);
     list_->PathStroke(ink, 0, 1.5f);
@@ -532,10 +545,9 @@ void Panel::Frame::vector(const Control& control) {
     const vec2 start = glmVec(ImGui::GetCursorScreenPos());
     const float sliderWidth = width_ - kAxis - kInlineValue;
     const int count = componentCount(param.kind);
-    const std::string_view axes = param.kind == Kind::Pair ? "xz" : "xyz";
     for (int i = 0; i < count; ++i) {
         const vec2 at = take(kLine);
-        text({at.x, at.y + 4}, theme_.muted, axes.substr(std::size_t(i), 1));
+        text({at.x, at.y + 4}, theme_.muted, param.axes.substr(std::size_t(i), 1));
         slider(control, i, {at.x + kAxis, at.y + 2}, sliderWidth);
         value(control, i, withUnit(param, numberText(param, getComponent(param, control.bound.data, i))),
               {at.x + width_, at.y + 4});

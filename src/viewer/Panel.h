@@ -2,6 +2,7 @@
 /// The panel beside the picture, made from parameter descriptors: nothing about a parameter is typed here.
 
 #include "base/Param.h"
+#include "viewer/ProfilePlot.h"
 #include "viewer/Theme.h"
 
 #include <array>
@@ -30,6 +31,7 @@ std::string headingOf(const Control& control, std::span<const Control> controls)
 /// What a person did in the panel: the parameter and its new value as text, not yet checked.
 struct Edit {
     std::string path, text;
+    bool reset = false; ///< back to the value as loaded, which is `text`
 };
 
 /// CSS pixels from the top left corner.
@@ -41,9 +43,10 @@ struct Rect {
 struct PanelInput {
     std::string_view title;
     std::span<const Control> controls;
-    std::string_view focus; ///< path of the control whose twin has the keyboard focus
-    vec2 canvas;            ///< CSS pixels
-    bool touch = false;     ///< a finger scrolls by dragging
+    std::span<const ProfilePlot> profiles; ///< each stands below the controls of its object
+    std::string_view focus;                ///< path of the control whose twin has the keyboard focus
+    vec2 canvas;                           ///< CSS pixels
+    bool touch = false;                    ///< a finger scrolls by dragging
 };
 
 /// Draws and remembers what is open, typed and gripped. Needs a current ImGui context between NewFrame and

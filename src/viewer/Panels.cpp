@@ -77,11 +77,16 @@ void Viewer::State::frame() {
     fonts().select(scale);
     panel.setCanvas(canvas());
 
+    if (scene && profilesAt != revision) {
+        profiles = profilePlots(*scene);
+        profilesAt = revision;
+    }
     ImGui::NewFrame();
     std::vector<Edit> edits;
     if (scene)
         edits = panel.draw({.title = scene->title,
                             .controls = controls,
+                            .profiles = profiles,
                             .focus = focus == "divider" ? "" : focus, // which is not in the panel
                             .canvas = canvas(),
                             .touch = touch},
@@ -90,7 +95,10 @@ void Viewer::State::frame() {
     ImGui::Render();
     settled = false;
     for (const Edit& edit : edits)
-        if (Status set = change(edit.path, edit.text, burst(edit.path)); !set) message = set.error().message;
+        if (edit.reset)
+            reset(edit.path);
+        else if (Status set = change(edit.path, edit.text, burst(edit.path)); !set)
+            message = set.error().message;
 }
 
 void Viewer::State::overlays() {

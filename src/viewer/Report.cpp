@@ -23,7 +23,7 @@ void writeControl(JsonWriter& json, const Control& control, std::span<const Cont
     json.key("kind").value(kindName(param.kind)).key("components").value(componentCount(param.kind));
     json.key("min").value(param.min).key("max").value(param.max);
     json.key("low").value(param.low).key("high").value(param.high);
-    json.key("logarithmic").value(param.logarithmic);
+    json.key("logarithmic").value(param.logarithmic).key("axes").value(param.axes);
     json.key("choices").beginArray();
     for (const std::string_view choice : control.choices)
         json.value(choice);
@@ -69,7 +69,8 @@ std::string changesJson(std::span<const Control> controls, const void* leftOut) 
     json.beginObject();
     for (const Control& control : controls) {
         const std::string now = getText(*control.bound.param, control.bound.data);
-        if (now != control.loaded && control.bound.data != leftOut) json.key(control.bound.path).value(now);
+        if (control.bound.isComputed() || control.bound.data == leftOut) continue;
+        if (now != control.loaded) json.key(control.bound.path).value(now);
     }
     json.end();
     return json.text();

@@ -65,11 +65,20 @@ struct Viewer::State {
     ivec2 picturePixels{0};
     Phase phase = Phase::Done;
     bool stale = false, shown = false; // the scene changed since; there is a picture to present
-    bool settled = true;               // ImGui has nothing new to say
+    std::vector<ProfilePlot> profiles;
+    std::uint64_t profilesAt = 0; // revision whose they are
+    bool settled = true;          // ImGui has nothing new to say
     std::uint64_t shownHash = 0;
     int drawCount = 0;
     double frameTime = 0, hoverTime = 0;
     std::string hovered, tooltip;
+
+    // A gesture at a computed value: whose, and what it began with.
+    struct Began {
+        std::string path;
+        std::uint64_t step = 0, revision = 0;
+        std::vector<scene::Material> materials;
+    } began;
 
     ModeSettings mode;
     PlaySettings play;
@@ -118,6 +127,11 @@ struct Viewer::State {
     std::vector<BoundParam> bindView();
     const Control* find(const std::string& path) const;
     Status change(const std::string& path, const std::string& value, std::uint64_t step);
+    void beginAt(const std::string& path, std::uint64_t step);
+    std::vector<scene::Material> materials() const;
+    void setMaterials(const std::vector<scene::Material>& list);
+    void reset(const std::string& path);
+    void offerChoices(Control& control) const;
     Status changeView(const BoundParam& bound, const std::string& value);
     void assign(const void* member, vec3 value);
     void assign(const void* member, float value);
@@ -146,6 +160,7 @@ struct Viewer::State {
     bool fall(WaterPlace place, float depth = 0.3f);
     bool fallInTheMiddle();
     void nextCompareMode();
+    bool toggleMatt();
     bool shortcut(const std::string& key, Modifiers modifiers);
     bool arrow(vec2 step, Modifiers modifiers);
 

@@ -257,7 +257,7 @@ Status Viewer::set(const std::string& path, const std::string& value) {
 }
 
 void Viewer::reset(const std::string& path) {
-    if (const Control* control = state_->find(path)) (void)set(path, std::string(control->loaded));
+    if (state_->scene) state_->reset(path);
 }
 
 bool Viewer::undo() {
@@ -293,6 +293,10 @@ std::string Viewer::stats() const {
     if (s.scene && s.pixels.y > 0) input.light = s.dotOf(s.light);
     input.widgets = s.panel.widgets();
     return statsJson(input);
+}
+
+std::string Viewer::profiles() const {
+    return state_->scene ? profilesJson(profilePlots(*state_->scene)) : "[]\n";
 }
 
 std::string Viewer::changes() const { return changesJson(state_->controls, &state_->play.playing); }

@@ -172,6 +172,7 @@ int viewer_redo(int viewer) { return viewerOf(viewer).redo(); }
 void viewer_focus(int viewer, const char* path) { viewerOf(viewer).focusControl(path); }
 const char* viewer_controls(int viewer) { return answer(viewerOf(viewer).controls()); }
 const char* viewer_stats(int viewer) { return answer(viewerOf(viewer).stats()); }
+const char* viewer_profiles(int viewer) { return answer(viewerOf(viewer).profiles()); }
 const char* viewer_changes(int viewer) { return answer(viewerOf(viewer).changes()); }
 const char* viewer_scene_json(int viewer) { return answer(viewerOf(viewer).sceneJson()); }
 const char* viewer_title(int viewer) { return answer(viewerOf(viewer).title()); }

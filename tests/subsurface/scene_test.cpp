@@ -1,4 +1,5 @@
 // Whole scenes in which light scatters: only the passes that they need, and scattering objects among others.
+#include "diffusion/Profile.h"
 #include "frame/Renderer.h"
 #include "subsurface/Subsurface.h"
 #include "tests/support/Gl.h"
@@ -113,6 +114,52 @@ TEST_F(Scattering, TwoMaterialsAtOnceAreEachAsTheyAreAlone) {
         for (int x = 0; x < 24; ++x)
             EXPECT_NEAR(both.at(x, y)[1], ball.at(x, y)[1], 1e-6);
     EXPECT_GT(sumOf(both), 1.1f * sumOf(ball));
+}
+
+TEST_F(Scattering, LambertLeavesTheWholeProfileWhereLightEnteredAndSplatsNothing) {
+    scene::Object& box = scene.objects[0];
+    box.shape = scene::Box{{0.02f, 0.02f, 0.004f}};
+    box.material.scattering = {500, 1500, 4000};
+    subsurface::Settings lambert;
+    lambert.method = subsurface::Method::Lambert;
+    *static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data()) = lambert;
+    EXPECT_FALSE(runs("subsurface.splat"));
+    EXPECT_TRUE(runs("subsurface.highlight")); // as ever
+    // The front faces +z; light of 1 W/m² travels along (-0.3, -1, -0.5).
+    const double cosine = 0.5 / std::sqrt(0.09 + 1 + 0.25);
+    EXPECT_NEAR(picture(scene::Aov::Irradiance).at(24, 24)[1], cosine, 1e-5);
+    const Image image = picture();
+    const auto media = diffusion::mediaOf(box.material);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double whole = diffusion::totalReflectance(media[c], diffusion::Shape::Dipole, 0);
+        const double expected = cosine * diffusion::transmittedShare(cosine, 1.5) * whole;
+        EXPECT_NEAR(double(image.at(24, 24)[c]), expected, 1e-5);
+    }
+    EXPECT_EQ(image.at(1, 1)[1], 0);
+}
+
+TEST_F(Scattering, LambertUnderAnEvenSkyIsTheMeanTransmittanceTimesTheWholeProfile) {
+    scene.environment.emplace();
+    auto map = std::make_shared<Image>(8, 4, 3);
+    std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);
+    scene.environment->map = map;
+    scene.lights.clear();
+    static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data())->method =
+        subsurface::Method::Lambert;
+    const double arriving = 0.5 * double(kPi);
+    EXPECT_NEAR(double(picture(scene::Aov::Irradiance).at(24, 24)[1]), arriving, 1e-3 * arriving);
+    const double whole = diffusion::totalReflectance(diffusion::mediaOf(scene.objects[0].material)[1],
+                                                     diffusion::Shape::Dipole, 0);
+    const double expected = arriving * diffusion::meanTransmittance(1.5) * whole;
+    // 4096 cells stand for the sky, and 1024 steps for its lobe.
+    EXPECT_NEAR(double(picture().at(24, 24)[1]), expected, 1e-3 * expected);
+}
+
+TEST_F(Scattering, WithNoLightAtAllLambertIsBlack) {
+    scene.lights.clear();
+    static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data())->method =
+        subsurface::Method::Lambert;
+    EXPECT_EQ(sumOf(picture()), 0);
 }
 
 TEST_F(Scattering, AnEnvironmentPeelsItsSurfacesAlongThreeAxes) {

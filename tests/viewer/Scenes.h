@@ -51,6 +51,13 @@ inline constexpr const char* kWaterScene = R"({"lucent": 1, "title": "Water", "s
  "objects": [{"name": "floor", "shape": {"type": "plane"}, "transform": {"translate": [0, -0.3, 0]}},
              {"name": "water", "shape": {"type": "water", "cells": 32}, "material": {"transmission": 1, "ior": 1.33}}]})";
 
+/// A ball of marble, 20 mm wide, lit from the left, with 40 mm of height shown; and a board behind it.
+inline constexpr const char* kMarbleScene = R"({"lucent": 1, "title": "Marble", "size": [512, 512],
+ "camera": {"type": "orthographic", "eye": [0, 0, 1], "height": 0.04},
+ "lights": [{"type": "distant", "direction": [-1, -0.3, -1], "irradiance": 2}],
+ "objects": [{"name": "board", "shape": {"type": "box", "size": [0.04, 0.02, 0.001]}, "transform": {"translate": [0, 0, -0.02]}},
+             {"name": "ball", "shape": {"type": "sphere", "radius": 0.01}, "material": {"preset": "marble"}}]})";
+
 /// Two triangles of two materials, 2 m wide, 1 m high and flat in z.
 inline scene::Mesh tentMesh() {
     scene::Mesh mesh{.positions = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}},

@@ -57,6 +57,15 @@ const pond = {
     { name: 'water', shape: { type: 'water', cells: 32 }, material: { transmission: 1, ior: 1.33 } },
   ],
 };
+/** A ball of marble, 20 mm wide, lit from the left. */
+const marble = {
+  lucent: 1,
+  title: 'A marble',
+  size: [200, 200],
+  camera: { type: 'orthographic', eye: [0, 0, 1], height: 0.03 },
+  lights: [{ type: 'distant', direction: [1, -0.3, 0], irradiance: 2 }],
+  objects: [{ name: 'ball', shape: { type: 'sphere', radius: 0.01 }, material: { preset: 'marble' } }],
+};
 const broken = structuredClone(dome);
 broken.objects[0].shape.heightScale = 'tall';
 
@@ -66,6 +75,7 @@ export const kScenes = {
   'dome.pfm': pfm((x, y) => Math.max(0, 1 - x * x - y * y)),
   'banner.json': JSON.stringify(banner),
   'pond.json': JSON.stringify(pond),
+  'marble.json': JSON.stringify(marble),
   'ridge.json': JSON.stringify(scene('A ridge', 'ridge.pfm')),
   'ridge.pfm': pfm((x) => 1 - Math.abs(x)),
   'sky.json': JSON.stringify(

@@ -1,0 +1,92 @@
+/** Mode subsurface: words for light inside as controls, their numbers for screen readers, the matt comparison. */
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { brightness, complete, difference, openStage, openViewers, pictureOf, valueOf } from './support.mjs';
+
+const kMaterial = 'objects.ball.material.';
+const kFarSide = [0.62, 0.4, 0.8, 0.7]; // of the picture: right of the middle, where no light arrives
+
+let stage;
+before(async () => (stage = await openStage()));
+after(() => stage.close());
+
+async function open(controls = 'html') {
+  const page = await openViewers(
+    stage,
+    `<lucent-viewer src="made/marble.json" controls="${controls}" alt="A marble"></lucent-viewer>`,
+  );
+  await page.evaluate(() =>
+    Object.assign(document.querySelector('lucent-viewer').style, { width: '200px', height: '200px', maxHeight: 'none' }),
+  );
+  await complete(page);
+  return page;
+}
+
+const input = (page, path, selector = 'input') => page.locator(`lucent-viewer [data-path="${path}"] ${selector}`);
+const profile = (page) => page.textContent('lucent-viewer .profile');
+const call = (page, name) => page.evaluate((one) => document.querySelector('lucent-viewer')[one](), name);
+
+test('a measured material is chosen by its name, changes the picture, and is undone to the bit', async () => {
+  const page = await open();
+  assert.equal(await valueOf(page, 'mode'), 'subsurface');
+  const select = input(page, kMaterial + 'preset', 'select');
+  assert.equal(await select.inputValue(), 'marble');
+  const plain = await pictureOf(page);
+  await select.selectOption('ketchup');
+  await complete(page);
+  assert.ok(difference(plain, await pictureOf(page)).share > 0.1);
+  assert.equal(await valueOf(page, kMaterial + 'ior'), 1.3);
+  assert.ok(await call(page, 'undo'));
+  await complete(page);
+  assert.equal(await select.inputValue(), 'marble');
+  assert.equal(difference(plain, await pictureOf(page)).max, 0);
+  assert.equal(await call(page, 'undo'), false);
+  assert.deepEqual(page.problems, []);
+  await page.leave();
+});
+
+test('blur and glow move the coefficients, and these move them', async () => {
+  const page = await open();
+  const shown = (id, selector) => input(page, kMaterial + id, selector).inputValue().then(Number);
+  const glow = await shown('glow', 'input[type=number]');
+  const red = () => shown('scatteringPerMm', 'input >> nth=0');
+  const scattering = await red();
+  await input(page, kMaterial + 'blur', 'input[type=number]').fill('3.8346'); // ten times marble's 3 / 7.8233
+  await page.keyboard.press('Enter');
+  assert.ok(Math.abs((await red()) / scattering - 0.1) < 1e-4);
+  assert.ok(Math.abs((await shown('glow', 'input[type=number]')) - glow) < 1e-5);
+  await input(page, kMaterial + 'absorptionPerMm', 'input >> nth=2').fill('0.5');
+  await page.keyboard.press('Enter');
+  assert.ok((await shown('glow', 'input[type=number]')) < glow);
+  assert.equal(await input(page, kMaterial + 'scatteringPerMm', 'input >> nth=2').getAttribute('aria-label'), 'Scattering blue');
+  await input(page, kMaterial + 'preset', 'select').selectOption('marble');
+  assert.equal(await red(), scattering);
+  await page.leave();
+});
+
+test('a screen reader hears how far light goes, as the curves show it', async () => {
+  const page = await open('');
+  assert.match(await profile(page), /^Light inside ball, dipole: red reaches [\d.]+ mm, 83\.0 % leaves again; /);
+  const [{ whole, distances, values }] = await call(page, 'profiles');
+  assert.ok(Math.abs(whole[2] - 0.753) < 1e-3);
+  assert.ok(distances.length === values.length && values[0][0] > values.at(-1)[0]);
+  await page.evaluate((path) => document.querySelector('lucent-viewer').set(path, 'skin1'), kMaterial + 'preset');
+  assert.doesNotMatch(await profile(page), / 83\.0 %/);
+  await page.leave();
+});
+
+test('as matt the far side is dark, and the scene stays as it was', async () => {
+  const page = await open();
+  const scene = () => page.evaluate(() => document.querySelector('lucent-viewer').sceneJson);
+  const [lit, before] = [await pictureOf(page), await scene()];
+  await input(page, 'matt').check();
+  await complete(page);
+  const matt = await pictureOf(page);
+  assert.ok(brightness(lit, kFarSide) > 20, `${brightness(lit, kFarSide)}`);
+  assert.ok(brightness(matt, kFarSide) < 0.3 * brightness(lit, kFarSide), `${brightness(matt, kFarSide)}`);
+  assert.equal(await scene(), before);
+  await input(page, 'matt').uncheck();
+  await complete(page);
+  assert.equal(difference(lit, await pictureOf(page)).max, 0);
+  await page.leave();
+});
