@@ -14,6 +14,8 @@
 #include "measure/GlassProof.h"
 #include "measure/RefractPlan.h"
 #include "measure/ReliefPlan.h"
+#include "measure/SubsurfacePlan.h"
+#include "measure/SubsurfaceTruth.h"
 #include "scene/Load.h"
 #include "scene/readers/Readers.h"
 
@@ -42,12 +44,12 @@ struct BenchOptions {
     std::string commit = LUCENT_COMMIT;
 };
 
-constexpr std::string_view kParts[] = {"relief",     "environment", "scaling", "hard",        "all",
-                                       "refraction", "caustics",    "budget",  "budget-glass"};
+constexpr std::string_view kParts[] = {"relief",     "environment", "scaling",    "hard",   "all",
+                                       "refraction", "caustics",    "subsurface", "budget", "budget-glass"};
 
 struct Parts {
     measure::ReliefParts relief;
-    bool refraction = false, caustics = false, glassBudget = false;
+    bool refraction = false, caustics = false, subsurface = false, glassBudget = false;
 };
 
 // --- the machine
@@ -102,6 +104,7 @@ Result<Parts> parseParts(const std::vector<std::string>& names) {
         parts.glassBudget |= name == "budget-glass";
         parts.refraction |= name == "refraction";
         parts.caustics |= name == "caustics";
+        parts.subsurface |= name == "subsurface";
     }
     return parts;
 }
@@ -181,14 +184,19 @@ Status addMesh(const std::string& path, std::vector<measure::BenchMesh>& meshes)
     return Done{};
 }
 
-Result<measure::Plan> makeRefractPlan(const BenchOptions& options) {
-    std::vector<measure::BenchMesh> meshes, simpler;
-    if (Status added = addMesh(options.gallery + "/bunny.glb", meshes); !added) return added.error();
+// What refraction and light inside are measured on beside shapes.
+struct BodyMeshes {
+    std::vector<measure::BenchMesh> bunny;   // nothing where it is not there
+    std::vector<measure::BenchMesh> dragons; // in several numbers of triangles; nothing where one is missing
+};
+Result<BodyMeshes> bodyMeshes(const BenchOptions& options) {
+    BodyMeshes meshes;
+    if (Status added = addMesh(options.gallery + "/bunny.glb", meshes.bunny); !added) return added.error();
     for (const std::string& path : {options.meshes + "/dragon-4k.glb", options.gallery + "/dragon-40k.glb",
                                     options.meshes + "/dragon.glb"})
-        if (Status added = addMesh(path, simpler); !added) return added.error();
-    if (simpler.size() < 3) simpler.clear();
-    return measure::refractPlan(meshes, simpler, options.quick);
+        if (Status added = addMesh(path, meshes.dragons); !added) return added.error();
+    if (meshes.dragons.size() < 3) meshes.dragons.clear();
+    return meshes;
 }
 
 // What caustics are measured on beside shapes.
@@ -210,10 +218,12 @@ void append(measure::Plan& plan, const measure::Plan& more) {
 
 Result<measure::Plan> makePlan(const BenchOptions& options, const Parts& parts) {
     Result<measure::Plan> plan = makeReliefPlan(options, parts.relief);
-    if (plan && parts.refraction) {
-        const Result<measure::Plan> more = makeRefractPlan(options);
-        if (!more) return more;
-        append(*plan, *more);
+    if (plan && (parts.refraction || parts.subsurface)) {
+        const Result<BodyMeshes> meshes = bodyMeshes(options);
+        if (!meshes) return meshes.error();
+        const auto& [bunny, dragons] = *meshes;
+        if (parts.refraction) append(*plan, measure::refractPlan(bunny, dragons, options.quick));
+        if (parts.subsurface) append(*plan, measure::subsurfacePlan(bunny, dragons, options.quick));
     }
     if (plan && parts.caustics) {
         const auto meshes = causticMeshes(options);
@@ -242,15 +252,20 @@ bool isRefraction(const scene::Scene& scene) {
 Result<truth::Picture> solve(const scene::Scene& scene, int directions, const truth::Tile& rows) {
     if (isRefraction(scene)) return measure::solveRefraction(scene, rows, 0);
     if (scene.view.show == scene::Aov::Irradiance) return measure::solveCaustics(scene, rows, 0);
+    if (scene.view.show == scene::Aov::Radiosity) return measure::solveSubsurface(scene, rows, 0);
     return measure::solveRelief(scene, directions, rows, 0);
 }
 
-measure::BenchReport runPlan(gl::Context& context, measure::Plan plan, const std::string& truths) {
-    plan.truthParts = 1;
-    const auto solveOnce = [&](const scene::Scene& scene, int directions, const truth::Tile& rows) {
+// Whole solutions, kept in a folder.
+measure::SolveTruth solvingOnce(const std::string& truths) {
+    return [truths](const scene::Scene& scene, int directions, const truth::Tile& rows) {
         return cachedTruth(truthPath(truths, scene, directions),
                            [&] { return solve(scene, directions, rows); });
     };
+}
+
+measure::BenchReport runPlan(gl::Context& context, measure::Plan plan, const measure::SolveTruth& solveOnce) {
+    plan.truthParts = 1;
     const auto start = std::chrono::steady_clock::now();
     std::unique_ptr<measure::Sweep> sweep;
     const auto say = [&](const std::string& what) {
@@ -262,6 +277,12 @@ measure::BenchReport runPlan(gl::Context& context, measure::Plan plan, const std
     while (sweep->step())
         ;
     return sweep->report();
+}
+
+measure::Say saying(const std::string& part) {
+    return [part](const std::string& line) {
+        std::fprintf(stderr, "bench: %s: %s\n", part.c_str(), line.c_str());
+    };
 }
 
 // The proof of quality.maxError on the gallery's fields and light probes and on synthetic ones; its totals go
@@ -276,10 +297,8 @@ Status proveBudget(gl::Context& context, const BenchOptions& options, measure::B
     }
     Result<measure::BenchEnvironment> window = environmentOf(options.gallery + "/window.exr");
     if (!window) return window.error();
-    const auto say = [](const std::string& line) {
-        std::fprintf(stderr, "bench: budget: %s\n", line.c_str());
-    };
-    const Result<measure::BudgetReport> proof = measure::proveBudget(context, fields, {*window}, kSide, say);
+    const Result<measure::BudgetReport> proof =
+        measure::proveBudget(context, fields, {*window}, kSide, saying("budget"));
     if (!proof) return proof.error();
     std::fputs(proof->text().c_str(), stdout);
     const std::vector<measure::Ratio> totals = proof->totals();
@@ -292,10 +311,8 @@ Status proveGlass(gl::Context& context, const BenchOptions& options, measure::Be
     constexpr int kSide = 96; // pixels
     Result<measure::BenchEnvironment> window = environmentOf(options.gallery + "/window.exr");
     if (!window) return window.error();
-    const auto say = [](const std::string& line) {
-        std::fprintf(stderr, "bench: budget of glass: %s\n", line.c_str());
-    };
-    const Result<measure::BudgetReport> proof = measure::proveGlassBudget(context, {*window}, kSide, say);
+    const Result<measure::BudgetReport> proof =
+        measure::proveGlassBudget(context, {*window}, kSide, saying("budget of glass"));
     if (!proof) return proof.error();
     std::fputs(proof->text().c_str(), stdout);
     const std::vector<measure::Ratio> totals = proof->totals();
@@ -303,18 +320,24 @@ Status proveGlass(gl::Context& context, const BenchOptions& options, measure::Be
     return writeAll({{options.output + "/budget-glass.json", toBytes(proof->json())}});
 }
 
-// The books of caustics, into the report.
-Status proveCaustics(gl::Context& context, const BenchOptions& options, measure::BenchReport& report) {
-    const auto meshes = causticMeshes(options);
-    if (!meshes) return meshes.error();
-    const auto say = [](const std::string& line) {
-        std::fprintf(stderr, "bench: caustics: %s\n", line.c_str());
-    };
-    const Result<std::vector<measure::Ratio>> ratios =
-        measure::proveCaustics(context, *meshes, options.quick, say);
+// Figures that are no pictures', into the report.
+Status add(const Result<std::vector<measure::Ratio>>& ratios, measure::BenchReport& report) {
     if (!ratios) return ratios.error();
     report.ratios.insert(report.ratios.end(), ratios->begin(), ratios->end());
     return Done{};
+}
+Status proveCaustics(gl::Context& context, const BenchOptions& options, measure::BenchReport& report) {
+    const auto meshes = causticMeshes(options);
+    if (!meshes) return meshes.error();
+    return add(measure::proveCaustics(context, *meshes, options.quick, saying("caustics")), report);
+}
+Status proveSubsurface(gl::Context& context, const BenchOptions& options,
+                       const measure::SolveTruth& solveOnce, measure::BenchReport& report) {
+    const Result<BodyMeshes> meshes = bodyMeshes(options);
+    if (!meshes) return meshes.error();
+    return add(
+        measure::proveSubsurface(context, meshes->bunny, solveOnce, options.quick, saying("subsurface")),
+        report);
 }
 
 Status bench(const BenchOptions& options) {
@@ -338,7 +361,8 @@ Status bench(const BenchOptions& options) {
     if (Status drawn = drawOnce(**context); !drawn) return drawn;
     const double peakMB = megabytes("/proc/self/status", "VmHWM");
 
-    measure::BenchReport report = runPlan(**context, std::move(*plan), truths);
+    const measure::SolveTruth solveOnce = solvingOnce(truths);
+    measure::BenchReport report = runPlan(**context, std::move(*plan), solveOnce);
     describeMachine(report.machine);
     report.date = today();
     report.commit = options.commit;
@@ -350,6 +374,8 @@ Status bench(const BenchOptions& options) {
         if (Status proved = proveGlass(**context, options, report); !proved) return proved;
     if (parts->caustics)
         if (Status proved = proveCaustics(**context, options, report); !proved) return proved;
+    if (parts->subsurface)
+        if (Status proved = proveSubsurface(**context, options, solveOnce, report); !proved) return proved;
     report.ratios.push_back({"MB resident with a relief of 512^2 texels", peakMB, 256, false});
     std::fputs(report.text().c_str(), stdout);
     // The figures first: minutes of measuring are not lost with a page that cannot be made.
@@ -369,7 +395,7 @@ Command addBench(CLI::App& program) {
     const auto options = std::make_shared<BenchOptions>();
     parser->add_option("NAMES", options->parts,
                        "Parts: relief, environment, scaling, hard, all of them without; refraction; "
-                       "caustics; budget; budget-glass");
+                       "caustics; subsurface; budget; budget-glass");
     parser->add_flag("--quick", options->quick, "Smaller scenes, fewer repeats: two minutes without a GPU");
     parser->add_option("-o,--output", options->output, "Folder for bench.json and report.html")
         ->required()
@@ -391,6 +417,7 @@ Command addBench(CLI::App& program) {
                    "  lucent bench relief environment -o build/bench\n"
                    "  lucent bench refraction --quick -o build/bench-refraction\n"
                    "  lucent bench caustics --quick -o build/bench-caustics\n"
+                   "  lucent bench subsurface --quick -o build/bench-subsurface\n"
                    "  lucent bench budget -o build/budget   # proves quality.maxError: half an hour\n"
                    "  lucent bench budget-glass -o build/budget-glass   # the same for light through glass");
     return {parser, [options] { return bench(*options); }};

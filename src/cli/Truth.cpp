@@ -6,8 +6,8 @@
 
 #include "base/Text.h"
 #include "frame/Renderer.h"
+#include "measure/SubsurfaceTruth.h"
 #include "relief/Relief.h"
-#include "subsurface/Subsurface.h"
 #include "truth/Dipole.h"
 #include "truth/Glass.h"
 #include "truth/Lambert.h"
@@ -96,18 +96,6 @@ Status checkEstimator(const scene::Scene& scene, const TruthOptions& options) {
     return Done{};
 }
 
-/// The model that the scene's technique draws, as far as it is one of the truth's.
-truth::DipoleOptions dipoleOptionsOf(const scene::Scene& scene, const TruthOptions& options) {
-    const auto& settings = scene.technique.at("subsurface").as<subsurface::Settings>();
-    const bool offset = settings.dipoleGeometry == subsurface::DipoleGeometry::Offset;
-    return {.aov = scene.view.show,
-            .profile = truth::Diffusion(int(settings.profile)), // in the same order
-            .geometry = offset ? truth::DipoleGeometry::Offset : truth::DipoleGeometry::Planar,
-            .normalisedExit = settings.exit == subsurface::Exit::Whole,
-            .samples = options.samples,
-            .seed = options.seed};
-}
-
 Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scene,
                                                         const TruthOptions& options) {
     if (isGlass(options)) {
@@ -120,7 +108,10 @@ Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scen
         return std::unique_ptr<truth::Estimator>(new truth::GlassEstimator(std::move(*glass)));
     }
     if (options.estimator == "dipole") {
-        auto dipole = truth::DipoleEstimator::create(scene, scene.size, dipoleOptionsOf(scene, options));
+        truth::DipoleOptions model = measure::dipoleOptionsOf(scene);
+        model.samples = options.samples;
+        model.seed = options.seed;
+        auto dipole = truth::DipoleEstimator::create(scene, scene.size, model);
         if (!dipole) return dipole.error();
         return std::unique_ptr<truth::Estimator>(new truth::DipoleEstimator(std::move(*dipole)));
     }

@@ -184,6 +184,8 @@ std::string BenchReport::text() const {
         out += formatted("%10.3f ms (%.3f to %.3f)", m.ms->median, m.ms->low, m.ms->high);
         if (m.error) out += errorText(*m.error);
         if (m.modelError) out += formatted("  model error %.2e", m.modelError->rmse);
+        if (m.modelError && m.modelError->flux)
+            out += formatted(", misplaced %.2f %%", 100 * m.modelError->flux->misplaced);
         out += m.pareto ? "  *\n" : "\n";
     }
     for (const ScalingSeries& series : scaling)

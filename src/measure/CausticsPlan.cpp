@@ -158,17 +158,9 @@ Case causticsCase(const std::string& name, scene::Scene scene, bool quick,
 
 // --- promises on pictures
 
-const Measurement* measured(const BenchReport& report, const std::string& scene, const Setting& setting) {
-    for (const Measurement& m : report.measurements)
-        if (m.technique == kTechnique && m.scene == scene && m.method == setting.method &&
-            m.knobs == setting.knobs && m.error && m.ms)
-            return &m;
-    return nullptr;
-}
-
 RatioRule misplaced(const std::string& scene, std::optional<double> target) {
     return [=](const BenchReport& report) -> std::optional<Ratio> {
-        const Measurement* m = measured(report, scene, setting("beam", "hybrid", 128));
+        const Measurement* m = measured(report, kTechnique, scene, setting("beam", "hybrid", 128));
         if (!m) return std::nullopt;
         return Ratio{scene + ": share of the flux that is misplaced, beams of 128^2 rays",
                      m->error->flux->misplaced, target, false};
@@ -177,7 +169,7 @@ RatioRule misplaced(const std::string& scene, std::optional<double> target) {
 
 RatioRule encircled(const std::string& scene) {
     return [=](const BenchReport& report) -> std::optional<Ratio> {
-        const Measurement* m = measured(report, scene, setting("beam", "hybrid", 128));
+        const Measurement* m = measured(report, kTechnique, scene, setting("beam", "hybrid", 128));
         if (!m) return std::nullopt;
         return Ratio{scene + ": largest error of the flux within a circle, beams of 128^2 rays",
                      m->error->flux->encircled,
@@ -193,8 +185,8 @@ double timeOf(const Measurement& m) { return m.ms->median; }
 RatioRule beamOverSplat(const std::string& what, const Setting& beams, double target,
                         double (*figure)(const Measurement&)) {
     return [=](const BenchReport& report) -> std::optional<Ratio> {
-        const Measurement* beam = measured(report, "ball", beams);
-        const Measurement* splat = measured(report, "ball", setting("splat", "hybrid", 128));
+        const Measurement* beam = measured(report, kTechnique, "ball", beams);
+        const Measurement* splat = measured(report, kTechnique, "ball", setting("splat", "hybrid", 128));
         if (!beam || !splat) return std::nullopt;
         return Ratio{"ball: " + what + " of " + beams.name() + " over that of splats",
                      figure(*beam) / figure(*splat), target, false};

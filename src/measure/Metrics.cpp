@@ -95,8 +95,6 @@ double sumOfColors(const Image& image, int x, int y) {
     return sum;
 }
 
-constexpr int kCell = 5; // pixels a side, over which light may lie where it likes
-
 /// The flux of two pictures within growing circles around the middle of the second's flux: the largest
 /// difference.
 double encircledDifference(const Image& image, const Image& reference) {
@@ -200,14 +198,14 @@ Result<Metrics> compareDirections(const Image& image, const std::string& imageNa
     return metrics;
 }
 
-FluxErrors compareFlux(const Image& image, const Image& reference, const Image& errors) {
+FluxErrors compareFlux(const Image& image, const Image& reference, const Image& errors, int cell) {
     FluxErrors flux;
     double apart = 0, noise = 0, all = 0;
-    for (int top = 0; top + kCell <= reference.height; top += kCell)
-        for (int left = 0; left + kCell <= reference.width; left += kCell) {
+    for (int top = 0; top + cell <= reference.height; top += cell)
+        for (int left = 0; left + cell <= reference.width; left += cell) {
             double difference = 0, variance = 0;
-            for (int i = 0; i < kCell * kCell; ++i) {
-                const int x = left + i % kCell, y = top + i / kCell;
+            for (int i = 0; i < cell * cell; ++i) {
+                const int x = left + i % cell, y = top + i / cell;
                 const double wanted = sumOfColors(reference, x, y), deviation = sumOfColors(errors, x, y);
                 difference += sumOfColors(image, x, y) - wanted;
                 variance += deviation * deviation;

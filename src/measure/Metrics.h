@@ -26,10 +26,10 @@ struct AngleErrors {
     Angles inside; ///< of these, where all eight neighbours see as many layers: away from silhouettes
 };
 
-/// How far light on a surface lies from where it belongs; of pictures whose pixels show equal areas.
+/// How far light on a surface lies from where it belongs, as the eye sees it: every pixel counts alike.
 struct FluxErrors {
-    double misplaced = 0; ///< half the summed absolute differences of means over 5 x 5 pixels, over the
-                          ///< reference's sum
+    double misplaced = 0; ///< half the summed absolute differences of means over squares of some pixels, over
+                          ///< the reference's sum
     double byNoise = 0;   ///< what is to be expected of that from the noise of the reference alone
     double encircled = 0; ///< largest difference of the flux within a circle around the reference's middle,
                           ///< over all of the reference's
@@ -55,7 +55,7 @@ struct Metrics {
     std::optional<double> flip; ///< mean of flip() of Flip.h, hdrFlip() when a value is above 1
 
     std::optional<AngleErrors> angles; ///< of pictures of directions; see compareDirections()
-    std::optional<FluxErrors> flux;    ///< of light on a floor; see compareFlux()
+    std::optional<FluxErrors> flux;    ///< of light on surfaces; see compareFlux()
 };
 
 /// @param imageName, referenceName  used in messages only
@@ -79,7 +79,9 @@ Result<Metrics> compareDirections(const Image& image, const std::string& imageNa
 /// Compares light on a surface, all colours together.
 ///
 /// @param errors  standard errors of the reference, 3 channels
-FluxErrors compareFlux(const Image& image, const Image& reference, const Image& errors);
+/// @param cell    pixels a side, > 0, over which light may lie where it likes: as many as the reference's own
+///                noise asks for
+FluxErrors compareFlux(const Image& image, const Image& reference, const Image& errors, int cell = 5);
 
 /// Adds SSIM and FLIP, over all pixels, to what compare() found of the same two pictures.
 void addPerceptual(Metrics& metrics, const Image& image, const Image& reference);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,9 @@ struct Setting {
     std::vector<std::pair<std::string, std::string>> knobs{};
     bool ownModel = false; ///< solves another model: its distance from ours is model error, and it runs in no
                            ///< race
-    bool bakes = false;    ///< prepares a field before its first picture: that time is measured apart
+    bool isPhysics = false; ///< solves the physics itself: its distance from that is model error, and it runs
+                            ///< in no race
+    bool bakes = false;     ///< prepares a field before its first picture: that time is measured apart
 
     /// "march steps=256"
     std::string name() const;
@@ -69,6 +72,10 @@ struct Series {
     };
     std::vector<Point> points;
     Timed timed = timedLight();
+    std::string part{}; ///< of the picture that is timed; empty: all of it
+
+    /// "march steps=256, views"
+    std::string name() const;
 };
 
 /// A scene on which methods tend to break.
@@ -80,6 +87,10 @@ struct HardCase {
 
 /// Reads a figure off a report; nothing when what it needs was not measured.
 using RatioRule = std::function<std::optional<Ratio>(const BenchReport&)>;
+
+/// What was measured of a setting on a case; null when there is no time or no error of it.
+const Measurement* measured(const BenchReport& report, std::string_view technique, const std::string& scene,
+                            const Setting& setting);
 
 struct Plan {
     bool quick = false;

@@ -2,8 +2,8 @@
 
 #include "frame/Renderer.h"
 #include "measure/DepthNormals.h"
+#include "measure/MeshSeries.h"
 #include "scene/Environment.h"
-#include "scene/Mesh.h"
 #include "truth/Glass.h"
 
 #include <algorithm>
@@ -164,33 +164,19 @@ Case refractCase(const std::string& name, scene::Scene scene) {
             .timed = kFrame};
 }
 
-double triangles(const BenchMesh& mesh) { return double(mesh.mesh->indices.size()) / 3; }
-
-std::vector<BenchMesh> spheres() {
-    std::vector<BenchMesh> meshes;
-    for (const int segments : {32, 64, 128, 256, 512, 934}) // 934: as many triangles as the dragon has
-        meshes.push_back({"sphere", std::make_shared<const scene::Mesh>(meshOf(scene::Sphere{1}, segments))});
-    return meshes;
-}
-
 constexpr const char* kTraceName = "peel, trace stage";
 constexpr const char* kLayersName = "peel, layers stage";
 
-std::vector<Series> refractSeries(std::vector<BenchMesh> meshes, bool quick) {
-    if (meshes.empty()) meshes = spheres();
-    const auto tooMany = [](const BenchMesh& mesh) { return triangles(mesh) > 100'000; };
-    if (quick) meshes.erase(std::remove_if(meshes.begin(), meshes.end(), tooMany), meshes.end());
-    std::sort(meshes.begin(), meshes.end(),
-              [](const BenchMesh& a, const BenchMesh& b) { return triangles(a) < triangles(b); });
+std::vector<Series> refractSeries(const std::vector<BenchMesh>& meshes, bool quick) {
     const int size = quick ? 128 : 256;
+    const auto points = overTriangles(meshes, quick, double(size) * size,
+                                      [size](const BenchMesh& mesh) { return glassScene(mesh, size); });
     const auto series = [&](const Setting& setting, const Timed& timed) {
-        Series one{
-            .technique = "refract", .over = "triangles", .setting = setting, .points = {}, .timed = timed};
-        for (const BenchMesh& mesh : meshes)
-            one.points.push_back({triangles(mesh),
-                                  {[mesh, size]() -> Result<scene::Scene> { return glassScene(mesh, size); },
-                                   double(size) * size + triangles(mesh)}});
-        return one;
+        return Series{.technique = "refract",
+                      .over = "triangles",
+                      .setting = setting,
+                      .points = points,
+                      .timed = timed};
     };
     std::vector<Series> all{series({kTraceName}, kTraceStage), series({kLayersName}, kLayersStage)};
     for (const Stage& stage : thesisStages())
@@ -227,20 +213,6 @@ void addAngles(Plan& plan, const std::string& scene) {
     add("median of degrees off, away from silhouettes", [](const AngleErrors& a) { return a.inside.median; },
         {});
     add("95 % of degrees off, away from silhouettes", [](const AngleErrors& a) { return a.inside.p95; }, {});
-}
-
-// Time with the most triangles over that with the fewest.
-RatioRule growth(const std::string& stage, std::optional<double> target) {
-    return [=](const BenchReport& report) -> std::optional<Ratio> {
-        for (const ScalingSeries& series : report.scaling) {
-            if (series.method != stage || series.points.size() < 2) continue;
-            const dvec2 few = series.points.front(), many = series.points.back();
-            return Ratio{stage + " at " + std::to_string(long(many.x)) + " triangles over that at " +
-                             std::to_string(long(few.x)),
-                         many.y / few.y, target, false};
-        }
-        return std::nullopt;
-    };
 }
 
 // Normals from depths against a ball's own, in degrees (the thesis's figure 3.4). They cost no picture.

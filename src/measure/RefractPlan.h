@@ -1,20 +1,13 @@
 #pragma once
 /// The benchmark of refraction: directions of light behind glass, and what they cost over triangles.
 
+#include "measure/MeshSeries.h"
 #include "measure/Plan.h"
 #include "truth/Picture.h"
 
-#include <memory>
-#include <string>
 #include <vector>
 
 namespace lucent::measure {
-
-/// A mesh to measure on; any size and place.
-struct BenchMesh {
-    std::string name;
-    std::shared_ptr<const scene::Mesh> mesh;
-};
 
 /// @param meshes   measured beside sphere, torus, box and nested spheres
 /// @param simpler  one shape in several numbers of triangles, for the cost over triangles; empty: spheres

@@ -6,21 +6,6 @@
 
 namespace lucent::measure {
 
-std::string Setting::name() const {
-    std::string text = method;
-    for (const auto& [knob, value] : knobs)
-        text += " " + knob + "=" + value;
-    return text;
-}
-
-Timed timedLight() {
-    return {[](scene::Scene&) {},
-            [](scene::Scene& scene) {
-                scene.lights.clear();
-                scene.environment.reset();
-            }};
-}
-
 namespace {
 
 // The parameter of a technique that chooses among its methods; "" where none does.
@@ -156,7 +141,8 @@ struct Sweep::CaseState {
     const Case& plan;
     scene::Scene scene;
     truth::Picture truth;
-    std::optional<Image> physics, layers;
+    std::optional<truth::Picture> physics;
+    std::optional<Image> layers;
     std::string refused; // the scene itself
 };
 
@@ -220,8 +206,10 @@ private:
         if (isSecond_) {
             if (state.plan.comparesTimed)
                 takeOff(state.truth.values, solving_->picture().values);
+            else if (state.plan.toLayers)
+                state.layers = solving_->picture().values;
             else
-                (state.plan.toLayers ? state.layers : state.physics) = solving_->picture().values;
+                state.physics = solving_->picture();
             return true;
         }
         state.truth = solving_->picture();
@@ -291,22 +279,30 @@ private:
             result_.error = *angles;
             return Done{};
         }
-        Result<Metrics> metrics = compare(image, label, truth, "exact solution", &truth);
-        if (!metrics) return metrics.error();
-        if (state.plan.comparesTimed) {
-            metrics->flux = compareFlux(image, truth, state.truth.errors);
-            result_.error = *metrics;
-            result_.truthNoise = state.truth.standardError();
-            return Done{};
-        }
-        if (!setting_.ownModel) addPerceptual(*metrics, image, truth);
-        (setting_.ownModel ? result_.modelError : result_.error) = *metrics;
         result_.truthNoise = state.truth.standardError();
+        if (!setting_.isPhysics) {
+            Result<Metrics> metrics = comparedWith(state.truth, "exact solution", image);
+            if (!metrics) return metrics.error();
+            if (!setting_.ownModel && !state.plan.comparesTimed) addPerceptual(*metrics, image, truth);
+            (setting_.ownModel ? result_.modelError : result_.error) = *metrics;
+        }
         if (setting_.ownModel || !state.physics) return Done{};
-        Result<Metrics> model = compare(image, label, *state.physics, "physics", &truth);
+        const Result<Metrics> model = comparedWith(*state.physics, "physics", image);
         if (!model) return model.error();
         result_.modelError = *model;
         return Done{};
+    }
+    // With what is misplaced where light is compared: by way of something, or as it leaves a body, whose
+    // exact solution is smooth.
+    Result<Metrics> comparedWith(const truth::Picture& solution, const char* name, const Image& image) const {
+        const CaseState& state = *state_;
+        Result<Metrics> metrics = compare(image, label, solution.values, name, &state.truth.values);
+        if (!metrics) return metrics;
+        if (state.plan.comparesTimed)
+            metrics->flux = compareFlux(image, solution.values, solution.errors);
+        else if (state.scene.view.show == scene::Aov::Radiosity)
+            metrics->flux = compareFlux(image, solution.values, solution.errors, 1);
+        return metrics;
     }
     // Programs are compiled by now: with all memory given back, the first picture makes what the second
     // finds.
@@ -340,8 +336,7 @@ class Sweep::SeriesPoint : public Task {
 public:
     SeriesPoint(const Series& series, std::size_t index, std::size_t point)
         : series_(series), index_(index), point_(point) {
-        label = series.setting.name() + " over " + series.over + ", " +
-                std::to_string(long(series.points[point].x));
+        label = series.name() + " over " + series.over + ", " + std::to_string(long(series.points[point].x));
     }
     bool step(Sweep& sweep) override {
         if (!stopwatch_) {
@@ -452,7 +447,7 @@ void Sweep::addTasks() {
             add(std::make_unique<Timing>(state, setting), timingCost(setting, one.scene.rays));
     }
     for (const Series& series : plan_.series) {
-        report_.scaling.push_back({series.technique, series.setting.name(), series.over, {}});
+        report_.scaling.push_back({series.technique, series.name(), series.over, {}});
         for (std::size_t i = 0; i < series.points.size(); ++i)
             add(std::make_unique<SeriesPoint>(series, report_.scaling.size() - 1, i),
                 timingCost(series.setting, series.points[i].scene.rays));

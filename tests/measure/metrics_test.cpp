@@ -159,6 +159,7 @@ TEST(Flux, InAnotherCellIsMisplacedOnceAndOutsideOfEveryCircle) {
     for (int channel = 0; channel < 3; ++channel)
         beside.at(4, 4)[channel] = 1;
     EXPECT_DOUBLE_EQ(compareFlux(beside, reference, errors).misplaced, 0);
+    EXPECT_DOUBLE_EQ(compareFlux(beside, reference, errors, 1).misplaced, 1);
 }
 
 } // namespace

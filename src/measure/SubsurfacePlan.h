@@ -1,0 +1,26 @@
+#pragma once
+/// The benchmark of light inside: what leaves bodies, by every method and profile, and what it costs.
+
+#include "measure/MeshSeries.h"
+#include "measure/Plan.h"
+#include "measure/Sweep.h"
+
+#include <vector>
+
+namespace lucent::measure {
+
+/// @param meshes   of marble, 20 mm long, beside a ball and a half space
+/// @param simpler  one shape in several numbers of triangles, for the cost over triangles; empty: spheres
+/// @param quick    smaller pictures, fewer settings and repeats, no random walks in meshes
+Plan subsurfacePlan(const std::vector<BenchMesh>& meshes, const std::vector<BenchMesh>& simpler, bool quick);
+
+/// What single pictures do not show: the largest error on a half space and beside a ball, light that leaks
+/// into what touches a lit body, the light around a ball against random walks by angle, and the flicker of a
+/// body that turns. With the targets that each of them has.
+///
+/// @param meshes  as above; the first turns, a block where there is none
+/// @param solve   as for Sweep
+Result<std::vector<Ratio>> proveSubsurface(gl::Context& context, const std::vector<BenchMesh>& meshes,
+                                           const SolveTruth& solve, bool quick, const Say& say);
+
+} // namespace lucent::measure

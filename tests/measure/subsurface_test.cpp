@@ -1,0 +1,130 @@
+#include "measure/SubsurfacePlan.h"
+#include "measure/SubsurfaceTruth.h"
+#include "measure/Sweep.h"
+#include "scene/MaterialPresets.h"
+#include "scene/Mesh.h"
+#include "subsurface/Subsurface.h"
+#include "tests/support/Gl.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace lucent::measure {
+namespace {
+
+using SubsurfacePlanTest = support::GlTest;
+
+/// The plan's scene, small.
+scene::Scene sceneOf(const Case& one, int size) {
+    scene::Scene scene = *one.scene();
+    scene.size = ivec2(size);
+    return scene;
+}
+
+TEST(SubsurfaceTruth, AHalfSpaceOfMarbleIsAsBrightAsTheClosedFormSays) {
+    scene::Material marble;
+    for (const scene::MaterialPreset& preset : scene::materialPresets())
+        if (preset.name == "marble") apply(preset, marble);
+    const dvec3 leaving = radiosityOfHalfSpace(marble);
+    // Jensen et al. 2001 with Egan and Hilgeman's factor, of light that has entered; 4 % are mirrored.
+    EXPECT_NEAR(leaving.r / 0.96, 0.8302, 5e-5); // four digits
+    EXPECT_NEAR(leaving.g / 0.96, 0.7910, 5e-5);
+    EXPECT_NEAR(leaving.b / 0.96, 0.7526, 5e-5);
+    marble.anisotropy = 0.5f; // what counts is (1 - g) sigma_s
+    marble.scattering *= 2.0f;
+    EXPECT_NEAR(radiosityOfHalfSpace(marble).g, leaving.g, 1e-6);
+}
+
+TEST(SubsurfaceTruth, ABallIsSolvedByAngleAsItIsPixelByPixel) {
+    const Plan plan = subsurfacePlan({}, {}, true);
+    const scene::Scene scene = sceneOf(plan.cases.front(), 8);
+    ASSERT_TRUE(litBallOf(scene).has_value());
+    const auto byAngle = solveSubsurface(scene, {}, 1);
+    ASSERT_TRUE(byAngle.ok()) << byAngle.error().message;
+    const auto model = truth::DipoleEstimator::create(scene, scene.size, dipoleOptionsOf(scene));
+    ASSERT_TRUE(model.ok());
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) {
+            const truth::Pixel pixel = model->solve({x, y});
+            EXPECT_EQ(byAngle->values.at(x, y)[3], float(pixel.coverage));
+            for (int c = 0; c < 3; ++c) // five standard errors, and 1e-3 for what is linear between angles
+                EXPECT_NEAR(double(byAngle->values.at(x, y)[c]), pixel.value[c],
+                            5 * std::sqrt(pixel.variance[c]) + 1e-3 * pixel.value[c]);
+        }
+    scene::Scene two = scene;
+    two.lights.push_back(two.lights.front());
+    EXPECT_FALSE(litBallOf(two).has_value());
+}
+
+TEST(SubsurfacePlan, HasEveryBodyAndPromise) {
+    const auto sphere = std::make_shared<const scene::Mesh>(meshOf(scene::Sphere{1}, 8));
+    const Plan plan = subsurfacePlan({{"bunny", sphere}}, {}, false);
+    std::set<std::string> names;
+    for (const Case& one : plan.cases)
+        names.insert(one.name);
+    EXPECT_EQ(names, (std::set<std::string>{"ball", "ball, offset", "ball, burley", "half space", "bunny"}));
+    // From a report in which everything is just missed.
+    BenchReport report;
+    for (const Case& one : plan.cases)
+        for (const Setting& setting : one.settings) {
+            Measurement m;
+            m.technique = "subsurface";
+            m.scene = one.name;
+            m.method = setting.method;
+            m.knobs = setting.knobs;
+            m.ms = Spread{setting.method == "splat" ? 7.9 : 1, 1, 1, 1};
+            m.error.emplace().flux = FluxErrors{.misplaced = 0.021};
+            report.measurements.push_back(m);
+        }
+    for (const Series& series : plan.series)
+        report.scaling.push_back(
+            {series.technique, series.name(), series.over, {{1, 1}, {2, 1.2}, {3, 1.3}}});
+    int missed = 0, promised = 0;
+    for (const RatioRule& rule : plan.ratios) {
+        const std::optional<Ratio> ratio = rule(report);
+        ASSERT_TRUE(ratio.has_value());
+        promised += ratio->target ? 1 : 0;
+        missed += ratio->met() ? 0 : 1;
+    }
+    EXPECT_EQ(promised, 2 * 4 + 1); // misplaced light and speed on each body, the growth of the splats' stage
+    EXPECT_EQ(missed, promised);
+}
+
+TEST_F(SubsurfacePlanTest, MeasuresABallAndTheStagesOfAMesh) {
+    Plan plan = subsurfacePlan({}, {}, true);
+    plan.repeats = {1, 1, 0};
+    plan.cases.resize(1);
+    plan.truthParts = 1;
+    plan.cases[0].toPhysics = {}; // walks take seconds
+    std::erase_if(plan.cases[0].settings, [](const Setting& setting) {
+        return setting.isPhysics ||
+               setting.knobs.front() != std::pair<std::string, std::string>("epsilon", "0.01");
+    });
+    ASSERT_EQ(plan.cases[0].settings.size(), 2u);
+    plan.cases[0].scene.make = [scene = sceneOf(plan.cases[0], 32)]() -> Result<scene::Scene> {
+        return scene;
+    };
+    std::erase_if(plan.series, [](const Series& series) { return series.over != "triangles"; });
+    for (Series& series : plan.series)
+        series.points.resize(1);
+    const auto solve = [](const scene::Scene& scene, int, const truth::Tile& rows) {
+        return solveSubsurface(scene, rows, 1);
+    };
+    const BenchReport report = sweep(*context, plan, solve, [](const std::string&) {});
+    ASSERT_EQ(report.measurements.size(), 2u);
+    for (const Measurement& m : report.measurements) {
+        EXPECT_EQ(m.refused, "");
+        ASSERT_TRUE(m.error && m.error->flux);
+        EXPECT_LT(m.error->flux->misplaced, 0.02);
+        EXPECT_NEAR(m.error->fluxRatio, 1, 0.02);
+    }
+    ASSERT_EQ(report.scaling.size(), 2u);
+    for (const ScalingSeries& series : report.scaling)
+        EXPECT_EQ(series.points.size(), 1u) << series.method;
+    EXPECT_TRUE(std::any_of(report.ratios.begin(), report.ratios.end(),
+                            [](const Ratio& ratio) { return ratio.target == 8; }));
+}
+
+} // namespace
+} // namespace lucent::measure
