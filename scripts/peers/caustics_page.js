@@ -5,20 +5,18 @@
 import { Caustics } from '@pmndrs/vanilla';
 import * as THREE from 'three';
 import { FullScreenQuad } from 'three/examples/jsm/postprocessing/Pass.js';
-import { Lucent, combinations, fetchPfm, makeCanvas, timeInTurn, turned, waitFor } from './page.js';
+import { Lucent, fetchPfm, markBest, misplacedText, paint, sumOf, sweep, timeInTurn, waitFor } from './page.js';
+import { ThreeCanvas } from './three_canvas.js';
 
 const kCell = 5; // pixels a side, over which light may lie where it likes
-const kSweepRepeats = 1;
 
-/** The smallest by some value. */
-const least = (list, value) => list.reduce((a, b) => (value(b) < value(a) ? b : a));
-
-/** Way of the light in frame i. */
-function lightOf(i) {
-  const angle = (i * 3 * Math.PI) / 180;
-  return [0.1 * Math.cos(angle), -1, 0.1 * Math.sin(angle)];
-}
-const kDown = [0, -1, 0];
+const kLight = {
+  still: [0, -1, 0],
+  moving(i) {
+    const angle = (i * 3 * Math.PI) / 180;
+    return [0.1 * Math.cos(angle), -1, 0.1 * Math.sin(angle)];
+  },
+};
 
 // --- errors
 
@@ -31,8 +29,6 @@ function cellsOf(values, size) {
     for (let x = 0; x < side * kCell; ++x) sums[cellAt(x, y)] += values[y * size + x];
   return sums;
 }
-
-const sumOf = (values) => values.reduce((sum, value) => sum + value, 0);
 
 /** Green of pictures with so many channels: the light is white. */
 function greenOf(values, channels) {
@@ -83,28 +79,17 @@ function directLight({ size: [width, height], camera, objects }) {
 
 // --- what draws
 
-/** A canvas of three's and a float target of the same size, seen as the scene's camera does. */
-class Three {
+/** Three's pictures as the scene's camera sees them; of their light the green. */
+class Three extends ThreeCanvas {
   constructor({ size: [size], camera: { height } }) {
-    this.size = size;
-    this.renderer = new THREE.WebGLRenderer({ canvas: makeCanvas(size), antialias: false });
-    this.target = new THREE.WebGLRenderTarget(size, size, { type: THREE.FloatType });
+    super(size);
     this.camera = new THREE.OrthographicCamera(-height / 2, height / 2, height / 2, -height / 2, 0.1, 50);
     this.camera.position.y = 20;
     this.camera.up.set(0, 0, -1);
     this.camera.lookAt(0, 0, 0);
   }
-  // Green of the target, row 0 at the top.
-  read() {
-    const { size } = this;
-    const pixels = new Float32Array(4 * size * size);
-    this.renderer.readRenderTargetPixels(this.target, 0, 0, size, size, pixels);
-    return greenOf(turned(pixels, 4 * size), 4);
-  }
-  dispose() {
-    this.target.dispose();
-    this.renderer.dispose();
-    this.renderer.forceContextLoss();
+  green() {
+    return greenOf(this.read(), 4);
   }
 }
 
@@ -150,7 +135,7 @@ class Vanilla extends Three {
   }
   picture() {
     this.#draw(this.target);
-    return this.read();
+    return this.green();
   }
 }
 
@@ -237,7 +222,7 @@ class AreaRatios extends Three {
   }
   picture() {
     this.#draw(this.target);
-    return this.read();
+    return this.green();
   }
 }
 
@@ -272,46 +257,6 @@ class Ours {
 
 // --- the comparison
 
-/** Each setting of one, its error and about its time. @param judge  (picture) => {error, gain} */
-function sweep(one, knobs, judge) {
-  return combinations(knobs).map((setting) => {
-    one.set(setting);
-    one.aim(kDown);
-    const { error, gain } = judge(one.picture());
-    const { ms } = timeInTurn({ ms: (i) => (one.aim(lightOf(i)), one.frame()) }, kSweepRepeats);
-    return { knobs: setting, gain, error, ms };
-  });
-}
-
-/** The quickest within the target, else the nearest. */
-function markBest(swept, target) {
-  const good = swept.filter(({ error }) => error.flux.misplaced <= target);
-  const best = good.length ? least(good, ({ ms }) => ms.median) : least(swept, ({ error }) => error.flux.misplaced);
-  best.isBest = true;
-  return best;
-}
-
-/** Pictures beside each other, bright parts white, with a line below each. @return base64 of a PNG */
-function paint(panels, size) {
-  const [gap, line] = [8, 24];
-  const canvas = makeCanvas(panels.length * (size + gap) - gap, size + line);
-  const context = canvas.getContext('2d');
-  context.fillStyle = 'white';
-  context.fillRect(0, 0, canvas.width, canvas.height);
-  context.fillStyle = 'black';
-  context.font = '13px sans-serif';
-  const shown = (light) => 255 * Math.min(1, light / 4) ** (1 / 2.2); // white: four times the light past the ball
-  panels.forEach(({ text, values }, i) => {
-    const picture = context.createImageData(size, size);
-    values.forEach((value, k) => picture.data.set([...Array(3).fill(shown(Math.max(0, value))), 255], 4 * k));
-    context.putImageData(picture, i * (size + gap), 0);
-    context.fillText(text, i * (size + gap), size + 17);
-  });
-  return canvas.toDataURL('image/png').split(',')[1];
-}
-
-const percent = (share) => `${(100 * share).toPrecision(2)} % misplaced`;
-
 /**
  * @param options  scene as a file has it, its second object bends the light; files, names of its truth and of the
  *                 truth's standard errors; knobs: {peer, lucent}, lists of settings; target, share; repeats of the race
@@ -325,31 +270,31 @@ window.compare = async ({ scene, files, knobs, target, repeats }) => {
   const ours = new Ours(lucent, scene);
   const peer = isBall ? new Vanilla(scene) : new AreaRatios(scene);
   const swept = {
-    lucent: sweep(ours, knobs.lucent, (picture) => ({ error: judge.errorOf(picture) })),
-    peer: sweep(peer, knobs.peer, (picture) => judge.fit(picture)),
+    lucent: await sweep(ours, knobs.lucent, (picture) => ({ error: judge.errorOf(picture) }), kLight),
+    peer: await sweep(peer, knobs.peer, (picture) => judge.fit(picture), kLight),
   };
   const bestOfOurs = markBest(swept.lucent, target);
   ours.set(bestOfOurs.knobs);
   const best = markBest(swept.peer, target);
   peer.set(best.knobs);
-  const frame = (one) => (i) => (one.aim(lightOf(i)), one.frame());
+  const frame = (one) => (i) => (one.aim(kLight.moving(i)), one.frame());
   const ms = timeInTurn({ lucent: frame(ours), peer: frame(peer) }, repeats);
   const { driver, glVersion } = lucent;
   const found = { driver, glVersion, swept, ms };
   if (isBall) {
     const direct = directLight(scene);
     const panel = (name, { error }, values, gain = 1) => ({
-      text: error ? `${name}, ${percent(error.flux.misplaced)}` : name,
-      values: values.map((value, i) => direct[i] + gain * value),
+      text: error ? `${name}, ${misplacedText(error.flux.misplaced)}` : name,
+      values: [...values].flatMap((value, i) => Array(3).fill(direct[i] + gain * value)),
     });
-    ours.aim(kDown);
-    peer.aim(kDown);
+    ours.aim(kLight.still);
+    peer.aim(kLight.still);
     const panels = [
       panel('Lucent', bestOfOurs, ours.picture()),
       panel('@pmndrs/vanilla', best, peer.picture(), best.gain),
       panel('exact', {}, judge.exact),
     ];
-    found.png = paint(panels, judge.size);
+    found.png = paint(panels, judge.size, 4); // white: four times the light past the ball
   }
   peer.dispose();
   lucent.release();

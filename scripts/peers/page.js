@@ -137,3 +137,68 @@ export function combinations(lists) {
     [{}],
   );
 }
+
+/** The smallest by some value. */
+export const least = (list, value) => list.reduce((a, b) => (value(b) < value(a) ? b : a));
+
+export const sumOf = (values) => values.reduce((sum, value) => sum + value, 0);
+
+const kSweepRepeats = 1;
+
+/**
+ * Each setting of one who draws, its error and about its time.
+ * @param one    {set(knobs), aim(way), frame(), picture()}; set() may take its time
+ * @param knobs  lists of settings, or several such
+ * @param judge  (picture) => {error, gain}
+ * @param light  {still, moving(i)}: ways of the light, of the picture and of frame i
+ */
+export async function sweep(one, knobs, judge, light) {
+  const swept = [];
+  for (const setting of [knobs].flat().flatMap(combinations)) {
+    await one.set(setting);
+    one.aim(light.still);
+    const { error, gain } = judge(one.picture());
+    const { ms } = timeInTurn({ ms: (i) => (one.aim(light.moving(i)), one.frame()) }, kSweepRepeats);
+    swept.push({ knobs: setting, gain, error, ms });
+  }
+  return swept;
+}
+
+/**
+ * Marks who races: the quickest that misplaces no more than the target, else who misplaces the least.
+ * @param isGood  what else the quickest must keep
+ */
+export function markBest(swept, target, isGood = () => true) {
+  const misplaced = ({ error }) => error.flux.misplaced;
+  const good = swept.filter((one) => misplaced(one) <= target && isGood(one));
+  const best = good.length ? least(good, ({ ms }) => ms.median) : least(swept, misplaced);
+  best.isBest = true;
+  return best;
+}
+
+/**
+ * Pictures beside each other with a line below each.
+ * @param panels  {text, values: 3 floats a pixel}
+ * @param white   what is shown white
+ * @return        base64 of a PNG
+ */
+export function paint(panels, size, white) {
+  const [gap, line] = [8, 24];
+  const canvas = makeCanvas(panels.length * (size + gap) - gap, size + line);
+  const context = canvas.getContext('2d');
+  context.fillStyle = 'white';
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  context.fillStyle = 'black';
+  context.font = '13px sans-serif';
+  const shown = (light) => 255 * Math.min(1, Math.max(0, light / white)) ** (1 / 2.2);
+  panels.forEach(({ text, values }, i) => {
+    const picture = context.createImageData(size, size);
+    picture.data.fill(255);
+    values.forEach((value, k) => (picture.data[4 * Math.floor(k / 3) + (k % 3)] = shown(value)));
+    context.putImageData(picture, i * (size + gap), 0);
+    context.fillText(text, i * (size + gap), size + 17);
+  });
+  return canvas.toDataURL('image/png').split(',')[1];
+}
+
+export const misplacedText = (share) => `${(100 * share).toPrecision(2)} % misplaced`;

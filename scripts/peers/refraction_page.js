@@ -13,7 +13,8 @@ import {
   SAH,
   getBVHExtremes,
 } from 'three-mesh-bvh';
-import { Lucent, combinations, fetchBytes, fetchPfm, makeCanvas, timeInTurn, turned, waitFor } from './page.js';
+import { Lucent, combinations, fetchBytes, fetchPfm, least, timeInTurn, waitFor } from './page.js';
+import { ThreeCanvas } from './three_canvas.js';
 
 const kSides = { front: THREE.FrontSide, double: THREE.DoubleSide };
 const kStrategies = { center: CENTER, sah: SAH };
@@ -67,11 +68,9 @@ function makeDome() {
 // --- peers
 
 /** One of three's scenes with one object of glass. */
-class Three {
+class Three extends ThreeCanvas {
   constructor(size, camera) {
-    this.size = size;
-    this.renderer = new THREE.WebGLRenderer({ canvas: makeCanvas(size), antialias: false });
-    this.target = new THREE.WebGLRenderTarget(size, size, { type: THREE.FloatType });
+    super(size);
     this.camera = new THREE.PerspectiveCamera(camera.fov, 1, 0.1, 50);
     this.scene = new THREE.Scene();
     this.glass = new THREE.Mesh();
@@ -95,12 +94,9 @@ class Three {
   }
   /** 4 floats a pixel, row 0 at the top. */
   picture() {
-    const { size } = this;
     this.renderer.setRenderTarget(this.target);
     this.renderer.render(this.scene, this.camera);
-    const pixels = new Float32Array(4 * size * size);
-    this.renderer.readRenderTargetPixels(this.target, 0, 0, size, size, pixels);
-    return turned(pixels, 4 * size);
+    return this.read();
   }
 }
 
@@ -270,7 +266,6 @@ class Judge {
 // --- the comparison
 
 const kSweepRepeats = 1;
-const least = (list, value) => list.reduce((a, b) => (value(b) < value(a) ? b : a));
 
 /** Marks the quickest that keeps the targets, else the nearest. @return its knobs */
 function chooseRacer(swept, { median, p95 }) {
@@ -389,9 +384,7 @@ class Comparison {
   }
   dispose() {
     this.trees.forEach((tree) => tree.dispose());
-    this.three.target.dispose();
-    this.three.renderer.dispose();
-    this.three.renderer.forceContextLoss();
+    this.three.dispose();
   }
 }
 
