@@ -72,7 +72,11 @@ struct Check {
     Finding (*measure)(Studio& studio);
 };
 
-/// The table: known answers and hard cases of the relief model, storage of floats, display.
+/// Known answers and hard cases of the relief model, storage of floats, display.
+std::span<const Check> reliefForms();
+/// Known answers of matt surfaces, of light through glass and onto what lies behind it, and of light inside.
+std::span<const Check> transportForms();
+/// The whole table.
 std::span<const Check> closedForms();
 
 /// What became of a check.

@@ -32,7 +32,7 @@ test('every closed form holds in this browser, and the picture beside it stays',
     console.log(`${kDriver}: ${name}: ${Math.abs(found - expected).toExponential(1)}`);
   }
   assert.ok(report.passed);
-  assert.ok(report.checks.length >= 45, `${report.checks.length} checks`);
+  assert.ok(report.checks.length >= 57, `${report.checks.length} checks`);
   assert.match(report.device.renderer, kDriver === 'swiftshader' ? /SwiftShader/ : /llvmpipe/);
   for (const { name, measured } of report.capabilities) console.log(`${kDriver}: ${name}: ${measured}`);
   assert.deepEqual(difference(await pictureOf(page), before, 0), { max: 0, mean: 0, share: 0 });

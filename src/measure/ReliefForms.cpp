@@ -665,6 +665,6 @@ constexpr Check kChecks[] = {
 
 } // namespace
 
-std::span<const Check> closedForms() { return kChecks; }
+std::span<const Check> reliefForms() { return kChecks; }
 
 } // namespace lucent::measure
