@@ -27,7 +27,7 @@ export class Gestures {
   #tap = false; // a finger went down on a viewer without the focus: a tap, or the page scrolls
 
   /**
-   * @param viewer  pointer(event, x, y, button, modifiers, touch), wheel(x, y, pixels, modifiers), pinch(factor),
+   * @param viewer  pointer(event, x, y, button, modifiers, touch, pressure), wheel(x, y, pixels, modifiers), pinch(factor),
    *                key(name, modifiers): true when used; hint(touch): the person may want to interact
    */
   constructor(canvas, viewer) {
@@ -67,6 +67,7 @@ export class Gestures {
       Math.max(0, event.button),
       modifiersOf(event),
       event.pointerType !== 'mouse',
+      event.pointerType === 'pen' ? event.pressure : 1, // mice and fingers tell nothing of theirs
     );
   }
 

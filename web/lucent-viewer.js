@@ -297,6 +297,23 @@ export class LucentViewer extends HTMLElement {
     return JSON.parse(this.#ask('viewer_profiles') || '[]');
   }
 
+   * Paints the strokes of a script on what is translucent, as one step that undo takes back. A wrong script changes
+   * nothing, fires an error event and returns false.
+   * @param script  as text or as what JSON.parse makes of it
+   * @param object  its name; without one the first that can be painted
+   */
+  paint(script, object = '') {
+    const text = typeof script === 'string' ? script : JSON.stringify(script);
+    const message = this.loaded ? this.#runtime.text('viewer_paint', this.#handle, text, object) : 'no scene is loaded';
+    if (message) this.#fail(new LucentError('value', message));
+    this.#sync();
+    return !message;
+  }
+  /** All strokes on the painted object, as a script that paint() takes. */
+  get strokes() {
+    return JSON.parse(this.#ask('viewer_strokes', '') || '{"lucentStrokes": 1, "strokes": []}');
+  }
+
   /**
    * Milliseconds, passes, draws, lights, bytes, complete, frames, modes that the scene has something for, and where the
    * panel's controls lie; while the caustic map is shown, energy: W of each colour that met glass and mirrors, and what

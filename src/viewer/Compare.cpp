@@ -4,6 +4,7 @@
 #include "relief/Relief.h"
 #include "scene/Load.h"
 #include "scene/Mesh.h"
+#include "scene/Painting.h"
 
 #include <algorithm>
 #include <array>
@@ -26,6 +27,8 @@ std::vector<const void*> contentOf(const scene::Scene& scene) {
         const scene::Material& material = object.material;
         content.insert(content.end(),
                        {material.baseMap.get(), material.diffuseMap.get(), material.specularMap.get()});
+        if (const scene::Painting* painting = object.painting.get())
+            content.insert(content.end(), {painting->entering.get(), painting->leaving.get()});
     }
     return content;
 }
@@ -67,6 +70,16 @@ void packMesh(std::vector<std::pair<std::string, Bytes>>& files, scene::MeshShap
     shape.source = std::to_string(files.size()) + ".mesh";
     shape.part.clear();
     files.emplace_back(shape.source, scene::encodeMesh(*shape.mesh));
+}
+
+// The finished maps: strokes need not be painted again.
+void packPainting(std::vector<std::pair<std::string, Bytes>>& files,
+                  std::shared_ptr<const scene::Painting>& painting) {
+    if (!painting) return;
+    scene::Painting packed{painting->entering, painting->leaving};
+    packImage(files, packed.entering, packed.enteringFile);
+    packImage(files, packed.leaving, packed.leavingFile);
+    painting = std::make_shared<const scene::Painting>(std::move(packed));
 }
 
 } // namespace
@@ -150,6 +163,7 @@ std::vector<std::pair<std::string, Bytes>> packScene(scene::Scene scene) {
         packImage(files, material.baseMap, material.baseMapFile);
         packImage(files, material.diffuseMap, material.diffuseMapFile);
         packImage(files, material.specularMap, material.specularMapFile);
+        packPainting(files, object.painting);
     }
     const std::string text = scene::toJson(scene);
     const auto bytes = std::as_bytes(std::span(text));

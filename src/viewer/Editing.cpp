@@ -3,6 +3,7 @@
 #include "viewer/State.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace lucent::viewer {
 
@@ -46,6 +47,8 @@ void Viewer::State::adopt(scene::Scene newScene) {
     began = {};
     history.clear();
     grip = Grip::None;
+    painter.clear();
+    picking.reset();
     light = 0;
     message.clear();
     asLoaded = *scene;
@@ -72,6 +75,10 @@ void Viewer::State::bind() {
     }
     for (BoundParam& bound : bindCompare(compare))
         offerOfView(std::move(bound));
+    for (BoundParam& bound : bindPaint(paintSettings, mode.mode == Mode::Paint)) {
+        const std::string before = getText(*bound.param, bound.defaults);
+        controls.push_back({std::move(bound), before}); // another brush has other values
+    }
     for (Control& control : controls)
         offerChoices(control);
     const auto place = [&](const Control& control) {
@@ -106,6 +113,8 @@ void Viewer::State::offerOfView(BoundParam bound) {
 // What belongs to the view alone: it is in no scene file.
 std::vector<BoundParam> Viewer::State::bindView() {
     std::vector<BoundParam> bound = bindCompare(compare);
+    for (BoundParam& paint : bindPaint(paintSettings, true))
+        bound.push_back(std::move(paint));
     for (BoundParam& one : bindMode(mode, *scene))
         bound.push_back(std::move(one));
     if (const Control* playing = find("playing"); playing && playing->bound.shown)
@@ -191,7 +200,7 @@ Status Viewer::State::changeView(const BoundParam& bound, const std::string& val
     if (Status set = setText(*bound.param, bound.data, value); !set)
         return Error{bound.path + " " + set.error().message};
     if (getText(*bound.param, bound.data) == before) return Done{};
-    if (bound.data == &mode.mode) bind(); // other controls stand first
+    if (bound.data == &mode.mode || bound.path.starts_with("paint.")) bind(); // other controls stand there
     if (bound.data == &mode.matt) stale = true;
     ++revision;
     settled = false;
@@ -211,8 +220,14 @@ void Viewer::State::assign(const void* member, vec3 value) {
 void Viewer::State::assign(const void* member, float value) { assign(member, vec3(value)); }
 
 void Viewer::State::apply(const std::vector<Change>& changes, bool back) {
-    for (const Change& one : changes)
-        (void)scene::setParam(*scene, one.path, back ? one.before : one.after);
+    for (const Change& one : changes) {
+        const std::string& value = back ? one.before : one.after;
+        if (!one.path.starts_with(kStrokesOn))
+            (void)scene::setParam(*scene, one.path, value);
+        else
+            for (scene::Object& object : scene->objects)
+                if (one.path == kStrokesOn + object.name) painter.go(object, std::atoi(value.c_str()));
+    }
     bind();
     changed();
 }

@@ -56,6 +56,9 @@ Viewer::State::Grip Viewer::State::gripAt(vec2 position, int button, Modifiers m
     if (!scene || button == 1 || position.x > pictureSize().x) return Grip::None;
     if (comparing() && std::abs(position.x - dividerPlace()) < (touch ? kDividerTouch : kDividerReach))
         return Grip::Divider;
+    if (painting() && button == 0 && !modifiers.shift && !modifiers.control && paintPlaceAt(position))
+        return Grip::Paint;
+    if (painting()) return button == 0 ? Grip::Orbit : Grip::None;
     const bool forCamera = modifiers.shift == hasField();
     if (forCamera && modifiers.shift) return Grip::Orbit;
     const float distance = pickLight(position);
@@ -74,6 +77,7 @@ void Viewer::State::startGrip(Grip wanted, vec2 position) {
     grip = wanted;
     gripStart = position;
     gripCamera = scene->camera;
+    if (grip == Grip::Paint && !startStroke(position)) grip = Grip::None;
     if (grip == Grip::Water) (void)fall(*waterAt(*scene, lens(), position));
     if (grip == Grip::Map || grip == Grip::Roll) gripValue = scene->environment->rotation;
     if (grip != Grip::Light) return;
@@ -107,6 +111,9 @@ void Viewer::State::drag(vec2 position) {
         (void)fall(*place, kTrailDepth);
         break;
     }
+    case Grip::Paint:
+        dabTo(position);
+        break;
     case Grip::Orbit: {
         const float arm = glm::distance(gripCamera.eye, gripCamera.target);
         assign(&scene->camera.eye, rounded(orbited(gripCamera, turns), arm * glm::radians(degree)));
@@ -212,6 +219,7 @@ bool Viewer::State::toggleMatt() {
 }
 
 bool Viewer::State::shortcut(const std::string& key, Modifiers modifiers) {
+    if (painting() && paintKey(key)) return true;
     if (key == "ArrowLeft") return arrow({-1, 0}, modifiers);
     if (key == "ArrowRight") return arrow({1, 0}, modifiers);
     if (key == "ArrowUp") return arrow({0, -1}, modifiers);

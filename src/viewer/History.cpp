@@ -5,7 +5,7 @@
 namespace lucent::viewer {
 
 namespace {
-constexpr std::size_t kMostSteps = 200; // some 100 bytes each
+constexpr std::size_t kMostSteps = 100000; // some 100 bytes each
 }
 
 void History::record(std::uint64_t gesture, Change change) {

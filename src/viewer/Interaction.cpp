@@ -40,11 +40,14 @@ std::optional<vec2> Lens::project(vec3 point) const {
     return corner_ + size_ * 0.5f + metres / (perspective_ ? spread_ * depth : spread_);
 }
 
-std::optional<vec3> Lens::onPlane(vec2 pixel, vec3 point, vec3 normal) const {
+Lens::Sight Lens::sight(vec2 pixel) const {
     const vec2 metres = (pixel - corner_ - size_ * 0.5f) * spread_;
     const vec3 aside = right_ * metres.x - up_ * metres.y;
-    const vec3 origin = perspective_ ? eye_ : eye_ + aside;
-    const vec3 direction = glm::normalize(perspective_ ? forward_ + aside : forward_);
+    return {perspective_ ? eye_ : eye_ + aside, glm::normalize(perspective_ ? forward_ + aside : forward_)};
+}
+
+std::optional<vec3> Lens::onPlane(vec2 pixel, vec3 point, vec3 normal) const {
+    const auto [origin, direction] = sight(pixel);
     const float slope = glm::dot(direction, normal);
     if (std::abs(slope) < kGrazing) return {};
     const float distance = glm::dot(point - origin, normal) / slope;

@@ -17,6 +17,11 @@ public:
 
     /// Pixel at which a world point is seen; nothing behind a perspective camera.
     std::optional<vec2> project(vec3 point) const;
+    /// The line on which a pixel's points lie: where it starts, and its unit direction.
+    struct Sight {
+        vec3 from, way;
+    };
+    Sight sight(vec2 pixel) const;
     /// Where the sight line of a pixel meets the plane through `point`; nothing when it runs along the plane
     /// (steeper than 1 : 20) or meets it behind the camera. @param normal  unit
     std::optional<vec3> onPlane(vec2 pixel, vec3 point, vec3 normal) const;

@@ -2,6 +2,7 @@
 
 #include "frame/Renderer.h"
 #include "subsurface/Subsurface.h"
+#include "viewer/Painter.h"
 
 #include <algorithm>
 #include <optional>
@@ -12,11 +13,12 @@ using scene::Aov;
 
 namespace {
 
-constexpr std::string_view kModes[] = {"relief", "refraction", "caustics", "subsurface"};
+constexpr std::string_view kModes[] = {"relief", "refraction", "caustics", "subsurface", "paint"};
 
 // Groups that stand first; the others follow in their own order.
 constexpr Group kReliefFirst[] = {Group::Mode};
 constexpr Group kRefractionFirst[] = {Group::Mode, Group::Refraction, Group::View, Group::Environment};
+constexpr Group kPaintFirst[] = {Group::Mode, Group::View, Group::Material};
 constexpr Group kCausticsFirst[] = {Group::Mode, Group::Caustics, Group::Light, Group::View};
 constexpr Group kSubsurfaceFirst[] = {Group::Mode, Group::Subsurface, Group::Light, Group::View};
 
@@ -30,6 +32,8 @@ std::span<const Group> firstOf(Mode mode) {
         return kCausticsFirst;
     case Mode::Subsurface:
         return kSubsurfaceFirst;
+    case Mode::Paint:
+        return kPaintFirst;
     }
     return {};
 }
@@ -68,7 +72,7 @@ std::span<const Param> modeParams() {
              .group = Group::Mode,
              .doc = "Which sliders stand first, and which views Show offers: those of the light on a relief, "
                     "of what is seen through glass and water, of the light that these throw, or of light "
-                    "inside things.",
+                    "inside things; or the brush that paints on these.",
              .choices = kModes,
              .attribute = "mode"}),
         declare(&ModeSettings::matt,
@@ -103,6 +107,10 @@ std::vector<Mode> modesOf(const scene::Scene& scene) {
     if (frame::need(scene, "refract")) modes.push_back(Mode::Refraction);
     if (frame::need(scene, "caustics")) modes.push_back(Mode::Caustics);
     if (frame::need(scene, "subsurface")) modes.push_back(Mode::Subsurface);
+    if (std::any_of(scene.objects.begin(), scene.objects.end(), isPaintable)) {
+        if (modes.empty()) modes.push_back(Mode::Relief); // which is then what looking is called
+        modes.push_back(Mode::Paint);
+    }
     if (modes.empty()) modes.push_back(Mode::Relief);
     return modes;
 }

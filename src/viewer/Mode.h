@@ -10,7 +10,7 @@
 
 namespace lucent::viewer {
 
-enum class Mode : int { Relief, Refraction, Caustics, Subsurface };
+enum class Mode : int { Relief, Refraction, Caustics, Subsurface, Paint };
 
 /// Part of the view, not of the scene: no undo step, not in a scene file.
 struct ModeSettings {

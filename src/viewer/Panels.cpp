@@ -113,6 +113,7 @@ void Viewer::State::overlays() {
     }
     compareOverlay();
     energyOverlay();
+    paintOverlay();
     if (showStats && renderer && compare.mode == CompareMode::Off) // whose card holds the cost as well
         drawStats(renderer->stats(), openSize(), theme(dark));
     if (help && drawHelp(scene && !hasField(), size, theme(dark))) help = false;

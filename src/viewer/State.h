@@ -7,6 +7,7 @@
 ///   Playing.cpp   time that runs
 ///   Comparing.cpp the picture beside its truth
 ///   Counting.cpp  where the light of a caustic map went
+///   PaintPanel.cpp  strokes of the pointer, the brush's ring and buttons
 
 #include "scene/Load.h"
 #include "viewer/Compare.h"
@@ -14,6 +15,7 @@
 #include "viewer/Interaction.h"
 #include "viewer/Mode.h"
 #include "viewer/Overlays.h"
+#include "viewer/Painter.h"
 #include "viewer/Playing.h"
 #include "viewer/Report.h"
 #include "viewer/Viewer.h"
@@ -35,7 +37,7 @@ struct Viewer::State {
     State(gl::Context& gl, gl::ImGuiHost& host) : context(&gl), imguiHost(&host) {}
 
     // What the pointer has gripped, and how things were then: drags add up without drift.
-    enum class Grip { None, Light, Map, Roll, Orbit, Divider, Water };
+    enum class Grip { None, Light, Map, Roll, Orbit, Divider, Water, Paint };
     // The picture: a quick look first, so that something is seen while a hand moves; then the fine one.
     enum class Phase { Look, Refine, Done };
 
@@ -98,6 +100,17 @@ struct Viewer::State {
     std::uint64_t numbersOf = 0;          // picture that was measured
     std::optional<scene::Scene> asLoaded; // whose truth lies in files
     std::optional<scene::Scene> asked;    // whose truth is being computed
+
+    PaintSettings paintSettings;
+    Painter painter;
+    std::optional<Picking> picking; // of the scene as it stands
+    std::uint64_t pickingOf = 0;    // revision that it shows
+    vec2 pickingSize{0};
+    std::size_t paintObject = 0; // under the open stroke
+    int paintBefore = 0;         // strokes on it
+    vec2 dabAt{0};               // pixel of the last dab
+    float pressure = 1, dabPressure = 1;
+    vec2 hoverAt{-1};
 
     bool held = false;
     Grip grip = Grip::None;
@@ -163,6 +176,19 @@ struct Viewer::State {
     bool toggleMatt();
     bool shortcut(const std::string& key, Modifiers modifiers);
     bool arrow(vec2 step, Modifiers modifiers);
+
+    // --- paint
+    bool painting() const { return scene && mode.mode == Mode::Paint && !comparing(); }
+    std::optional<PaintPlace> paintPlaceAt(vec2 position);
+    bool startStroke(vec2 position);
+    void dabTo(vec2 position);
+    void dabOnce(vec2 position, float withPressure);
+    void endStroke();
+    void painted();
+    Status addStrokes(std::size_t object, std::span<const scene::Stroke> strokes);
+    void fillWith(scene::Brush brush);
+    bool paintKey(const std::string& key);
+    void paintOverlay();
 
     // --- time
     void tick(double now);

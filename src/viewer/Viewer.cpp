@@ -155,8 +155,11 @@ bool Viewer::draw(double nowSeconds) {
 
 int Viewer::drawCount() const { return state_->drawCount; }
 
-bool Viewer::pointer(PointerEvent event, vec2 position, int button, Modifiers modifiers, bool touch) {
+bool Viewer::pointer(PointerEvent event, vec2 position, int button, Modifiers modifiers, bool touch,
+                     float pressure) {
     State& s = *state_;
+    s.pressure = pressure;
+    s.hoverAt = event == PointerEvent::Leave ? vec2(-1) : position;
     s.useImGui(modifiers);
     s.touch = touch;
     ImGuiIO& io = ImGui::GetIO();
@@ -181,6 +184,7 @@ bool Viewer::pointer(PointerEvent event, vec2 position, int button, Modifiers mo
         s.drag(position);
     } else if (event == PointerEvent::Up) {
         s.held = false;
+        if (s.grip == State::Grip::Paint) s.endStroke();
         s.grip = State::Grip::None;
         io.MouseDown[imguiButton] = false;
         s.frame();
@@ -261,6 +265,7 @@ void Viewer::reset(const std::string& path) {
 }
 
 bool Viewer::undo() {
+    if (state_->grip == State::Grip::Paint) return false; // the stroke is not done
     const std::vector<Change> changes = state_->history.undo();
     if (changes.empty()) return false;
     state_->apply(changes, true);
@@ -268,6 +273,7 @@ bool Viewer::undo() {
 }
 
 bool Viewer::redo() {
+    if (state_->grip == State::Grip::Paint) return false;
     const std::vector<Change> changes = state_->history.redo();
     if (changes.empty()) return false;
     state_->apply(changes, false);
@@ -301,6 +307,33 @@ std::string Viewer::profiles() const {
 
 std::string Viewer::changes() const { return changesJson(state_->controls, &state_->play.playing); }
 std::string Viewer::sceneJson() const { return state_->scene ? scene::toJson(*state_->scene) : ""; }
+
+Status Viewer::paint(std::string_view script, const std::string& object) {
+    State& s = *state_;
+    if (!s.scene) return Error{"paint: there is no scene; load one first"};
+    const Result<std::vector<scene::Stroke>> strokes =
+        scene::parseStrokes(std::as_bytes(std::span(script)), "strokes");
+    if (!strokes) return strokes.error();
+    const auto& objects = s.scene->objects;
+    const auto found = std::find_if(objects.begin(), objects.end(), [&](const scene::Object& one) {
+        return isPaintable(one) && (object.empty() || one.name == object);
+    });
+    if (found == objects.end())
+        return Error{object.empty()
+                         ? "paint: no object can be painted; the material of one must scatter"
+                         : "paint: objects." + object + " cannot be painted; its material must scatter"};
+    ++s.gesture;
+    return s.addStrokes(std::size_t(found - objects.begin()), *strokes);
+}
+
+std::string Viewer::strokes(const std::string& object) const {
+    std::vector<scene::Stroke> strokes;
+    if (state_->scene)
+        for (const scene::Object& one : state_->scene->objects)
+            if (strokes.empty() && (object.empty() || one.name == object)) strokes = Painter::strokesOf(one);
+    return scene::toJson(strokes);
+}
+
 std::string Viewer::title() const { return state_->scene ? state_->scene->title : ""; }
 std::string Viewer::caption() const { return state_->scene ? state_->scene->caption : ""; }
 std::string Viewer::comparison() { return comparisonJson(state_->comparison()); }

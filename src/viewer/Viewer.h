@@ -56,7 +56,13 @@ public:
     /// its dot only. With Shift it leads the camera around its target. In a scene without height fields Shift
     /// swaps both: a drag is for the camera but at a light's dot, with Shift for the environment, else the
     /// light. On water it lets drops fall; there the camera is led with Control.
-    bool pointer(PointerEvent event, vec2 position, int button, Modifiers modifiers, bool touch);
+    ///
+    /// While the mode is "paint" a drag on what is translucent paints with the brush of the parameters
+    /// "paint.*", elsewhere and with Shift or Control it leads the camera.
+    ///
+    /// @param pressure  [0,1], of a pen
+    bool pointer(PointerEvent event, vec2 position, int button, Modifiers modifiers, bool touch,
+                 float pressure = 1);
     /// Height of a relief's light; zoom with Control and where there is none to lift. @param delta CSS pixels
     bool wheel(vec2 position, float delta, Modifiers modifiers);
     bool pinch(float factor);
@@ -90,6 +96,11 @@ public:
     /// Never "playing": whether things move is up to whoever follows the link.
     std::string changes() const;
     std::string sceneJson() const;
+
+    /// Paints the strokes of a script on an object, as one undo step; "": the first that can be painted.
+    Status paint(std::string_view script, const std::string& object = "");
+    /// The script of all strokes on an object; "": the first that is painted, or an empty script.
+    std::string strokes(const std::string& object = "") const;
 
     /// While the parameter "playing" is on, which scenes have in which something moves, each draw() shows a
     /// later moment: view.time follows its clock.

@@ -147,9 +147,10 @@ void viewer_dark(int viewer, int dark) { viewerOf(viewer).setDark(dark != 0); }
 int viewer_draw(int viewer, double seconds) { return viewerOf(viewer).draw(seconds); }
 int viewer_draw_count(int viewer) { return viewerOf(viewer).drawCount(); }
 
-int viewer_pointer(int viewer, int event, float x, float y, int button, int modifiers, int touch) {
+int viewer_pointer(int viewer, int event, float x, float y, int button, int modifiers, int touch,
+                   float pressure) {
     return viewerOf(viewer).pointer(viewer::PointerEvent(event), {x, y}, button, modifiersOf(modifiers),
-                                    touch != 0);
+                                    touch != 0, pressure);
 }
 
 int viewer_wheel(int viewer, float x, float y, float delta, int modifiers) {
@@ -162,6 +163,12 @@ int viewer_key(int viewer, const char* key, int modifiers) {
     return viewerOf(viewer).key(key, modifiersOf(modifiers));
 }
 
+const char* viewer_paint(int viewer, const char* script, const char* object) {
+    return answer(viewerOf(viewer).paint(script, object));
+}
+const char* viewer_strokes(int viewer, const char* object) {
+    return answer(viewerOf(viewer).strokes(object));
+}
 const char* viewer_get(int viewer, const char* path) { return answer(viewerOf(viewer).get(path)); }
 const char* viewer_set(int viewer, const char* path, const char* value) {
     return answer(viewerOf(viewer).set(path, value));

@@ -36,12 +36,17 @@ void viewer_panel(int viewer, int visible);
 void viewer_dark(int viewer, int dark);
 int viewer_draw(int viewer, double seconds); ///< 1: another frame is wanted
 int viewer_draw_count(int viewer);
-/// event: 0 down, 1 move, 2 up, 3 leave; modifiers: 1 shift, 2 control, 4 alt. Returns 1 when used.
-int viewer_pointer(int viewer, int event, float x, float y, int button, int modifiers, int touch);
+/// event: 0 down, 1 move, 2 up, 3 leave; modifiers: 1 shift, 2 control, 4 alt; pressure [0,1] of a pen.
+/// Returns 1 when used.
+int viewer_pointer(int viewer, int event, float x, float y, int button, int modifiers, int touch,
+                   float pressure);
 int viewer_wheel(int viewer, float x, float y, float delta, int modifiers);
 int viewer_pinch(int viewer, float factor);
 int viewer_drop(int viewer, float x, float y); ///< 1: it fell on water
 int viewer_key(int viewer, const char* key, int modifiers);
+/// A stroke script on an object, "": the first that can be painted; "" or the message.
+const char* viewer_paint(int viewer, const char* script, const char* object);
+const char* viewer_strokes(int viewer, const char* object); ///< the script of what is on it
 const char* viewer_get(int viewer, const char* path);
 const char* viewer_set(int viewer, const char* path, const char* value); ///< "" or the message
 void viewer_reset(int viewer, const char* path);

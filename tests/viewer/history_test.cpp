@@ -31,9 +31,9 @@ TEST(History, RedoGivesBackWhatUndoTookUntilSomethingNewIsRecorded) {
     EXPECT_EQ(history.undo().at(0).after, "1");
 }
 
-TEST(History, ForgetsTheOldestOfMoreThanTwoHundredSteps) {
+TEST(History, ForgetsTheOldestOfMoreThanAHundredThousandSteps) {
     History history;
-    for (std::uint64_t i = 1; i <= 250; ++i)
+    for (std::uint64_t i = 1; i <= 100050; ++i)
         history.record(i, {"a", std::to_string(i - 1), std::to_string(i)});
     int steps = 0;
     std::string oldest;
@@ -41,8 +41,8 @@ TEST(History, ForgetsTheOldestOfMoreThanTwoHundredSteps) {
         ++steps;
         oldest = step[0].before;
     }
-    EXPECT_EQ(steps, 200);
-    EXPECT_EQ(oldest, "50"); // 250 - 200
+    EXPECT_EQ(steps, 100000);
+    EXPECT_EQ(oldest, "50"); // 100050 - 100000
 }
 
 } // namespace

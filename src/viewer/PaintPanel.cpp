@@ -1,0 +1,159 @@
+// Painting by hand: strokes that follow the pointer, the brush's ring, and what is done at once.
+#include "viewer/State.h"
+
+#include "scene/Canvas.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lucent::viewer {
+
+namespace {
+
+constexpr float kSpacing = 0.25f;     // of the radius, between dabs
+constexpr float kLeastSpacing = 1;    // CSS pixels
+constexpr float kRadiusFactor = 1.2f; // a key's
+constexpr int kRing = 64;             // corners
+
+constexpr std::array kMaps = {scene::PaintMap::Translucency, scene::PaintMap::Blur, scene::PaintMap::Glow,
+                              scene::PaintMap::Outgoing};
+
+// All of an object.
+scene::Stroke everywhere(const scene::Brush& brush) {
+    constexpr float kEndless = std::numeric_limits<float>::infinity();
+    return {brush, {}, scene::Stroke::Fill{vec3(-kEndless), vec3(kEndless)}};
+}
+
+} // namespace
+
+// What a pixel shows is found anew when anything but paint has changed.
+std::optional<PaintPlace> Viewer::State::paintPlaceAt(vec2 position) {
+    if (!picking || pickingOf != revision || pickingSize != pictureSize()) {
+        const Rect place = picturePlace();
+        picking.emplace(*scene, lens(), place.high);
+        pickingOf = revision;
+        pickingSize = pictureSize();
+    }
+    return picking->at(position);
+}
+
+void Viewer::State::painted() {
+    const bool known = picking && pickingOf == revision;
+    changed();
+    if (known) pickingOf = revision; // paint moves nothing
+}
+
+bool Viewer::State::startStroke(vec2 position) {
+    const auto place = paintPlaceAt(position);
+    if (!place) return false;
+    paintObject = std::size_t(place->object);
+    scene::Object& object = scene->objects[paintObject];
+    paintBefore = painter.count(object);
+    if (Status begun = painter.begin(object, brushOf(paintSettings)); !begun) {
+        message = begun.error().message;
+        return false;
+    }
+    dabOnce(position, pressure);
+    return true;
+}
+
+// Dabs on the way from the last one, a share of the radius apart as it is seen there.
+void Viewer::State::dabTo(vec2 position) {
+    const auto place = paintPlaceAt(dabAt);
+    const float radius =
+        place ? paintSettings.brush.radius / lens().metresPerPixel(place->seenAt) : kLeastSpacing / kSpacing;
+    const float step = std::max(kSpacing * radius, kLeastSpacing);
+    const vec2 from = dabAt, way = position - from;
+    const float length = glm::length(way), before = dabPressure;
+    for (float along = step; along <= length; along += step)
+        dabOnce(from + way * (along / length), glm::mix(before, pressure, along / length));
+}
+
+void Viewer::State::dabOnce(vec2 position, float withPressure) {
+    dabAt = position;
+    dabPressure = withPressure;
+    const auto place = paintPlaceAt(position);
+    if (!place || std::size_t(place->object) != paintObject) return;
+    painter.dab(scene->objects[paintObject], {place->place, place->normal, withPressure});
+    painted();
+}
+
+void Viewer::State::endStroke() {
+    scene::Object& object = scene->objects[paintObject];
+    painter.end(object);
+    history.record(gesture, {kStrokesOn + object.name, std::to_string(paintBefore),
+                             std::to_string(painter.count(object))});
+    bind(); // the matt share has a colour now
+    painted();
+}
+
+Status Viewer::State::addStrokes(std::size_t index, std::span<const scene::Stroke> strokes) {
+    scene::Object& object = scene->objects[index];
+    const int before = painter.count(object);
+    if (Status added = painter.add(object, strokes); !added) return added;
+    history.record(gesture,
+                   {kStrokesOn + object.name, std::to_string(before), std::to_string(painter.count(object))});
+    bind();
+    painted();
+    return Done{};
+}
+
+// All of the object that was painted last, or of the first one that can be.
+void Viewer::State::fillWith(scene::Brush brush) {
+    const auto& objects = scene->objects;
+    if (paintObject >= objects.size() || !isPaintable(objects[paintObject]))
+        paintObject =
+            std::size_t(std::find_if(objects.begin(), objects.end(), isPaintable) - objects.begin());
+    if (paintObject == objects.size()) return;
+    ++gesture;
+    const scene::Stroke stroke = everywhere(brush);
+    if (Status filled = addStrokes(paintObject, {&stroke, 1}); !filled) message = filled.error().message;
+    ++gesture;
+}
+
+bool Viewer::State::paintKey(const std::string& key) {
+    const auto set = [&](const char* path, const std::string& value) {
+        return change(path, value, gesture).ok();
+    };
+    if (key == "[" || key == "]") {
+        const float radius = paintSettings.brush.radius * (key == "]" ? kRadiusFactor : 1 / kRadiusFactor);
+        return set("paint.radius", std::to_string(radius));
+    }
+    if (key == "x" || key == "X") return set("paint.erase", paintSettings.brush.erase ? "false" : "true");
+    if (key == "g" || key == "G") return fillWith(brushOf(paintSettings)), true;
+    if (key.size() == 1 && key[0] >= '1' && key[0] <= '4') {
+        const auto names = scene::brushParams().params[0].choices;
+        return set("paint.brush", std::string(names[std::size_t(key[0] - '1')]));
+    }
+    return false;
+}
+
+void Viewer::State::paintOverlay() {
+    if (!painting()) return;
+    const Rect open = picturePlace();
+    const bool inside = hoverAt.x >= open.low.x && hoverAt.y >= open.low.y && hoverAt.x < open.high.x &&
+                        hoverAt.y < open.high.y && !ImGui::GetIO().WantCaptureMouse;
+    if (const auto place = inside ? paintPlaceAt(hoverAt) : std::nullopt) {
+        const float radius = paintSettings.brush.radius * pressure / lens().metresPerPixel(place->seenAt);
+        ImDrawList& list = *ImGui::GetBackgroundDrawList();
+        list.AddCircle({hoverAt.x, hoverAt.y}, radius + 1, IM_COL32(0, 0, 0, 160), kRing, 1);
+        list.AddCircle({hoverAt.x, hoverAt.y}, radius, IM_COL32(255, 255, 255, 220), kRing, 1.5f);
+    }
+    // What is done at once stands in a row below the picture's upper edge.
+    ImGui::SetNextWindowPos({open.low.x + layout::kText, open.low.y + layout::kText});
+    ImGui::Begin("##paint", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+    if (ImGui::Button("Fill")) fillWith(brushOf(paintSettings));
+    const auto names = scene::brushParams().params[0].choices;
+    for (const scene::PaintMap map : kMaps) {
+        ImGui::SameLine();
+        const std::string label = "Clear " + std::string(names[std::size_t(map)]);
+        if (ImGui::Button(label.c_str())) fillWith({.map = map, .erase = true});
+    }
+    ImGui::End();
+}
+
+} // namespace lucent::viewer

@@ -1,0 +1,105 @@
+#pragma once
+/// Brushes in a person's hands: what they are set to, where they touch, and what the strokes leave on the
+/// scene.
+
+#include "base/Param.h"
+#include "scene/Canvas.h"
+#include "scene/Scene.h"
+#include "viewer/Interaction.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lucent::viewer {
+
+/// The brush in hand. Part of the view, not of the scene: no undo step, not in a scene file.
+struct PaintSettings {
+    scene::Brush brush;
+    float translucency = 1, blur = 2; ///< values of the brushes that take a number
+    vec3 color{1};                    ///< of the others,
+    float brightness = 1;             ///< times this
+};
+
+/// "paint.brush", "paint.radius" and so on; the values of other brushes are not shown. Shown while a person
+/// paints.
+std::vector<BoundParam> bindPaint(PaintSettings& settings, bool shown);
+/// The brush with the value that it aims at.
+scene::Brush brushOf(const PaintSettings& settings);
+
+/// In front of an object's name: path of how many strokes are on it, among what was changed.
+inline const std::string kStrokesOn = "strokes on ";
+
+/// Objects that can be painted: their material scatters.
+bool isPaintable(const scene::Object& object);
+
+/// A place on a painted object, as its mesh is at rest.
+struct PaintPlace {
+    int object = 0;                 ///< in the scene
+    vec3 place{0}, normal{0, 0, 1}; ///< object's space
+    vec3 seenAt{0};                 ///< world, where it is now
+};
+/// Finds what pixels show while neither the camera nor the scene changes. What moves stands as it does at the
+/// scene's time; waves are left out.
+class Picking {
+public:
+    Picking(const scene::Scene& scene, const Lens& lens, vec2 size);
+    /// Nothing where the pixel shows nothing that can be painted.
+    std::optional<PaintPlace> at(vec2 pixel) const;
+
+private:
+    struct Target {
+        int object;
+        bool paintable;
+        std::shared_ptr<const scene::Mesh> rest;
+        std::vector<vec3> places; // world
+    };
+    struct Triangle {
+        std::uint32_t target, first; // of its corners
+    };
+    void enter(const Target& target, std::uint32_t number);
+
+    Lens lens_;
+    glm::ivec2 tiles_;
+    std::vector<Target> targets_;
+    std::vector<std::vector<Triangle>> inTile_;
+};
+
+/// The canvases of a scene's objects.
+class Painter {
+public:
+    /// Another scene: nothing of the old one is kept.
+    void clear();
+
+    /// Strokes that are done on an object since it was loaded, without one that is open.
+    int count(const scene::Object& object) const;
+    /// A stroke begins. An object without paint is made opaque first. Error where it does not fit into an
+    /// atlas.
+    Status begin(scene::Object& object, const scene::Brush& brush);
+    void dab(scene::Object& object, const scene::Dab& dab);
+    void end(scene::Object& object);
+    /// Whole strokes.
+    Status add(scene::Object& object, std::span<const scene::Stroke> strokes);
+    /// Those of the object, the ones that it was loaded with before them; none where it has no paint.
+    static std::vector<scene::Stroke> strokesOf(const scene::Object& object) {
+        return object.painting ? object.painting->strokes : std::vector<scene::Stroke>{};
+    }
+    /// Takes strokes back, or does them again, until so many are done.
+    void go(scene::Object& object, int count);
+
+private:
+    struct Easel {
+        std::shared_ptr<const scene::Painting> first; ///< what was there when it was loaded
+        std::shared_ptr<const scene::Mesh> mesh;
+        float scale; ///< of the object for which its radii are
+        scene::Canvas canvas;
+    };
+    Result<Easel*> easelOf(scene::Object& object);
+    static scene::Brush asOfEasel(scene::Brush brush, const scene::Object& object, const Easel& easel);
+    static void show(scene::Object& object, const Easel& easel);
+    std::map<std::string, Easel> easels_; // by the object's name
+};
+
+} // namespace lucent::viewer

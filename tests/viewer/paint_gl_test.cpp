@@ -1,0 +1,148 @@
+// Painting by hand and by script: the same texels, taken back and saved.
+#include "scene/Load.h"
+#include "scene/Painting.h"
+#include "tests/viewer/Page.h"
+
+namespace lucent::viewer {
+namespace {
+
+using Paint = Page;
+
+// A ball of marble in front of a matt wall, 0.5 m high on a picture that shows 1 m: 0.0025 m a pixel.
+constexpr const char* kBall = R"({"lucent": 1, "title": "Ball", "size": [512, 512],
+ "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 1},
+ "lights": [{"type": "distant", "direction": [-0.3, -0.5, -1]}], "view": {"lightDot": false},
+ "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.25}, "material": {"preset": "marble"}},
+             {"name": "wall", "shape": {"type": "box", "size": [2, 2, 0.1]}, "transform": {"translate": [0, 0, -0.5]}}]})";
+
+// The picture beside the panel is 464 x 400.
+constexpr vec2 kMiddle(232, 200);
+
+const scene::Object& ball(const Viewer& viewer) { return viewer.scene()->objects[0]; }
+
+std::array<std::vector<float>, 2> texels(const Viewer& viewer) {
+    const auto& painting = ball(viewer).painting;
+    if (!painting) return {};
+    return {painting->entering->pixels, painting->leaving->pixels};
+}
+
+void choose(Viewer& viewer, const std::string& path, const std::string& value) {
+    const Status set = viewer.set(path, value);
+    EXPECT_TRUE(set.ok()) << set.error().message;
+}
+
+TEST_F(Paint, ADragPaintsWhereItGoesOnWhatWasOpaque) {
+    load(kBall);
+    choose(*viewer, "mode", "paint");
+    choose(*viewer, "paint.radius", "0.05");
+    EXPECT_EQ(ball(*viewer).painting, nullptr);
+    drag(kMiddle, kMiddle + vec2(40, 0));
+    ASSERT_NE(ball(*viewer).painting, nullptr);
+    const scene::Painting& painting = *ball(*viewer).painting;
+    ASSERT_EQ(painting.strokes.size(), 2u); // what makes it opaque, and the drag
+    EXPECT_TRUE(painting.strokes[0].fill);
+    const std::vector<scene::Dab>& dabs = painting.strokes[1].dabs;
+    ASSERT_EQ(dabs.size(), 9u); // one a quarter of 20 pixels, and the first
+    for (std::size_t i = 0; i < dabs.size(); ++i) {
+        const vec3 place = dabs[i].place;
+        EXPECT_NEAR(place.x, 0.0025f * 5 * float(i), 1e-4f);
+        EXPECT_NEAR(place.y, 0, 1e-4f);
+        EXPECT_NEAR(glm::length(place), 0.25f, 1e-4f);
+        EXPECT_GT(place.z, 0.2f); // in front
+    }
+    EXPECT_EQ(*std::max_element(painting.leaving->pixels.begin() + 3, painting.leaving->pixels.end()), 1);
+    std::size_t opaque = 0;
+    for (std::size_t i = 3; i < painting.leaving->pixels.size(); i += 4)
+        opaque += painting.leaving->pixels[i] == 0;
+    EXPECT_GT(opaque, painting.leaving->pixels.size() / 8);
+}
+
+TEST_F(Paint, TheScriptOfAHandPaintsTheSameTexels) {
+    load(kBall);
+    choose(*viewer, "mode", "paint");
+    drag(kMiddle, kMiddle + vec2(60, 30));
+    choose(*viewer, "paint.brush", "glow");
+    choose(*viewer, "paint.color", "1 0.2 0.1");
+    choose(*viewer, "paint.symmetric", "true");
+    drag(kMiddle + vec2(30, 20), kMiddle + vec2(30, -40));
+    const auto byHand = texels(*viewer);
+    const std::string script = viewer->strokes(), scene = viewer->sceneJson();
+    load(kBall);
+    EXPECT_EQ(ball(*viewer).painting, nullptr);
+    const Status painted = viewer->paint(script);
+    ASSERT_TRUE(painted.ok()) << painted.error().message;
+    EXPECT_EQ(texels(*viewer), byHand);
+    load(scene.c_str()); // what a page saves
+    EXPECT_EQ(texels(*viewer), byHand);
+    EXPECT_EQ(viewer->strokes(), script);
+}
+
+TEST_F(Paint, UndoGoesBackToTheFirstBitAmongOtherSteps) {
+    load(kBall);
+    const Image before = window->read();
+    choose(*viewer, "mode", "paint");
+    std::vector<std::array<std::vector<float>, 2>> states{texels(*viewer)};
+    for (const float y : {-30.0f, 0.0f, 30.0f}) {
+        drag(kMiddle + vec2(-20, y), kMiddle + vec2(20, y));
+        states.push_back(texels(*viewer));
+    }
+    choose(*viewer, "view.exposure", "1");
+    EXPECT_TRUE(viewer->key("g", {})); // fills
+    states.push_back(texels(*viewer));
+    for (int i = 4; i > 0; --i) {
+        EXPECT_EQ(texels(*viewer), states[std::size_t(i)]);
+        EXPECT_TRUE(viewer->undo());
+        if (i != 4) continue;
+        EXPECT_EQ(viewer->get("view.exposure"), "1");
+        EXPECT_TRUE(viewer->undo());
+        EXPECT_EQ(viewer->get("view.exposure"), "0");
+    }
+    EXPECT_EQ(ball(*viewer).painting, nullptr);
+    EXPECT_FALSE(viewer->undo());
+    settle();
+    for (int i = 1; i < 4; ++i) {
+        EXPECT_TRUE(viewer->redo());
+        EXPECT_EQ(texels(*viewer), states[std::size_t(i)]);
+    }
+}
+
+TEST_F(Paint, BesideTheObjectAndWithShiftADragLeadsTheCamera) {
+    load(kBall);
+    choose(*viewer, "mode", "paint");
+    drag(kMiddle, kMiddle + vec2(20, 0), {.shift = true});
+    EXPECT_EQ(ball(*viewer).painting, nullptr);
+    const std::string eye = viewer->get("camera.eye");
+    EXPECT_NE(eye, "0 0 2");
+    drag({20, 200}, {40, 200}); // the wall cannot be painted
+    EXPECT_EQ(ball(*viewer).painting, nullptr);
+    EXPECT_NE(viewer->get("camera.eye"), eye);
+}
+
+TEST_F(Paint, PressureIsOfTheRadiusAndKeysChangeTheBrush) {
+    load(kBall);
+    choose(*viewer, "mode", "paint");
+    viewer->pointer(PointerEvent::Down, kMiddle, 0, {}, true, 0.5f);
+    viewer->pointer(PointerEvent::Up, kMiddle, 0, {}, true, 0);
+    EXPECT_EQ(ball(*viewer).painting->strokes[1].dabs[0].pressure, 0.5f);
+    EXPECT_TRUE(viewer->key("x", {}));
+    EXPECT_EQ(viewer->get("paint.erase"), "true");
+    EXPECT_TRUE(viewer->key("2", {}));
+    EXPECT_EQ(viewer->get("paint.brush"), "blur");
+    const float radius = std::strtof(viewer->get("paint.radius").c_str(), nullptr);
+    EXPECT_TRUE(viewer->key("]", {}));
+    EXPECT_NEAR(std::strtof(viewer->get("paint.radius").c_str(), nullptr), 1.2f * radius, 1e-5f);
+}
+
+TEST_F(Paint, WrongScriptsChangeNothing) {
+    load(kBall);
+    const Status painted = viewer->paint(R"({"lucentStrokes": 1, "strokes": [{"brush": "rainbow"}]})");
+    ASSERT_FALSE(painted.ok());
+    EXPECT_EQ(painted.error().message,
+              "strokes:1: strokes.0.brush is \"rainbow\"; must be translucency, blur, glow or outgoing");
+    EXPECT_EQ(ball(*viewer).painting, nullptr);
+    EXPECT_EQ(viewer->paint(R"({"lucentStrokes": 1, "strokes": []})", "wall").error().message,
+              "paint: objects.wall cannot be painted; its material must scatter");
+}
+
+} // namespace
+} // namespace lucent::viewer
