@@ -297,6 +297,7 @@ export class LucentViewer extends HTMLElement {
     return JSON.parse(this.#ask('viewer_profiles') || '[]');
   }
 
+  /**
    * Paints the strokes of a script on what is translucent, as one step that undo takes back. A wrong script changes
    * nothing, fires an error event and returns false.
    * @param script  as text or as what JSON.parse makes of it
@@ -309,6 +310,7 @@ export class LucentViewer extends HTMLElement {
     this.#sync();
     return !message;
   }
+
   /** All strokes on the painted object, as a script that paint() takes. */
   get strokes() {
     return JSON.parse(this.#ask('viewer_strokes', '') || '{"lucentStrokes": 1, "strokes": []}');

@@ -107,10 +107,7 @@ std::vector<Mode> modesOf(const scene::Scene& scene) {
     if (frame::need(scene, "refract")) modes.push_back(Mode::Refraction);
     if (frame::need(scene, "caustics")) modes.push_back(Mode::Caustics);
     if (frame::need(scene, "subsurface")) modes.push_back(Mode::Subsurface);
-    if (std::any_of(scene.objects.begin(), scene.objects.end(), isPaintable)) {
-        if (modes.empty()) modes.push_back(Mode::Relief); // which is then what looking is called
-        modes.push_back(Mode::Paint);
-    }
+    if (std::any_of(scene.objects.begin(), scene.objects.end(), isPaintable)) modes.push_back(Mode::Paint);
     if (modes.empty()) modes.push_back(Mode::Relief);
     return modes;
 }
