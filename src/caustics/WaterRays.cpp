@@ -50,7 +50,7 @@ WaterRaysBlock LightPasses::waterBlock(const Tint& tint, ivec2 rays) const {
                          .water = views::glassBlock(object.material),
                          .place = light_.lamp.place,
                          .tint = vec4(tint.color, 0),
-                         .cells = views::waterCells(water),
+                         .cells = scene::waterCells(water),
                          .grid = rays,
                          .faceCount = int(light_.water->over.faces.size()),
                          .channel = tint.channel,

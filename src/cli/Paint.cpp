@@ -91,7 +91,9 @@ Status paintScene(PaintOptions options) {
     if (!entering) return entering.error();
     if (!leaving) return leaving.error();
 
-    scene::Painting files{(*painted)->entering, (*painted)->leaving};
+    scene::Painting files;
+    files.entering = (*painted)->entering;
+    files.leaving = (*painted)->leaving;
     files.enteringFile = fs::path(options.entering).filename().string();
     files.leavingFile = fs::path(options.leaving).filename().string();
     files.scale = object.transform.scale;

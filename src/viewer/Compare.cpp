@@ -76,7 +76,9 @@ void packMesh(std::vector<std::pair<std::string, Bytes>>& files, scene::MeshShap
 void packPainting(std::vector<std::pair<std::string, Bytes>>& files,
                   std::shared_ptr<const scene::Painting>& painting) {
     if (!painting) return;
-    scene::Painting packed{painting->entering, painting->leaving};
+    scene::Painting packed;
+    packed.entering = painting->entering;
+    packed.leaving = painting->leaving;
     packImage(files, packed.entering, packed.enteringFile);
     packImage(files, packed.leaving, packed.leavingFile);
     painting = std::make_shared<const scene::Painting>(std::move(packed));

@@ -72,8 +72,8 @@ TEST(Translucency, SaysMarbleInMillimetres) {
 TEST(Translucency, GlowIsVanDeHulstsAlbedoOfAHalfSpace) {
     EXPECT_EQ(halfSpaceAlbedo(0), 0);
     EXPECT_EQ(halfSpaceAlbedo(1), 1);
-    // Of Chandrasekhar's H function, solved by iteration on 64 Gauss points: 1 - 2 s times the integral of H mu. The
-    // closed form is off by 0.0021 where half of the light is scattered, and by less for paler ones.
+    // Of Chandrasekhar's H function, solved by iteration on 64 Gauss points: 1 - 2 s times the integral of H
+    // mu. The closed form is off by 0.0021 where half of the light is scattered, and by less for paler ones.
     EXPECT_NEAR(halfSpaceAlbedo(0.5), 0.146544, 0.0022);
     EXPECT_NEAR(halfSpaceAlbedo(0.9), 0.478024, 0.001);
     EXPECT_NEAR(halfSpaceAlbedo(0.99), 0.794564, 1e-4);
@@ -166,8 +166,10 @@ TEST(Translucency, ExtremesStayLegal) {
 
 Scene sceneWith(const Material& material) {
     Scene scene;
-    scene.objects.push_back(
-        {.name = "ball", .shape = Sphere{}, .material = material, .transform = {}, .wave = {}});
+    Object& ball = scene.objects.emplace_back();
+    ball.name = "ball";
+    ball.shape = Sphere{};
+    ball.material = material;
     return scene;
 }
 

@@ -81,7 +81,15 @@ struct SubsurfaceTest : support::GlTest {
         Subsurface subsurface(*context);
         const auto plan = subsurface.plan(pool, scene, drawn->solid, settings);
         EXPECT_TRUE(plan.ok()) << plan.error().message;
-        const Inputs in{scene, eye, solids, *posed, surfaceId, environment, targetId, radiosity, size};
+        const Inputs in{.scene = scene,
+                        .eye = eye,
+                        .solids = solids,
+                        .casters = *posed,
+                        .surface = surfaceId,
+                        .environment = environment,
+                        .target = targetId,
+                        .radiosity = radiosity,
+                        .size = size};
         const Status recorded = subsurface.record(graph, in, *plan, settings);
         EXPECT_TRUE(recorded.ok()) << recorded.error().message;
         const Status compiled = graph.compile();

@@ -68,8 +68,12 @@ TEST_F(SubsurfaceTest, TheModeOfASceneThatScattersHasItsSlidersFirst) {
             const nlohmann::json& choices = control["choices"];
             return std::find(choices.begin(), choices.end(), choice) != choices.end();
         };
-        if (control["path"] == kMaterial + "scatteringPerMm") EXPECT_EQ(control["axes"], "rgb");
-        if (control["path"] == kMaterial + "preset") EXPECT_FALSE(offers("own"));
+        if (control["path"] == kMaterial + "scatteringPerMm") {
+            EXPECT_EQ(control["axes"], "rgb");
+        }
+        if (control["path"] == kMaterial + "preset") {
+            EXPECT_FALSE(offers("own"));
+        }
         if (control["path"] != "view.show") continue;
         EXPECT_TRUE(offers("color") && offers("radiosity") && offers("irradiance"));
         EXPECT_FALSE(offers("caustic-map") || offers("visibility"));
