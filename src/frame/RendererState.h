@@ -115,8 +115,10 @@ struct Renderer::State {
     float work(const Stage& of) const;
     float shareOfStage() const;
     bool complete() const { return started && !planning && stage >= stages.size(); }
-    // A quick look is not drawn again: the next picture is.
-    bool settled() const { return coarse || !composed || !compose.unsettled(); }
+    // A quick look is not drawn again: the picture after it is.
+    bool settled(Effort effort) const {
+        return effort == Effort::Coarse || !composed || !compose.unsettled();
+    }
     int sliceEnd() const;
 };
 

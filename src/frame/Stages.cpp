@@ -381,7 +381,7 @@ Result<Progress> Renderer::State::advance(const scene::Scene& scene, std::uint64
                                           Effort effort) {
     if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
         start(scene, newRevision, newSize, effort);
-    if (!complete() || !settled()) {
+    if (!complete() || !settled(effort)) {
         const Status status = complete() ? settle(scene) : stage < stages.size() ? slice(scene) : plan(scene);
         if (!status) {
             started = false;
@@ -389,7 +389,7 @@ Result<Progress> Renderer::State::advance(const scene::Scene& scene, std::uint64
         }
     }
     Progress progress;
-    progress.complete = complete() && settled();
+    progress.complete = complete() && settled(effort);
     float total = planning ? float(settings.environmentLights) : 0, done = 0;
     for (std::size_t i = 0; i < stages.size(); ++i) {
         total += work(stages[i]);

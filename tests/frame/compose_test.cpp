@@ -133,30 +133,28 @@ TEST_F(Composed, ALookWaitsForNoAnswer) {
 
 TEST_F(Composed, TrianglesAreMadeAnewOnlyWhereSomethingMoved) {
     addBall();
-    scene.objects[0].wave.amplitude = {0, 0.05f, 0};
     Renderer renderer(*context);
     std::uint64_t revision = 0;
-    const auto passesAfter = [&] {
+    const auto passes = [&] {
         EXPECT_TRUE(renderer.finish(scene, ++revision, scene.size).ok());
         return renderer.stats().passes;
     };
-    const auto same = [&] {
-        const Result<Image> kept = renderer.read(scene, scene::Aov::Color);
-        EXPECT_EQ(kept->pixels, picture().pixels);
-    };
-    const int first = passesAfter();
+    const int first = passes();
     scene.camera.eye.x = 0.3f;
-    EXPECT_LT(passesAfter(), first);
-    same();
-    scene.view.time = 0.2f;
-    EXPECT_EQ(passesAfter(), first);
-    same();
+    EXPECT_EQ(passes(), first - 1);
     scene.objects[0].transform.translate.x = 0.1f;
-    EXPECT_EQ(passesAfter(), first);
-    same();
+    EXPECT_EQ(passes(), first);
     scene.objects[0].material.ior = 1.2f;
-    EXPECT_LT(passesAfter(), first);
-    same();
+    EXPECT_EQ(passes(), first - 1);
+    // What moves by itself is where a fresh renderer shows it.
+    scene.objects[0].wave.amplitude = {0, 0.05f, 0};
+    for (const float time : {0.1f, 0.3f}) {
+        scene.view.time = time;
+        passes();
+        const Result<Image> kept = renderer.read(scene, scene::Aov::Color);
+        ASSERT_TRUE(kept.ok());
+        EXPECT_EQ(kept->pixels, picture().pixels) << time;
+    }
 }
 
 TEST_F(Composed, AFloorRunsNoLayers) {
