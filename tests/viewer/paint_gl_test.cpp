@@ -3,15 +3,20 @@
 #include "scene/Painting.h"
 #include "tests/viewer/Page.h"
 
+#include <array>
+#include <vector>
+
 namespace lucent::viewer {
 namespace {
 
 using Paint = Page;
 
 // A ball of marble in front of a matt wall, 0.5 m high on a picture that shows 1 m: 0.0025 m a pixel.
+// Texels do not depend on how they are drawn, so that the cheapest method does.
 constexpr const char* kBall = R"({"lucent": 1, "title": "Ball", "size": [512, 512],
  "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 1},
  "lights": [{"type": "distant", "direction": [-0.3, -0.5, -1]}], "view": {"lightDot": false},
+ "technique": {"subsurface": {"method": "lambert"}},
  "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.25}, "material": {"preset": "marble"}},
              {"name": "wall", "shape": {"type": "box", "size": [2, 2, 0.1]}, "transform": {"translate": [0, 0, -0.5]}}]})";
 
@@ -50,11 +55,13 @@ TEST_F(Paint, ADragPaintsWhereItGoesOnWhatWasOpaque) {
         EXPECT_NEAR(glm::length(place), 0.25f, 1e-4f);
         EXPECT_GT(place.z, 0.2f); // in front
     }
-    EXPECT_EQ(*std::max_element(painting.leaving->pixels.begin() + 3, painting.leaving->pixels.end()), 1);
-    std::size_t opaque = 0;
-    for (std::size_t i = 3; i < painting.leaving->pixels.size(); i += 4)
+    std::size_t opaque = 0, translucent = 0;
+    for (std::size_t i = 3; i < painting.leaving->pixels.size(); i += 4) {
         opaque += painting.leaving->pixels[i] == 0;
-    EXPECT_GT(opaque, painting.leaving->pixels.size() / 8);
+        translucent += painting.leaving->pixels[i] == 1;
+    }
+    EXPECT_GT(opaque, painting.leaving->pixels.size() / 4 / 3); // most of what charts cover, half of the map
+    EXPECT_GT(translucent, 100u);
 }
 
 TEST_F(Paint, TheScriptOfAHandPaintsTheSameTexels) {
@@ -79,7 +86,6 @@ TEST_F(Paint, TheScriptOfAHandPaintsTheSameTexels) {
 
 TEST_F(Paint, UndoGoesBackToTheFirstBitAmongOtherSteps) {
     load(kBall);
-    const Image before = window->read();
     choose(*viewer, "mode", "paint");
     std::vector<std::array<std::vector<float>, 2>> states{texels(*viewer)};
     for (const float y : {-30.0f, 0.0f, 30.0f}) {

@@ -52,12 +52,12 @@ protected:
 
 TEST_F(SubsurfaceTest, TheModeOfASceneThatScattersHasItsSlidersFirst) {
     EXPECT_EQ(viewer->get("mode"), "subsurface");
-    EXPECT_EQ(stats()["modes"], nlohmann::json({"subsurface"}));
+    EXPECT_EQ(stats()["modes"], nlohmann::json({"subsurface", "paint"}));
     std::vector<std::string> paths;
     for (const nlohmann::json& control : controls())
         if (control["group"] != "") paths.push_back(control["path"]);
-    const std::vector<std::string> first(paths.begin(), paths.begin() + 4);
-    EXPECT_EQ(first, (std::vector<std::string>{"matt", kMaterial + "preset", kMaterial + "blur",
+    const std::vector<std::string> first(paths.begin(), paths.begin() + 5);
+    EXPECT_EQ(first, (std::vector<std::string>{"mode", "matt", kMaterial + "preset", kMaterial + "blur",
                                                kMaterial + "glow"}));
     EXPECT_LT(std::find(paths.begin(), paths.end(), "technique.subsurface.profile"),
               std::find(paths.begin(), paths.end(), "lights.0.irradiance"));
@@ -240,7 +240,7 @@ TEST_F(SubsurfaceTest, ModesFollowWhatIsThere) {
     EXPECT_FALSE(viewer->key("m", {})); // nothing that could be matt
     EXPECT_EQ(viewer->get("matt"), "false");
     ASSERT_TRUE(viewer->set("objects.floor.material.preset", "potato").ok());
-    EXPECT_EQ(stats()["modes"], nlohmann::json({"refraction", "caustics", "subsurface"}));
+    EXPECT_EQ(stats()["modes"], nlohmann::json({"refraction", "caustics", "subsurface", "paint"}));
     EXPECT_EQ(viewer->get("mode"), "refraction"); // which stays
     ASSERT_TRUE(viewer->set("mode", "subsurface").ok());
     EXPECT_EQ(controls()[0]["path"], "mode");
