@@ -48,9 +48,10 @@ class Judge {
   static async of({ scene, exact }) {
     const one = new Judge();
     const { width, values } = await fetchPfm(exact);
-    one.size = width;
-    one.angles = anglesToLight(scene);
-    one.exact = averagedByAngle(values, one.angles);
+    const lightAt = averagedByAngle(values, anglesToLight(scene, width));
+    one.size = scene.size[0];
+    one.angles = anglesToLight(scene, one.size);
+    one.exact = Float32Array.from([...one.angles].flatMap((angle) => (angle < 0 ? [0, 0, 0] : lightAt(angle))));
     one.sums = one.#sumsOf(one.exact);
     return one;
   }
@@ -88,7 +89,10 @@ class Judge {
   }
 }
 
-/** A ball's light depends on the angle alone: the truth's noise is averaged over degrees, linear between them. */
+/**
+ * A ball's light depends on the angle alone: the truth's noise is averaged over whole degrees.
+ * @return  (angle) => light, linear between them
+ */
 function averagedByAngle(values, angles) {
   const degrees = Array.from({ length: 180 }, () => ({ sum: [0, 0, 0], count: 0 }));
   angles.forEach((angle, i) => {
@@ -100,17 +104,16 @@ function averagedByAngle(values, angles) {
   const known = degrees
     .map(({ sum, count }, i) => ({ at: i + 0.5, light: sum.map((one) => one / count), count }))
     .filter(({ count }) => count > 0);
-  const lightAt = (angle) => {
+  return (angle) => {
     const above = known.findIndex(({ at }) => at > angle);
     const [a, b] = [known.at(above > 0 ? above - 1 : above), known.at(above)];
-    const share = Math.min(1, Math.max(0, a === b ? 0 : (angle - a.at) / (b.at - a.at)));
+    const share = a === b ? 0 : (angle - a.at) / (b.at - a.at);
     return a.light.map((light, c) => light + share * (b.light[c] - light));
   };
-  return Float32Array.from([...angles].flatMap((angle) => (angle < 0 ? [0, 0, 0] : lightAt(angle))));
 }
 
 /** Degrees between the normal of a ball around the origin and the light, for each pixel; -1 where it is not. */
-function anglesToLight({ size: [size], camera, objects: [{ shape }], lights: [{ direction }] }) {
+function anglesToLight({ camera, objects: [{ shape }], lights: [{ direction }] }, size) {
   const half = Math.tan((camera.fov * Math.PI) / 360);
   const away = camera.eye[2]; // the eye looks along -z
   const long = Math.hypot(...direction);
@@ -343,10 +346,10 @@ async function refine(one, swept, judge, light, rounds) {
 
 /**
  * @param options  scene as a file has it: a ball around the origin, one distant light, an eye that looks along -z;
- *                 files: {exact}, name of its radiosity; titles and knobs, lists of settings: {lucent, babylon,
- *                 wrapped, scattering, transmission}; rounds, factors by which settings of peers are refined; target
- *                 and sideTarget, shares: of the light that may be misplaced, and of light 80 to 120 degrees from the
- *                 lamp that may be wrong; repeats of the race
+ *                 files: {exact}, name of its radiosity at any size; titles and knobs, lists of settings: {lucent,
+ *                 babylon, wrapped, scattering, transmission}; rounds, factors by which settings of peers are refined;
+ *                 target and sideTarget, shares: of the light that may be misplaced, and of light 80 to 120 degrees
+ *                 from the lamp that may be wrong; repeats of the race
  * @return         {driver, glVersion, swept: {name: [{knobs, error, ms, isBest}]}, ms: {name}, png}
  */
 window.compare = async ({ scene, files, titles, knobs, rounds, target, sideTarget, repeats }) => {

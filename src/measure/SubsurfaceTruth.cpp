@@ -169,7 +169,7 @@ std::optional<LitBall> litBallOf(const scene::Scene& scene) {
     const auto* sphere = std::get_if<scene::Sphere>(&object.shape);
     const auto* light = std::get_if<scene::DistantLight>(&scene.lights.front());
     const bool isStill = object.transform.translate == vec3(0) && object.wave.amplitude == vec3(0);
-    if (!sphere || !light || light->angle != 0 || !isStill) return std::nullopt;
+    if (!sphere || !light || light->angle != 0 || !isStill || object.painting) return std::nullopt;
     return LitBall{double(sphere->radius) * double(object.transform.scale),
                    -glm::normalize(dvec3(light->direction))};
 }
