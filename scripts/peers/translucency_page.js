@@ -59,9 +59,10 @@ class Judge {
   #sumsOf(values) {
     return kColors.map((c) => this.angles.reduce((sum, angle, i) => sum + (angle < 0 ? 0 : values[3 * i + c]), 0));
   }
-  // side: largest share of light 80 to 120 degrees from the lamp that is wrong.
+  // side: largest share of a degree's light that is wrong, 80 to 120 degrees from the lamp.
   #errorOf(values, gain) {
-    let [apart, all, squares, count, side] = [0, 0, 0, 0, 0];
+    let [apart, all, squares, count] = [0, 0, 0, 0];
+    const degrees = Array.from({ length: 40 * 3 }, () => ({ error: 0, wanted: 0 }));
     this.angles.forEach((angle, i) => {
       if (angle < 0) return;
       for (const c of kColors) {
@@ -71,9 +72,13 @@ class Judge {
         all += wanted;
         squares += error * error;
         count += 1;
-        if (angle >= 80 && angle <= 120) side = Math.max(side, Math.abs(error) / wanted);
+        const degree = degrees[3 * Math.floor(angle - 80) + c];
+        if (!degree) continue;
+        degree.error += error;
+        degree.wanted += wanted;
       }
     });
+    const side = Math.max(...degrees.map(({ error, wanted }) => Math.abs(error) / Math.max(wanted, 1e-30)));
     const rmse = Math.sqrt(squares / count);
     return { rmse, relRmse: (rmse * count) / all, flux: { misplaced: (0.5 * apart) / all }, side };
   }
@@ -93,17 +98,18 @@ class Judge {
  * A ball's light depends on the angle alone: the truth's noise is averaged over whole degrees.
  * @return  (angle) => light, linear between them
  */
-function averagedByAngle(values, angles) {
-  const degrees = Array.from({ length: 180 }, () => ({ sum: [0, 0, 0], count: 0 }));
-  angles.forEach((angle, i) => {
+function averagedByAngle(values, pixels) {
+  const degrees = Array.from({ length: 180 }, () => ({ sum: [0, 0, 0], angles: 0, count: 0 }));
+  pixels.forEach((angle, i) => {
     if (angle < 0) return;
     const degree = degrees[Math.min(179, Math.floor(angle))];
     kColors.forEach((c) => (degree.sum[c] += values[3 * i + c]));
+    degree.angles += angle;
     degree.count += 1;
   });
   const known = degrees
-    .map(({ sum, count }, i) => ({ at: i + 0.5, light: sum.map((one) => one / count), count }))
-    .filter(({ count }) => count > 0);
+    .filter(({ count }) => count > 0)
+    .map(({ sum, angles, count }) => ({ at: angles / count, light: sum.map((one) => one / count) }));
   return (angle) => {
     const above = known.findIndex(({ at }) => at > angle);
     const [a, b] = [known.at(above > 0 ? above - 1 : above), known.at(above)];

@@ -74,9 +74,14 @@ public:
         renderer_.wait();
         return Done{};
     }
-    // An eighth of a turn: nothing that was made for one position of the map may be used for the next.
-    void turnEnvironment() {
+    // Nothing that was made for the light of one picture may be used for the next: an eighth of a turn of a
+    // map, next to nothing of a sun's way.
+    void turnLight() {
         if (with_.environment) with_.environment->rotation.y += 45;
+        isTurned_ = !isTurned_;
+        for (scene::Light& light : with_.lights)
+            if (auto* sun = std::get_if<scene::DistantLight>(&light))
+                sun->direction += vec3(isTurned_ ? 1e-5f : -1e-5f);
     }
     // What the scene shows; stats() is then what the timed picture cost.
     Result<Image> picture() {
@@ -104,6 +109,7 @@ private:
     frame::Renderer renderer_;
     scene::Scene scene_, with_, without_;
     frame::Stats stats_;
+    bool isTurned_ = false; // suns are
     std::uint64_t revision_ = 0;
 };
 
@@ -112,7 +118,7 @@ std::unique_ptr<Stopwatch> stopwatchFor(gl::Context& context, Drawing& drawing, 
     return std::make_unique<Stopwatch>(
         context,
         [&drawing, &self] {
-            drawing.turnEnvironment();
+            drawing.turnLight();
             return drawing.with(self.get());
         },
         [&drawing] { return drawing.without(); }, repeats);
@@ -311,7 +317,7 @@ private:
         drawing_->renderer().release();
         const double first = milliseconds([&] { return drawing_->with(nullptr); }, done);
         if (!done) return done;
-        drawing_->turnEnvironment();
+        drawing_->turnLight();
         result_.bakeMs = first - milliseconds([&] { return drawing_->with(nullptr); }, done);
         return done;
     }

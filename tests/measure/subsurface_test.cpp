@@ -87,7 +87,8 @@ TEST(SubsurfacePlan, HasEveryBodyAndPromise) {
         promised += ratio->target ? 1 : 0;
         missed += ratio->met() ? 0 : 1;
     }
-    EXPECT_EQ(promised, 2 * 4 + 1); // misplaced light and speed on each body, the growth of the splats' stage
+    EXPECT_EQ(promised,
+              4 + 3 + 1); // misplaced light on each body, speed on each ball, the growth of the splats' stage
     EXPECT_EQ(missed, promised);
 }
 
