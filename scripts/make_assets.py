@@ -27,6 +27,7 @@ import head
 import meshes
 import pictures
 import probes
+import strokes
 import terrain
 import weave
 
@@ -39,7 +40,8 @@ GALLERY, MESHES, FIELDS = OUT / "gallery", OUT / "meshes", OUT / "fields"
 SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-backlit", "weave", "coin-sunset",
           "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff", "glass-dragon",
           "glass-sphere", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave", "prism", "skin",
-          "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup"]
+          "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup", "makeup",
+          "checkerboards"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
 RENDERING = ["shaders", "src/scene", "src/views", "src/relief", "src/refract", "src/caustics", "src/brdf", "src/diffusion",
@@ -110,6 +112,8 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(meshes.prism, [], [GALLERY / "prism.glb"])
     stamps.make(meshes.tiles, [], [GALLERY / "tiles.glb"])
     stamps.make(head.head, [], [GALLERY / "head.glb"], [Path(meshes.__file__)])
+    stamps.make(strokes.checkerboard, [], [GALLERY / "checkerboard-strokes.json"])
+    stamps.make(strokes.makeup, [], [GALLERY / "makeup-strokes.json"], [Path(head.__file__)])
     stamps.make_with_program(dragon.dragon, [MESHES / "dragon.glb"],
                              [GALLERY / "dragon.png", GALLERY / "dragon-outline.png", GALLERY / "dragon-color.png"])
 

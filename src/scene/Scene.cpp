@@ -206,7 +206,7 @@ struct Binder {
         const auto words = std::make_shared<Translucency>(translucencyOf(material));
         const std::size_t start = bound.size();
         add(path, prefix, translucencyParams(), words.get());
-        if (!material.isScattering()) { // a measured material may be chosen for anything
+        if (!material.isScattering()) { // a measured material may be chosen for what is opaque
             bound.resize(start + 1);
             bound[start].shown = false;
         }
@@ -219,7 +219,8 @@ struct Binder {
         const std::string path = "objects." + object.name;
         const std::string_view prefix = first ? "material" : "";
         const bool scatters = !object.isField() && object.material.isScattering();
-        if (!object.isField()) addTranslucency(path + ".material", prefix, object.material);
+        if (!object.isField() && !object.material.isRefractive() && !object.material.isMirror())
+            addTranslucency(path + ".material", prefix, object.material);
         const std::size_t start = bound.size();
         for (const ParamTable* table : materialTables(object))
             add(path + ".material", prefix, *table, &object.material);

@@ -108,6 +108,15 @@ Material withGlow(Material material, double glow) {
     return material;
 }
 
+// Whether the material is what the member says, to the float: then nothing changes, not by rounding either.
+bool isAlready(const Translucency& wanted, std::string_view id, const Material& material) {
+    const Translucency now = translucencyOf(material);
+    if (id == "blur") return wanted.blur == now.blur;
+    if (id == "glow") return wanted.glow == now.glow;
+    if (id == "scatteringPerMm") return wanted.scatteringPerMm == now.scatteringPerMm;
+    return id == "absorptionPerMm" && wanted.absorptionPerMm == now.absorptionPerMm;
+}
+
 Result<Material> made(const Translucency& wanted, std::string_view id, Material material) {
     if (id == "blur") return withBlur(material, double(wanted.blur));
     if (id == "glow") return withGlow(material, double(wanted.glow));
@@ -209,6 +218,7 @@ const ParamTable& translucencyParams() {
 }
 
 Status store(const Translucency& wanted, std::string_view id, Material& material) {
+    if (isAlready(wanted, id, material)) return Done{};
     const Result<Material> result = made(wanted, id, material);
     if (!result) return result.error();
     const vec3 s = result->scattering;

@@ -32,7 +32,7 @@ Translucency translucencyOf(const Material& material);
 /// In the order of the struct.
 const ParamTable& translucencyParams();
 
-/// Makes the material what one member says.
+/// Makes the material what one member says; one that it says already changes nothing.
 /// - preset: apply() of MaterialPresets.h; Own is no material.
 /// - blur: scattering and absorption change by one factor, so that every length inside does and no colour.
 /// - glow: sigma_t' of each colour stays; the number of collisions before light is absorbed changes by one

@@ -170,7 +170,7 @@ TEST(LoadShapes, KeysThatDoNothingOnTheObjectAreRefused) {
               "must stand beside a transmission above 0");
     EXPECT_EQ(messageOf(sphereWith(R"("material": { "diffuse": [1, 0, 0], "preset": "marble" })")),
               "scenes/a.json:3: objects.ball.material.diffuse does nothing beside a scattering above 0; must "
-              "stand on an opaque surface");
+              "stand on an opaque or painted surface");
     EXPECT_EQ(
         messageOf(sphereWith(R"("material": { "diffuse": [1, 0, 0], "transmission": 1 })")),
         "scenes/a.json:3: objects.ball.material.diffuse does nothing beside a transmission above 0; must "

@@ -137,8 +137,10 @@ TEST(Scene, PointersStayValidWhenParametersAreSet) {
     const std::vector<BoundParam> before = bindParams(scene);
     ASSERT_TRUE(setParam(scene, "lights.0.intensity", "3"));
     const std::vector<BoundParam> after = bindParams(scene);
-    for (std::size_t i = 0; i < before.size(); ++i)
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i].isComputed()) continue; // bound anew each time
         EXPECT_EQ(before[i].data, after[i].data);
+    }
 }
 
 TEST(Scene, FailedSetNamesPathFoundAndExpectedAndChangesNothing) {
@@ -170,7 +172,7 @@ TEST(Scene, OnlyTheMaterialParametersThatActAreBound) {
               (List{"base", "diffuse", "specular", "specularity", "forwardScatter", "depth",
                     "specularFalloff", "scatterFalloff"}));
     EXPECT_EQ(endingsOf(scene, "objects.floor.material."),
-              (List{"base", "diffuse", "reflectance", "scattering", "transmission"}));
+              (List{"base", "diffuse", "reflectance", "scattering", "transmission", "preset"}));
     EXPECT_EQ(endingsOf(scene, "objects.ball.material."),
               (List{"reflectance", "scattering", "transmission", "ior", "attenuationDistance",
                     "attenuationColor", "dispersion", "fresnel"}));

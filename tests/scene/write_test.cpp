@@ -95,7 +95,7 @@ TEST(ToJson, LoadsBackEveryShapeLightAndKindOfMaterial) {
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a[i].path, b[i].path);
         EXPECT_EQ(getText(*a[i].param, a[i].data), getText(*b[i].param, b[i].data)) << a[i].path;
-        if (decidesWhatActs(a[i])) continue;
+        if (decidesWhatActs(a[i]) || a[i].isComputed()) continue;
         EXPECT_NE(getText(*a[i].param, a[i].data), getText(*a[i].param, a[i].defaults)) << a[i].path;
     }
     EXPECT_EQ(toJson(copy), toJson(*scene));

@@ -32,6 +32,11 @@ protected:
         return {panel[path][0].get<float>(), panel[path][1].get<float>(), panel[path][2].get<float>(),
                 panel[path][3].get<float>()};
     }
+    // Draws nothing.
+    void loadOnly(const char* scene) {
+        const Status loaded = viewer->load("scene.json", files(scene));
+        ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+    }
     static vec2 inside(vec4 rect, float u) { return {rect.x + u * rect.z, rect.y + 0.5f * rect.w}; }
     const scene::Material& material() const { return viewer->scene()->objects[1].material; }
     struct Coefficients {
@@ -146,7 +151,7 @@ TEST_F(SubsurfaceTest, GlowAndTheCoefficientsFollowEachOther) {
 }
 
 TEST_F(SubsurfaceTest, ResetBringsBackNumbersThatAreNobodysMeasurement) {
-    load(R"({"lucent": 1, "lights": [{"type": "distant"}],
+    loadOnly(R"({"lucent": 1, "lights": [{"type": "distant"}],
  "objects": [{"name": "ball", "shape": {"type": "sphere"}, "material": {"scattering": [3, 4, 5], "absorption": 0.5}}]})");
     EXPECT_EQ(viewer->get("objects.ball.material.preset"), "own");
     set("preset", "cream");
@@ -187,18 +192,18 @@ TEST_F(SubsurfaceTest, TheCurvesAreTheProfileThatIsDrawn) {
 }
 
 TEST_F(SubsurfaceTest, TheCurvesAreSaidInWords) {
-    // Total reflectance of a half space of marble: 0.830, 0.791, 0.753. The light of red reaches farther than
-    // the ball is wide.
+    // Total reflectance of a half space of marble: 0.830, 0.791, 0.753. At 19.5 mm the dipole of red has 1.0
+    // % of its light left: (0.456 + 2.86) / 19.5 e^(-0.1175 * 19.5) / (0.948 + 0.714).
     const std::string text = profile()["text"];
-    EXPECT_EQ(text.find("Light inside ball, dipole: red reaches 20 mm, 83.0 % leaves again; green reaches "),
-              0)
+    EXPECT_EQ(
+        text.find("Light inside ball, dipole: red reaches 19.5 mm, 83.0 % leaves again; green reaches "), 0)
         << text;
     EXPECT_NE(text.find(" 79.1 % leaves again; blue reaches "), std::string::npos) << text;
     EXPECT_NE(text.find(" 75.3 % leaves again."), std::string::npos) << text;
 }
 
 TEST_F(SubsurfaceTest, ThePanelDrawsTheCurves) {
-    (void)widget(kMaterial + "roughness"); // the slider above them
+    (void)widget("technique.subsurface.method"); // below them
     const Image before = window->read();
     EXPECT_TRUE(viewer->set("technique.subsurface.profile", "burley").ok());
     settle();
@@ -209,7 +214,7 @@ TEST_F(SubsurfaceTest, ThePanelDrawsTheCurves) {
             const float* pixel = after.at(x, y);
             reds += pixel[0] > 0.7f && pixel[1] < 0.45f && pixel[2] < 0.45f;
         }
-    EXPECT_GT(reds, 100); // a curve across some 240 pixels
+    EXPECT_GT(reds, 50); // a curve across some 240 pixels, where nothing else is red
     EXPECT_GT(differences(before, after), 200);
 }
 
@@ -235,7 +240,7 @@ TEST_F(SubsurfaceTest, AsMattTheSceneStaysAndTheFarSideIsDark) {
 }
 
 TEST_F(SubsurfaceTest, ModesFollowWhatIsThere) {
-    load(kGlassScene);
+    loadOnly(kGlassScene);
     EXPECT_EQ(stats()["modes"], nlohmann::json({"refraction", "caustics"}));
     EXPECT_FALSE(viewer->key("m", {})); // nothing that could be matt
     EXPECT_EQ(viewer->get("matt"), "false");
