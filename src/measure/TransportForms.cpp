@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lucent::measure {
 
@@ -15,7 +14,6 @@ namespace {
 using scene::Aov;
 using scene::Scene;
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kSide = 32; // of the pictures
 
 // --- scenes

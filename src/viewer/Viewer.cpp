@@ -312,7 +312,7 @@ Status Viewer::paint(std::string_view script, const std::string& object) {
     State& s = *state_;
     if (!s.scene) return Error{"paint: there is no scene; load one first"};
     const Result<std::vector<scene::Stroke>> strokes =
-        scene::parseStrokes(std::as_bytes(std::span(script)), "strokes");
+        scene::parseStrokes(std::as_bytes(std::span<const char>(script.data(), script.size())), "strokes");
     if (!strokes) return strokes.error();
     const auto& objects = s.scene->objects;
     const auto found = std::find_if(objects.begin(), objects.end(), [&](const scene::Object& one) {
