@@ -18,15 +18,19 @@ void main() {
     vec4 own = texelFetch(uCell, texel, 0);
     if (own.r == 0.0) return;
     ivec3 cell = cellAt(texel);
+    vec3 lowerOpen = vec3(0.0);
+    vec3 upperOpen = vec3(0.0);
     vec3 faces = texelFetch(uFaces, texel, 0).rgb;
     for (int axis = 0; axis < 3; ++axis) {
         ivec3 way = ivec3(0);
         way[axis] = 1;
         ivec2 lower = texelOf(cell - way);
-        if (texelFetch(uCell, lower, 0).r > 0.0) oLower[axis] = texelFetch(uFaces, lower, 0)[axis];
-        if (texelFetch(uCell, texelOf(cell + way), 0).r > 0.0) oUpper[axis] = faces[axis];
+        if (texelFetch(uCell, lower, 0).r > 0.0) lowerOpen[axis] = texelFetch(uFaces, lower, 0)[axis];
+        if (texelFetch(uCell, texelOf(cell + way), 0).r > 0.0) upperOpen[axis] = faces[axis];
     }
-    float open = dot(oLower.rgb + oUpper.rgb, vec3(1.0));
+    oLower.rgb = lowerOpen;
+    oUpper.rgb = upperOpen;
+    float open = dot(lowerOpen + upperOpen, vec3(1.0));
     oDiagonal =
         vec4(open * volume.diffusion.rgb + own.g * leavingFrom(own.b) + own.r * volume.absorption.rgb, 1.0);
 }

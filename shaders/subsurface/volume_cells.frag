@@ -48,8 +48,10 @@ void main() {
     float surface = facing.x + facing.y + facing.z;
     float volumeInside = surface > 0.0 ? dot(facing, inside) / surface
                                        : max(min(inside.x, inside.y), min(max(inside.x, inside.y), inside.z));
+    vec3 faces;
     for (int face = 0; face < 3; ++face)
-        oFaces[face] = met[face] > 0.0 ? open[face] / met[face] : openOfAll[face];
+        faces[face] = met[face] > 0.0 ? open[face] / met[face] : openOfAll[face];
+    oFaces.rgb = faces;
     if (volumeInside < kLeast) return;
     oCell = vec4(volumeInside, surface, surface > 0.0 ? depth / surface : 0.0,
                  surface > 0.0 ? min(length(across) / surface, 1.0) : 1.0);
