@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -149,11 +150,15 @@ std::vector<vec4> tabulated(const Radial& values, double reach, double scale) {
     return table;
 }
 
-double leastDepth(const std::array<diffusion::Medium, 3>& media) {
-    double most = 0;
-    for (const diffusion::Medium& medium : media)
-        most = std::max(most, medium.extinction());
-    return 1 / most;
+double leastDepth(const std::array<diffusion::Medium, 3>& media, const KernelWish& wish) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const diffusion::Medium& medium : media) {
+        const bool layered = wish.shape == diffusion::Shape::Multipole && medium.isLayered();
+        const double depth =
+            layered ? diffusion::sourceDepth(medium, wish.shape, wish.thickness) : 1 / medium.extinction();
+        if (depth > 0) least = std::min(least, depth);
+    }
+    return least;
 }
 
 // The profile cut at its reach, each colour with the integral that it has without the cut. What the object
@@ -212,7 +217,7 @@ double latticeSpacing(double epsilon, double depth) { return 2 * kPi * depth / s
 Kernel kernelOf(const std::array<diffusion::Medium, 3>& media, const KernelWish& wish) {
     Kernel kernel;
     Cut cut = cutOf(media, wish);
-    const double depth = leastDepth(media);
+    const double depth = leastDepth(media, wish);
     // Of a split profile, half of the error is left to the places between which the wide bands are linear.
     const double epsilon = wish.split ? 0.5 * wish.epsilon : wish.epsilon;
     // Burley's profile is infinite in its middle, which no lattice sums.

@@ -362,7 +362,8 @@ Status Splatter::lit(const Target& target, const views::LampPoint& lamp) {
 }
 
 Status Splatter::sky(const Target& target) {
-    const auto entering = enteringSky(*in_.scene.environment, target.mesh.drawn.object->material.ior);
+    const auto entering =
+        enteringSky(*in_.scene.environment, target.mesh.drawn.object->material.surfaceIor());
     const std::array<views::Eye, 3> axes = axesOf(target.bounds, target.layout.grid.most);
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
         Result<std::vector<Points>> layers =

@@ -117,7 +117,7 @@ Result<TextureId> recordHighlight(graph::FrameGraph& graph, gl::Context& context
                              .cone = lamp.cone,
                              .faceCount = int(views.faces.size()),
                              .object = mesh.drawn.index,
-                             .ior = material.ior,
+                             .ior = material.surfaceIor(),
                              .roughness = material.roughness};
         for (std::size_t i = 0; i < views.faces.size(); ++i)
             block.faces[i] = views::viewBlock(views.faces[i], ivec2(views.size));
@@ -146,11 +146,11 @@ Result<TextureId> recordHighlight(graph::FrameGraph& graph, gl::Context& context
 ShadeBlock shadeBlock(const Inputs& in, const views::PosedMesh& mesh, float unit, const Settings& settings) {
     const scene::Material& material = mesh.drawn.object->material;
     ShadeBlock block{.view = views::viewBlock(in.eye, in.size),
-                     .ior = material.ior,
+                     .ior = material.surfaceIor(),
                      .roughness = material.roughness,
                      .object = mesh.drawn.index,
                      .unit = unit};
-    if (settings.exit == Exit::Whole) block.mean = float(diffusion::meanTransmittance(material.ior));
+    if (settings.exit == Exit::Whole) block.mean = float(diffusion::meanTransmittance(material.surfaceIor()));
     if (in.environment != graph::TextureHandle::None) {
         block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.scene.environment->rotation)));
         block.intensity = in.scene.environment->intensity;
@@ -213,6 +213,10 @@ struct Wanted {
     std::vector<float> key() const {
         std::vector<float> list;
         for (const diffusion::Medium& medium : media)
+            for (const diffusion::Slab& slab : medium.above)
+                list.insert(list.end(), {float(slab.scattering), float(slab.absorption), float(slab.ior),
+                                         float(slab.thickness)});
+        for (const diffusion::Medium& medium : media)
             list.insert(list.end(), {float(medium.scattering), float(medium.absorption), float(medium.ior)});
         list.insert(list.end(),
                     {float(wish.thickness), float(wish.size), float(wish.sharpest), float(settings.method),
@@ -235,8 +239,9 @@ Wanted wantedOf(const views::DrawnMesh& mesh, const Settings& settings) {
     const bool bound = settings.splats == Splats::Bound;
     wish.leastSpacing = bound ? wish.size / (kTilt * settings.mostSplats) : 0;
     wish.split = bound && settings.method == Method::Multires;
-    wish.shares =
-        settings.dipoleGeometry == DipoleGeometry::Offset && settings.profile != diffusion::Shape::Burley;
+    const bool layered = settings.profile == diffusion::Shape::Multipole && wanted.media[0].isLayered();
+    wish.shares = settings.dipoleGeometry == DipoleGeometry::Offset &&
+                  settings.profile != diffusion::Shape::Burley && !layered; // layers have no poles
     return wanted;
 }
 
@@ -308,7 +313,7 @@ const ParamTable& Subsurface::params() {
                  .group = Group::Subsurface,
                  .doc =
                      "What leaves around the place where light entered: a dipole; a multipole, for slabs of "
-                     "the material's thickness; or Burley's normalised diffusion.",
+                     "the material's thickness and for its layers; or Burley's normalised diffusion.",
                  .choices = kProfiles}),
         declare(&Settings::dipoleGeometry,
                 {.id = "dipoleGeometry",

@@ -96,6 +96,23 @@ TEST(Kernel, ALatticeSumsItToEpsilon) {
         }
 }
 
+TEST(Kernel, ALatticeSumsLayersToEpsilon) {
+    const diffusion::Medium marbleOnSkin{880, 170, 1.3, {{2620, 4.1, 1.3, 1e-4}}},
+        denseOnClear{300, 1, 1.3, {{5000, 5, 1.3, 5e-4}}},
+        skinOnMarble{2620, 4.1, 1.3, {{880, 170, 1.3, 2e-4}}};
+    for (const bool split : {false, true}) {
+        const Kernel kernel =
+            kernelOf({marbleOnSkin, denseOnClear, skinOnMarble},
+                     {.shape = diffusion::Shape::Multipole, .epsilon = 0.01, .size = 1, .split = split});
+        EXPECT_EQ(kernel.blur, 0);
+        int channel = 0;
+        for (const diffusion::Medium& medium : {marbleOnSkin, denseOnClear, skinOnMarble}) {
+            const double total = diffusion::totalReflectance(medium, diffusion::Shape::Multipole, 0);
+            EXPECT_LT(latticeError(kernel, channel++, total), 0.011) << "split " << split;
+        }
+    }
+}
+
 TEST(Kernel, BlursWhatPointsCannotTellApartAndKeepsItsLight) {
     // A mean free path of a hundredth of the points' distance.
     const Kernel kernel = kernelOf({diffusion::Medium{1e6, 10, 1.5}, {1e6, 20, 1.5}, {1e6, 30, 1.5}},

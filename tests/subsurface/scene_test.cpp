@@ -89,6 +89,38 @@ TEST_F(Scattering, WhatALampDoesNotSeeStaysDark) {
     EXPECT_EQ(sumOf(picture()), 0);
 }
 
+TEST_F(Scattering, LayersFollowEveryEdit) {
+    static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data())->profile =
+        diffusion::Shape::Multipole;
+    scene.view.show = scene::Aov::Radiosity;
+    Renderer renderer(*context); // one for all: it keeps tables
+    const auto light = [&] {
+        EXPECT_TRUE(renderer.finish(scene, 1, scene.size).ok());
+        const Result<Image> image = renderer.read(scene, scene.view.show);
+        EXPECT_TRUE(image.ok());
+        return sumOf(*image);
+    };
+    const float plain = light();
+    EXPECT_GT(plain, 0);
+    scene::Material& material = scene.objects[0].material;
+    material.layers = {{.thickness = 5e-4f, .scattering = vec3(2000), .absorption = vec3(100), .ior = 1.5f}};
+    EXPECT_NEAR(light() / plain, 1,
+                1e-3); // of the same medium; splats are 1e-2 apart, but at the same places
+    material.layers[0].absorption = vec3(1000);
+    const float filtered = light();
+    EXPECT_LT(filtered, 0.8f * plain);
+    material.layers[0].thickness = 0.005f;
+    const float hidden = light();
+    EXPECT_LT(hidden, 0.95f * filtered);
+    material.layers.push_back({.thickness = 5e-4f, .scattering = vec3(4000)});
+    const float below = light(); // where hardly any light arrives
+    EXPECT_NEAR(below / hidden, 1, 0.01);
+    material.layers[0].order = 2;
+    EXPECT_GT(light(), 1.2f * below);
+    material.layers[0].thickness = material.layers[1].thickness = 0;
+    EXPECT_EQ(light(), plain);
+}
+
 TEST_F(Scattering, AWaveMovesItsLightAlong) {
     scene.objects[0].wave = {
         .amplitude = {0, 0.004f, 0}, .direction = {1, 0, 0}, .wavelength = 0.02f, .period = 1};
