@@ -94,8 +94,9 @@ TEST_F(Scattering, LayersFollowEveryEdit) {
         diffusion::Shape::Multipole;
     scene.view.show = scene::Aov::Radiosity;
     Renderer renderer(*context); // one for all: it keeps tables
+    std::uint64_t revision = 0;
     const auto light = [&] {
-        EXPECT_TRUE(renderer.finish(scene, 1, scene.size).ok());
+        EXPECT_TRUE(renderer.finish(scene, ++revision, scene.size).ok());
         const Result<Image> image = renderer.read(scene, scene.view.show);
         EXPECT_TRUE(image.ok());
         return sumOf(*image);
