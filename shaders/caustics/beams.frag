@@ -30,7 +30,7 @@ const float kMostSpread = 8.0;
 const float kMostBend = 0.25;
 
 const float kMostCounted = 16.0; // texels a side of the box around a thin triangle
-const float kThin = 0.8;         // texels across a thin triangle, and ...
+const float kThin = 0.5;         // texels across a thin triangle, and ...
 const float kLong = 2.0;         // ... along it
 const vec2 kSmall = vec2(0.25, 1.0); // texels, of what is all and not at all points
 const float kLeastArea = 1e-6;          // texels: what is a beam has more than 0

@@ -47,11 +47,13 @@ int borderOf(const std::vector<views::Eye>& faces, int size) {
 
 // What the camera shows of a box, and a little around it: beams that end beside the map are no beams, and so
 // are frayed where it ends.
-views::Bounds seenWithMargin(const views::Eye& eye, const views::Bounds& all) {
-    constexpr float kMargin = 1.0f / 16; // of the longest side; a few rays wide
+//
+// @param ray  m between rays
+views::Bounds seenWithMargin(const views::Eye& eye, const views::Bounds& all, float ray) {
+    constexpr float kMargin = 1.0f / 16, kRays = 4; // of the longest side; at least
     const views::Bounds seen = views::seenBy(eye, all);
     const vec3 size = seen.high - seen.low;
-    const vec3 margin(kMargin * std::max({size.x, size.y, size.z}));
+    const vec3 margin(std::max(kMargin * std::max({size.x, size.y, size.z}), kRays * ray));
     return {glm::max(seen.low - margin, all.low), glm::min(seen.high + margin, all.high)};
 }
 
@@ -227,7 +229,8 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
     std::vector<views::DrawnMesh> all = meshes.solid; // what stands before glass and mirrors hides them
     all.insert(all.end(), meshes.glass.begin(), meshes.glass.end());
     const views::Bounds everything = boundsOfAll(all, fields);
-    const views::Bounds receivers = seenWithMargin(eye, boundsOfAll(receiversOf(meshes.solid), fields));
+    const float ray = meshes.glass.empty() ? 0 : 2 * glass.radius() / float(settings.grid);
+    const views::Bounds receivers = seenWithMargin(eye, boundsOfAll(receiversOf(meshes.solid), fields), ray);
     for (const views::LampPoint& lamp : views::lampPoints(scene, settings.lightSamples)) {
         if (lamp.color == vec3(0)) continue;
         views::ShadowSource around = lamp.source; // light leaves the cone of a spot where it is bent

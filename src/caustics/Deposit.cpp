@@ -50,13 +50,15 @@ Status LightPasses::deposit() {
     };
     const views::ShadowViews& views = light_.receivers;
     if (settings_.deposit == Deposit::Beam) {
-        std::vector<std::string> ofBeams, ofRests;
+        std::vector<std::string> ofBeams, ofPoints;
         if (views.faces.size() > 1) ofBeams.push_back("SEVERAL_VIEWS");
+        if (!context_.caps().floatBlend) ofPoints.push_back("ON_ONE_TEXEL");
+        std::vector<std::string> ofRests = ofPoints;
         if (!refines()) ofRests.push_back("OF_RESTS");
         Status s =
             add("caustics/beam", ofBeams,
                 {.samples = {{"uBeams", &Sheet::beams}, {"uDensity", &Sheet::density}}, .triangles = true});
-        if (s) s = add("caustics/point", {}, {.samples = {{"uPoint", &Sheet::points}}});
+        if (s) s = add("caustics/point", ofPoints, {.samples = {{"uPoint", &Sheet::points}}});
         if (s) s = add("caustics/footprint", ofRests, {.rest = true});
         if (!s) return s;
     } else if (Status s = add("caustics/splat", {}, {}); !s) {

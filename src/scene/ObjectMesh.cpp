@@ -7,17 +7,13 @@ namespace lucent::scene {
 namespace {
 
 constexpr int kWavedCells = 128; // along an edge that a wave bends
-// Along an edge of a plane. Where a view cuts a large triangle, llvmpipe's clipper may leave a sliver along
-// the edge that two of them share, whose depths are 0.4 % off: a dark line in shadow maps. Of small ones few
-// are cut.
-constexpr int kPlaneCells = 16;
 
 bool isWaved(const Object& object) { return object.wave.amplitude != vec3(0); }
 
 Mesh generated(const Shape& shape, bool waved) {
-    if (const auto* plane = std::get_if<Plane>(&shape))
-        return meshOf(*plane, waved ? kWavedCells : kPlaneCells);
-    if (const auto* box = std::get_if<Box>(&shape)) return meshOf(*box, waved ? kWavedCells : 1);
+    const int cells = waved ? kWavedCells : 1;
+    if (const auto* plane = std::get_if<Plane>(&shape)) return meshOf(*plane, cells);
+    if (const auto* box = std::get_if<Box>(&shape)) return meshOf(*box, cells);
     if (const auto* sphere = std::get_if<Sphere>(&shape)) return meshOf(*sphere);
     if (const auto* torus = std::get_if<Torus>(&shape)) return meshOf(*torus);
     if (const auto* water = std::get_if<Water>(&shape)) return meshOf(*water);
