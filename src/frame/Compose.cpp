@@ -219,7 +219,7 @@ bool Compose::isNeeded(const scene::Scene& scene, const Drawn& drawn) {
 
 bool Compose::replaces(const scene::Scene& scene, const Drawn& drawn) {
     const bool background = hasEnvironment(scene) && scene.view.show == scene::Aov::Color;
-    if (isNumbered(scene.view.show)) return drawn.count() > drawn.fields.size();
+    if (isNumbered(scene.view.show)) return isNeeded(scene, drawn);
     return !drawn.meshes.glass.empty() || (background && !drawn.meshes.solid.empty());
 }
 

@@ -214,7 +214,7 @@ double leaving(double albedo) {
 }
 
 Finding halfSpace(Studio& studio) {
-    Scene scene = sceneOf({objectOf(scene::Plane{vec2(0.04f)})}, 0.002f);
+    Scene scene = sceneOf({objectOf(scene::Plane{vec2(0.02f)})}, 0.002f);
     scene::Material& material = scene.objects[0].material;
     material = marble();
     material.scattering = {2000, 3000, 4000};

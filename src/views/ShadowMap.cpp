@@ -79,7 +79,8 @@ std::optional<Eye> parallelEye(const vec3& toLight, const Bounds& casters, const
     if (both.low.x > both.high.x || both.low.y > both.high.y || before.low.z > behind.high.z)
         return std::nullopt;
     const float length = behind.high.z - before.low.z;
-    const float margin = 1e-3f * length + 1e-6f; // in depth
+    const vec3 extent = behind.high - behind.low; // boxes around height fields are drawn a little larger
+    const float margin = 1e-3f * length + 4e-3f * (extent.x + extent.y) + 1e-6f; // in depth
     const vec2 texel = vec2(both.high - both.low) / float(size);
     const vec2 middle = 0.5f * vec2(both.low + both.high) + kAside * texel;
     const vec2 half = 0.501f * vec2(both.high - both.low) + 1e-6f * (1 + length); // what floats round
