@@ -278,7 +278,8 @@ constexpr Check kChecks[] = {
     {"Light through a slab", "Each face lets 96 % pass: 0.9216 arrive on the floor", kMap, lightThroughSlab},
     {"Ball of index 1 in the sun", "The floor is lit as if nothing were there", kUndisturbed,
      glassBallInTheSun},
-    {"Half space that scatters", "The share that leaves again, by the dipole's closed form", kProfile, halfSpace},
+    {"Half space that scatters", "The share that leaves again, by the dipole's closed form", kProfile,
+     halfSpace},
     {"Two bodies that touch", "No light goes over from one to the other", kExact, noLeak},
     {"No NaN, no infinity behind", "Values that are none, in all pictures so far", kExact, brokenValues},
 };

@@ -91,7 +91,7 @@ TEST(Canvas, ADabHasItsShapeOnBothSidesOfEverySeam) {
         });
         EXPECT_GT(inside, 100);
         // A texel is 0.011 m at most where charts are steep: 0.08 of what the dab falls over, (0.08)² 6 / 8
-        // at its bends. Measured 0.006.
+        // at its bends.
         EXPECT_LT(worst, 0.012f);
     }
 }
