@@ -74,19 +74,3 @@ test('a screen reader hears how far light goes, as the curves show it', async ()
   assert.doesNotMatch(await profile(page), / 83\.0 %/);
   await page.leave();
 });
-
-test('as matt the far side is dark, and the scene stays as it was', async () => {
-  const page = await open();
-  const scene = () => page.evaluate(() => document.querySelector('lucent-viewer').sceneJson);
-  const [lit, before] = [await pictureOf(page), await scene()];
-  await input(page, 'matt').check();
-  await complete(page);
-  const matt = await pictureOf(page);
-  assert.ok(brightness(lit, kFarSide) > 20, `${brightness(lit, kFarSide)}`);
-  assert.ok(brightness(matt, kFarSide) < 0.3 * brightness(lit, kFarSide), `${brightness(matt, kFarSide)}`);
-  assert.equal(await scene(), before);
-  await input(page, 'matt').uncheck();
-  await complete(page);
-  assert.equal(difference(lit, await pictureOf(page)).max, 0);
-  await page.leave();
-});
