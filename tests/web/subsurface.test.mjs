@@ -1,10 +1,9 @@
 /** Mode subsurface: words for light inside as controls, their numbers for screen readers, the matt comparison. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { brightness, complete, difference, openStage, openViewers, pictureOf, valueOf } from './support.mjs';
+import { complete, difference, openStage, openViewers, pictureOf, valueOf } from './support.mjs';
 
 const kMaterial = 'objects.ball.material.';
-const kFarSide = [0.62, 0.4, 0.8, 0.7]; // of the picture: right of the middle, where no light arrives
 
 let stage;
 before(async () => (stage = await openStage()));
