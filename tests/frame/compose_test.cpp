@@ -315,7 +315,6 @@ TEST_F(Composed, ACausticMapOfIor1IsAsBrightAsTheUndisturbedLight) {
     EXPECT_NEAR(received.r / met.r, 1, 5e-3);
 }
 
-// Compared with the finest settings that are tried.
 // A scene seen and lit straight from above; a height field of the same height everywhere is a floor.
 struct FlatField : Composed {
     FlatField() {
