@@ -349,9 +349,9 @@ Pixel DipoleEstimator::solve(ivec2 pixel) const {
         share *= place->body->lobe(cosine);
         if (!state_->options.normalisedExit) share *= place->body->meanTransmittance;
     }
-    const Pixel matt = state_->surroundings.matt(*place, pixel);
-    return {share * estimate.mean() + matt.value, share * share * estimate.varianceOfMean() + matt.variance,
-            1};
+    const Pixel surface = state_->surroundings.ofSurface(*place, pixel);
+    return {share * estimate.mean() + surface.value,
+            share * share * estimate.varianceOfMean() + surface.variance, 1};
 }
 
 } // namespace lucent::truth

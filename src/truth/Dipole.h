@@ -61,8 +61,8 @@ struct DipoleOptions {
 ///
 /// Light that is scattered once only or not at all is in none of them: the papers leave it out. Nor is light
 /// that objects send each other after scattering, nor that of caustics. Where the surface is not closed only
-/// its outside, where normals point, takes and gives light. The highlight of the surface is no part of the
-/// color.
+/// its outside, where normals point, takes and gives light. The color has the highlights of the surface
+/// (Facets).
 ///
 /// Places are chosen by chance on lines through the object: two thirds of them along three axes around x_o,
 /// at distances from it as R_d has them without absorption (King et al. 2013), the others anywhere along the

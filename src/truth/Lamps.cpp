@@ -65,6 +65,25 @@ Emission emitFromAfar(const dvec3& back, const dvec3& irradiance, std::span<cons
     density /= double(targets.size());
     return {origin, -back, -kInfinity, density > 0 ? irradiance / density : dvec3(0)};
 }
+
+/// What a smooth boundary lets in of light from a direction, with its cosine.
+struct Entering {
+    dvec3 normal;
+    double ior; ///< 1: all
+
+    double share(const dvec3& toLight) const {
+        const double cosine = glm::dot(normal, toLight);
+        return cosine > 0 ? (1 - reflectance(std::min(cosine, 1.0), 1 / ior)) * cosine : 0;
+    }
+    double density(const dvec3& toLight) const {
+        return std::max(0.0, glm::dot(normal, toLight)) / std::numbers::pi;
+    }
+    dvec3 choose(dvec2 chance) const {
+        const dvec2 onDisc = placeInDisc(chance);
+        const double up = std::sqrt(std::max(0.0, 1 - glm::dot(onDisc, onDisc)));
+        return glm::normalize(across(normal) * onDisc + up * normal);
+    }
+};
 } // namespace
 
 Lamp::Lamp(const scene::Light& light) {
@@ -169,16 +188,14 @@ Emission Illumination::emit(std::size_t source, std::span<const Sphere> targets,
 }
 
 dvec3 Illumination::irradiance(const Hit& hit, const dvec3& viewer, Random& random, double ior) const {
-    const dvec3 normal = normalTowards(hit, viewer);
-    dvec3 sum{0};
-    for (const Lamp& lamp : lamps_) {
-        const auto [way, irradiance] =
-            lamp.light(hit.position, lamp.isSampled() ? random.nextPair() : dvec2(0));
-        const double cosine = glm::dot(normal, way.direction);
-        if (cosine > 0 && irradiance != dvec3(0) && reaches(hit, way))
-            sum += (1 - reflectance(std::min(cosine, 1.0), 1 / ior)) * cosine * irradiance;
-    }
-    return around_ ? sum + irradianceOfSky(hit, normal, random, ior) : sum;
+    const Entering lobe{normalTowards(hit, viewer), ior};
+    const dvec3 lamps = ofLamps(hit, lobe, random);
+    return lamps + ofSky(hit, lobe, random);
+}
+
+dvec3 Illumination::mirrored(const Hit& hit, const Facets& facets, Random& random) const {
+    const dvec3 lamps = facets.isSmooth() ? dvec3(0) : ofLamps(hit, facets, random);
+    return lamps + ofSky(hit, facets, random);
 }
 
 bool Illumination::reaches(const Hit& hit, const LightPath& way) const {
@@ -186,20 +203,29 @@ bool Illumination::reaches(const Hit& hit, const LightPath& way) const {
     return !optics_->rays().occluded({hit.position, way.direction, way.distance}, leaving);
 }
 
-/// One direction chosen by the environment's light and one by the cosine, each divided by the sum of both
-/// densities (the balance heuristic, Veach, Guibas 1995): neither a small sun nor an even sky is noisy.
-dvec3 Illumination::irradianceOfSky(const Hit& hit, const dvec3& normal, Random& random, double ior) const {
-    const dvec2 onDisc = placeInDisc(random.nextPair());
-    const double up = std::sqrt(std::max(0.0, 1 - glm::dot(onDisc, onDisc)));
-    const dvec3 directions[] = {around_->directions.choose(random.nextPair()).place,
-                                glm::normalize(across(normal) * onDisc + up * normal)};
+/// Light times the lobe's share of its direction.
+dvec3 Illumination::ofLamps(const Hit& hit, const auto& lobe, Random& random) const {
     dvec3 sum{0};
-    for (const dvec3& direction : directions) {
-        const double cosine = glm::dot(normal, direction);
-        if (!(cosine > 0) || !reaches(hit, {direction, kInfinity})) continue;
-        const double density = around_->directions.density(direction) + cosine / std::numbers::pi;
-        const double entering = 1 - reflectance(std::min(cosine, 1.0), 1 / ior);
-        sum += around_->sky.radiance(direction) * (entering * cosine / density);
+    for (const Lamp& lamp : lamps_) {
+        const auto [way, irradiance] =
+            lamp.light(hit.position, lamp.isSampled() ? random.nextPair() : dvec2(0));
+        const double share = lobe.share(way.direction);
+        if (share > 0 && irradiance != dvec3(0) && reaches(hit, way)) sum += share * irradiance;
+    }
+    return sum;
+}
+
+/// One direction chosen by the environment's light and one by the lobe, each divided by the sum of both
+/// densities (the balance heuristic, Veach, Guibas 1995): neither a small sun nor an even sky is noisy.
+dvec3 Illumination::ofSky(const Hit& hit, const auto& lobe, Random& random) const {
+    if (!around_) return dvec3(0);
+    dvec3 sum{0};
+    const dvec3 byLobe = lobe.choose(random.nextPair());
+    for (const dvec3& direction : {around_->directions.choose(random.nextPair()).place, byLobe}) {
+        const double share = lobe.share(direction);
+        if (!(share > 0) || !reaches(hit, {direction, kInfinity})) continue;
+        const double density = around_->directions.density(direction) + lobe.density(direction);
+        sum += around_->sky.radiance(direction) * (share / density);
     }
     return sum;
 }

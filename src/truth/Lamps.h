@@ -4,6 +4,7 @@
 
 #include "base/Math.h"
 #include "scene/Scene.h"
+#include "truth/Facets.h"
 #include "truth/Lights.h"
 #include "truth/Optics.h"
 #include "truth/Random.h"
@@ -85,6 +86,9 @@ public:
     /// @param viewer  unit direction to where it is seen from: that side of the surface is lit
     /// @param ior     only what a smooth boundary to a medium of this index lets through counts; 1: all
     dvec3 irradiance(const Hit& hit, const dvec3& viewer, Random& random, double ior = 1) const;
+    /// Radiance that facets of the surface mirror to where they are seen from, W/(m² sr), by as many. Smooth
+    /// ones mirror no lamp: where one that is a point meets the eye it would be infinitely bright.
+    dvec3 mirrored(const Hit& hit, const Facets& facets, Random& random) const;
 
     /// Lamps, and the environment where it shines.
     std::size_t sources() const { return lamps_.size() + (around_ ? 1 : 0); }
@@ -98,7 +102,8 @@ private:
         EnvironmentSampler directions;
     };
     bool reaches(const Hit& hit, const LightPath& way) const;
-    dvec3 irradianceOfSky(const Hit& hit, const dvec3& normal, Random& random, double ior) const;
+    dvec3 ofLamps(const Hit& hit, const auto& lobe, Random& random) const;
+    dvec3 ofSky(const Hit& hit, const auto& lobe, Random& random) const;
 
     const Optics* optics_;
     std::vector<Lamp> lamps_;

@@ -126,21 +126,27 @@ Result<Surroundings> Surroundings::create(const scene::Scene& scene, const Bodie
     return surroundings;
 }
 
-Pixel Surroundings::matt(const Bodies::Place& place, ivec2 pixel) const {
-    const double share = 1 - place.body->paintAt(place.hit.position).translucency;
-    if (!light_ || share == 0) return {dvec3(0), dvec3(0), 1};
+Pixel Surroundings::ofSurface(const Bodies::Place& place, ivec2 pixel) const {
+    if (!light_) return {dvec3(0), dvec3(0), 1};
+    const double matt = 1 - place.body->paintAt(place.hit.position).translucency;
+    const scene::Material& material = bodies_->optics().object(place.body->object).material;
+    const Facets facets(normalTowards(place.hit, place.viewer), place.viewer, double(material.roughness),
+                        place.body->surfaceIor);
     const auto index = std::uint64_t(pixel.y) * std::uint64_t(size_.x) + std::uint64_t(pixel.x);
     Estimate estimate;
     for (int i = 0; i < (light_->isSampled() ? samples_ : 1); ++i) {
         Random random(seed_, index, std::uint64_t(i));
-        estimate.add(share * shownBy(bodies_->optics(), place.hit,
-                                     light_->irradiance(place.hit, place.viewer, random)));
+        dvec3 light(0);
+        if (matt > 0)
+            light += matt * shownBy(bodies_->optics(), place.hit,
+                                    light_->irradiance(place.hit, place.viewer, random));
+        estimate.add(light + light_->mirrored(place.hit, facets, random));
     }
     return {estimate.mean(), estimate.varianceOfMean(), 1};
 }
 
 Pixel Surroundings::solve(ivec2 pixel) const {
-    if (const auto place = bodies_->seenAt(eye_, pixel)) return matt(*place, pixel);
+    if (const auto place = bodies_->seenAt(eye_, pixel)) return ofSurface(*place, pixel);
     return others_ ? others_->solve(pixel) : Pixel{};
 }
 

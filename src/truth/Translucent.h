@@ -70,7 +70,8 @@ private:
 
 /// Pictures of everything else: of the AOV color what GlassEstimator shows, to which bodies that are seen
 /// through glass or in mirrors are matt (their diffuse colour); of radiosity nothing. Where the middle of a
-/// pixel shows the outside of a body there is only what is matt of that, by its painting: else it is black.
+/// pixel shows the outside of a body there is what its surface mirrors, by its roughness, and what is matt of
+/// it, by its painting.
 class Surroundings : public Estimator {
 public:
     /// @param bodies  must outlive this
@@ -78,8 +79,8 @@ public:
     static Result<Surroundings> create(const scene::Scene& scene, const Bodies& bodies, ivec2 size,
                                        scene::Aov aov, int samples, std::uint64_t seed);
     Pixel solve(ivec2 pixel) const override;
-    /// What is matt of a body in a pixel.
-    Pixel matt(const Bodies::Place& place, ivec2 pixel) const;
+    /// What the surface of a body in a pixel mirrors, and what is matt of it.
+    Pixel ofSurface(const Bodies::Place& place, ivec2 pixel) const;
 
 private:
     Surroundings(const scene::Scene& scene, const Bodies& bodies, ivec2 size, int samples,
@@ -90,7 +91,7 @@ private:
     int samples_;
     std::uint64_t seed_;
     std::optional<GlassEstimator> others_;
-    std::optional<Illumination> light_; ///< of what is matt
+    std::optional<Illumination> light_; ///< on surfaces
 };
 
 } // namespace lucent::truth

@@ -3,6 +3,7 @@
 #include "frame/Renderer.h"
 #include "subsurface/Subsurface.h"
 #include "tests/support/Gl.h"
+#include "truth/Dipole.h"
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,39 @@ TEST_F(Scattering, WithNoLightAtAllLambertIsBlack) {
     static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data())->method =
         subsurface::Method::Lambert;
     EXPECT_EQ(sumOf(picture()), 0);
+}
+
+TEST_F(Scattering, HighlightsAreThoseOfTheTruth) {
+    scene.camera.height = 0.03f;
+    scene.lights.push_back(scene::PointLight{.position = {0.01f, 0.02f, 0.03f}, .intensity = 1e-3f});
+    const auto solved = [&](float roughness) {
+        scene.objects[0].material.roughness = roughness;
+        auto dipole = truth::DipoleEstimator::create(scene, scene.size, {.samples = 48});
+        EXPECT_TRUE(dipole.ok());
+        std::vector<double> values;
+        for (int y = 0; y < scene.size.y; ++y)
+            for (int x = 0; x < scene.size.x; ++x)
+                values.push_back(dipole->solve({x, y}).value.g);
+        return values;
+    };
+    const std::vector<double> exact = solved(0.3f),
+                              exactMatt = solved(0); // their dipoles are the same to the bit
+    const auto drawn = [&](float roughness) {
+        scene.objects[0].material.roughness = roughness;
+        return picture(scene::Aov::Color);
+    };
+    const Image shown = drawn(0.3f), shownMatt = drawn(0);
+    double largest = 0, error = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        const double wanted = exact[i] - exactMatt[i];
+        const double found = double(shown.pixels[4 * i + 1]) - double(shownMatt.pixels[4 * i + 1]);
+        largest = std::max(largest, wanted);
+        // The ball of triangles has outlines of its own, and a shadow map's edge lies where hardly any light
+        // falls.
+        if (wanted > 0 && found > 0) error = std::max(error, std::abs(found - wanted));
+    }
+    EXPECT_GT(largest, 0.1);
+    EXPECT_LT(error, 0.01 * largest); // normals between triangles' corners, 16 bits of an octahedral map
 }
 
 TEST_F(Scattering, AnEnvironmentPeelsItsSurfacesAlongThreeAxes) {

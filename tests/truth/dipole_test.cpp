@@ -168,6 +168,7 @@ TEST(Dipole, LeavingLightIsSeenWhole) {
 
 TEST(Dipole, PixelsShowRadiosityOrItsLobe) {
     scene::Scene scene = test::marbleHalfSpace();
+    scene.objects[0].material.roughness = 0; // mirrors no lamp
     scene.camera.type = scene::Camera::Type::Orthographic;
     scene.camera.eye = {0, 1, 1};
     scene.camera.up = {0, 1, 0};
