@@ -38,6 +38,9 @@ protected:
         viewer->resize(ivec2(vec2(size) * scale), scale);
     }
 
+    /// The same canvas with a sixteenth of its pixels: for what asks for values, not for pixels.
+    void openCoarse() { open({800, 400}, 0.25f); }
+
     static ReadFile files(std::string scene) { return sceneFiles(std::move(scene)); }
     static Bytes wave() { return waveMap(); }
     void load(const char* scene) {

@@ -215,6 +215,7 @@ TEST_F(PanelTest, TheWheelScrollsThePanelAndLeavesTheSceneAlone) {
 }
 
 TEST_F(PanelTest, AWaveDraggedFlatKeepsItsSliders) {
+    openCoarse();
     load(kGlassScene);
     const std::string path = "objects.tent.wave.amplitude";
     widget(path);
@@ -226,6 +227,7 @@ TEST_F(PanelTest, AWaveDraggedFlatKeepsItsSliders) {
 }
 
 TEST_F(PanelTest, WhatPlaysHasASwitchAndATime) {
+    openCoarse();
     load(kGlassScene);
     const vec2 play = inside(widget("playing"), 0.5f, 0.5f);
     move(play);
@@ -237,6 +239,7 @@ TEST_F(PanelTest, WhatPlaysHasASwitchAndATime) {
 TEST_F(PanelTest, OnlyTechniquesThatTheSceneNeedsHaveControls) {
     load(kLampScene);
     EXPECT_TRUE(isOffered("technique.relief.method"));
+    openCoarse();
     load(kGlassScene);
     EXPECT_FALSE(isOffered("technique.relief.method"));
     EXPECT_TRUE(viewer->set("technique.relief.method", "march").ok()); // a scene file may still say it
@@ -245,6 +248,7 @@ TEST_F(PanelTest, OnlyTechniquesThatTheSceneNeedsHaveControls) {
 TEST_F(PanelTest, SlicesHaveControlsOnlyWhereThereAreVoxels) {
     const char* const slices[] = {"technique.refract.slices", "technique.refract.bounds",
                                   "technique.refract.peeling"};
+    openCoarse();
     load(kGlassScene);
     for (const char* path : slices)
         EXPECT_FALSE(isOffered(path)) << path;
