@@ -1,8 +1,10 @@
-// subsurface/splat.vert: points of light that entered an object, each as a square over all that it may reach.
+// subsurface/splat.vert: points of light that entered an object, each as a square over all that it reaches.
 //
 // in    subsurface/level.glsl
+//       uBalls  subsurface/balls.frag
 // out   vPlace, vNormal, vFlux  flat; of the point; vPlace.w: M_d
 #include "subsurface/level.glsl"
+uniform sampler2D uBalls;
 flat out vec4 vPlace;
 flat out vec3 vNormal;
 flat out vec3 vFlux;
@@ -38,21 +40,46 @@ vec4 pixelsOf(vec3 place, float radius) {
                 acrossY.y / pixelY + middle.y);
 }
 
+// What is left of a box of pixels without the squares at its rims whose places the ball does not reach.
+vec4 trimmed(vec4 box, vec3 place, float radius) {
+    vec4 rest = vec4(kUnbounded, kUnbounded, -kUnbounded, -kUnbounded);
+    float side = float(splat.side);
+    ivec2 first = ivec2(box.xy / side);
+    ivec2 last = ivec2((box.zw - 1.0) / side);
+    for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) {
+            vec4 ball = texelFetch(uBalls, ivec2(x, y), 0);
+            vec3 away = ball.xyz - place;
+            float reach = radius + ball.w;
+            bool meets = reach > 0.0 && dot(away, away) < reach * reach;
+            if (meets) rest = vec4(min(rest.xy, side * vec2(x, y)), max(rest.zw, side * vec2(x + 1, y + 1)));
+        }
+    return vec4(max(rest.xy, box.xy), min(rest.zw, box.zw));
+}
+
 void main() {
-    int corner = gl_VertexID % 6;
     gl_Position = vec4(2.0, 2.0, 0.0, 1.0); // outside
+    gl_PointSize = 1.0;
     Point point;
-    bool used = findPoint(gl_VertexID / 6, point);
+    bool used = findPoint(gl_VertexID / splat.corners, point);
     vPlace = vec4(point.place, point.sharpness);
     vNormal = point.normal;
     vFlux = point.flux;
     if (!used) return;
-    vec4 box = pixelsOf(point.place, splat.reach / point.sharpness);
-    vec2 low = max(floor(box.xy), splat.bounds.xy);
-    vec2 high = min(ceil(box.zw), splat.bounds.zw);
-    if (any(greaterThanEqual(low, high))) return;
-    bool right = corner == 1 || corner == 2 || corner == 4;
-    bool upper = corner == 2 || corner == 4 || corner == 5;
-    vec2 pixel = vec2(right ? high.x : low.x, upper ? high.y : low.y);
+    float radius = splat.reach / point.sharpness;
+    vec4 box = pixelsOf(point.place, radius);
+    box = vec4(max(floor(box.xy), splat.bounds.xy), min(ceil(box.zw), splat.bounds.zw));
+    if (any(greaterThanEqual(box.xy, box.zw))) return;
+    box = trimmed(box, point.place, radius);
+    vec2 size = box.zw - box.xy;
+    if (any(lessThanEqual(size, vec2(0.0)))) return;
+    vec2 pixel = box.xy + 0.5 * size;
+    gl_PointSize = max(size.x, size.y);
+    if (splat.corners > 1) {
+        int corner = gl_VertexID % splat.corners;
+        bool right = corner == 1 || corner == 2 || corner == 4;
+        bool upper = corner == 2 || corner == 4 || corner == 5;
+        pixel = vec2(right ? box.z : box.x, upper ? box.w : box.y);
+    }
     gl_Position = vec4(2.0 * pixel / splat.view.size - 1.0, 0.0, 1.0);
 }

@@ -18,5 +18,7 @@ layout(std140) uniform SplatBlock {
     float unit;       // [W/m²] that counts as 1 where light is gathered
     float bluntest;   // M_d of the painted points that are used, without this one
     float sharpest;   // up to this one
-    int padding0;
+    int side;         // of a ball's square [pixels of what is drawn into]
+    int corners;      // vertices of a splat: 1, a square point; 6, two triangles
+    int padding0, padding1, padding2;
 } splat;

@@ -4,7 +4,7 @@
 //       uFine          of the many
 //       uRadiosity     [W/m²] of the few
 // out   oRadiosity     of the many
-// model what is linear through space fits those of the sixteen places around that belong to the same object best, the
+// model what is linear through space fits those of the nine places around that belong to the same object best, the
 //       nearer in the picture the more: places on both sides of the rim of a body, or all on one, are as good as others
 layout(std140) uniform SpreadBlock {
     int side;      // of a square of the many, pixels
@@ -31,17 +31,17 @@ void main() {
     float width = 2.0 * float(side) * spread.width * depth; // of a square of the few
     vec2 pixel = vec2(texel * side + side / 2);
     vec2 at = (pixel - float(side)) / float(2 * side);
-    ivec2 base = ivec2(floor(at));
+    ivec2 nearest = ivec2(floor(at + 0.5));
     ivec2 last = textureSize(uCoarse, 0) - 1;
     mat4 moments = mat4(0.0);
     mat4x3 lights = mat4x3(0.0); // a column for each of 1 and the three axes
-    for (int i = 0; i < 16; ++i) {
-        ivec2 from = base - 1 + ivec2(i & 3, i >> 2);
+    for (int i = 0; i < 9; ++i) {
+        ivec2 from = nearest - 1 + ivec2(i % 3, i / 3);
         if (any(lessThan(from, ivec2(0))) || any(greaterThan(from, last))) continue;
         vec4 other = texelFetch(uCoarse, from, 0);
         vec3 away = (other.xyz - mine.xyz) / width;
         if (other.w != mine.w || dot(away, away) > kNear * kNear) continue;
-        vec2 share = max(1.0 - 0.5 * abs(vec2(from) - at), 1e-3);
+        vec2 share = max(1.0 - abs(vec2(from) - at) / 1.5, 1e-3);
         float weight = share.x * share.y;
         vec4 terms = vec4(1.0, away);
         moments += weight * outerProduct(terms, terms);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 
 namespace lucent::subsurface {
 
@@ -19,6 +20,10 @@ namespace {
 constexpr int kRefined = 2;
 constexpr int kMostScale = 6;               // 64 pixels
 constexpr float kHalfOfGaussian = 1.17741f; // deviations, in the plane: sqrt(2 ln 2)
+constexpr double kBalls = 3;                // along a side of a splat, about
+// Pixels of a splat in the middle of the picture that is drawn as a point. Devices with WebGL2 draw points of
+// 255 at least; the rest is for what a wide view stretches at its sides.
+constexpr int kMostPoint = 64;
 constexpr int kGathered = 4096; // points at once: a software driver ends a shader's loops after 65535 rounds
 
 // M_d lies above half of two to this power and not above it.
@@ -53,7 +58,8 @@ struct SplatBlock {
     int first = 0, count = 0;
     float unit = 1;
     float bluntest = 0, sharpest = 0;
-    int padding = 0;
+    int side = 1, corners = 1;
+    int padding[3] = {};
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
@@ -73,10 +79,23 @@ struct SplatBlock {
                                      {"count", offsetof(SplatBlock, count)},
                                      {"unit", offsetof(SplatBlock, unit)},
                                      {"bluntest", offsetof(SplatBlock, bluntest)},
-                                     {"sharpest", offsetof(SplatBlock, sharpest)}});
+                                     {"sharpest", offsetof(SplatBlock, sharpest)},
+                                     {"side", offsetof(SplatBlock, side)},
+                                     {"corners", offsetof(SplatBlock, corners)}});
             return list;
         }();
         static const graph::BlockLayout layout{"SplatBlock", sizeof(SplatBlock), members};
+        return layout;
+    }
+};
+
+struct BallsBlock {
+    int side;
+    int padding[3] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {{"side", offsetof(BallsBlock, side)}};
+        static const graph::BlockLayout layout{"BallsBlock", sizeof(BallsBlock), members};
         return layout;
     }
 };
@@ -138,6 +157,7 @@ private:
         TextureId place, light;
         ivec2 size{0};
         int side = 1;
+        std::map<int, TextureId> balls{}; // by the places along a side of their squares
     };
     struct Target {
         const Plan::State::Object& plan;
@@ -146,12 +166,14 @@ private:
         Layout layout;
     };
     Status recordPlaces(int scale);
+    Result<TextureId> ballsOf(Places& places, int side);
     Status lit(const Target& target, const views::LampPoint& lamp);
     Status sky(const Target& target);
     Status splat(const Target& target, const Points& points);
     Status splatBand(const Target& target, const Points& points, std::size_t band);
     Status splatPart(const Target& target, const Points& points, std::size_t band, const Part& part);
     Status spread(std::size_t from);
+    double pixelOf(const Target& target) const;
     int scaleOf(const Target& target, double pixel) const;
     std::vector<Part> partsOf(const Target& target, const Band& band) const;
     SplatBlock blockOf(const Target& target, const Band& band) const;
@@ -200,14 +222,38 @@ Status Splatter::recordPlaces(int scale) {
     return Done{};
 }
 
-// So many times is the picture halved for places that lie so far apart [m]; 0 m: not at all.
-int Splatter::scaleOf(const Target& target, double wanted) const {
+Result<TextureId> Splatter::ballsOf(Places& places, int side) {
+    TextureId& balls = places.balls[side];
+    if (balls) return balls;
+    Result<const gl::Program*> program = context_.program("subsurface/balls");
+    if (!program) return program.error();
+    graph_.addPass("subsurface.balls", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("balls around " + std::to_string(side) + " x " + std::to_string(side) +
+                    " places, which most splats miss");
+        pass.sample(places.place);
+        balls = pass.createColor("subsurface.balls",
+                                 {.size = (places.size + side - 1) / side, .format = Format::RGBA32F});
+        return [program = *program, place = places.place, side](const graph::Resources& resources,
+                                                                graph::Commands& commands) {
+            commands.draw(
+                {.program = program, .block = BallsBlock{side}, .textures = {{"uPlaces", resources[place]}}});
+        };
+    });
+    return balls;
+}
+
+// Metres that a pixel is wide on the object, where it is nearest.
+double Splatter::pixelOf(const Target& target) const {
     const float nearest =
         glm::dot(target.bounds.center() - in_.eye.position, in_.eye.forward) - target.bounds.radius();
-    const float pixel = 2 * in_.eye.halfExtent.y / float(in_.size.y) *
-                        (in_.eye.perspective ? std::max(nearest, in_.eye.nearest) : 1.0f);
+    return double(2 * in_.eye.halfExtent.y / float(in_.size.y) *
+                  (in_.eye.perspective ? std::max(nearest, in_.eye.nearest) : 1.0f));
+}
+
+// So many times is the picture halved for places that lie so far apart [m]; 0 m: not at all.
+int Splatter::scaleOf(const Target& target, double wanted) const {
     if (!(wanted > 0)) return 0;
-    return std::clamp(int(std::floor(std::log2(wanted / double(pixel)))), 0, kMostScale);
+    return std::clamp(int(std::floor(std::log2(wanted / pixelOf(target)))), 0, kMostScale);
 }
 
 // All points of an object that is not painted; else those of each octave of M_d, but as one where their
@@ -272,7 +318,17 @@ Status Splatter::splatPart(const Target& target, const Points& points, std::size
     Result<const gl::Program*> program =
         context_.program(splats() ? "subsurface/splat" : "subsurface/gather", defines);
     if (!program) return program.error();
-    const Places& places = places_[std::size_t(part.scale)];
+    Places& places = places_[std::size_t(part.scale)];
+    // Of the largest splat, places along a side.
+    const double bluntest = painted ? std::max(part.bluntest, scene::kLeastSharpness) : 1;
+    const double widest = 2 * band.reach / (bluntest * pixelOf(target) * places.side) + 2;
+    const int square = 1 << std::clamp(int(std::ceil(std::log2(widest / kBalls))), 0, kMostScale);
+    TextureId balls;
+    if (splats()) {
+        Result<TextureId> found = ballsOf(places, square);
+        if (!found) return found.error();
+        balls = *found;
+    }
     const int last = std::min(int(number) + target.layout.coarser, int(points.size()) - 1);
     const int first = std::min(int(number), last);
     const graph::Texture& table = target.plan.profile->tables[number];
@@ -289,6 +345,7 @@ Status Splatter::splatPart(const Target& target, const Points& points, std::size
             if (painted) pass.sample(level.sharpness);
         }
         pass.sample(places.place);
+        if (balls) pass.sample(balls);
         pass.sample(tableId);
         pass.write(places.light);
         SplatBlock block = blockOf(target, band);
@@ -304,6 +361,8 @@ Status Splatter::splatPart(const Target& target, const Points& points, std::size
         block.bluntest = part.bluntest;
         block.sharpest = part.sharpest;
         const ivec4 region(ivec2(block.bounds), ivec2(block.bounds.z, block.bounds.w) - ivec2(block.bounds));
+        block.side = square;
+        block.corners = std::min(widest, double(std::max(region.z, region.w))) <= kMostPoint ? 1 : 6;
         if (region.z <= 0 || region.w <= 0) return [](const graph::Resources&, graph::Commands&) {};
         return [=, splats = splats(), program = *program](const graph::Resources& resources,
                                                           graph::Commands& commands) {
@@ -325,7 +384,9 @@ Status Splatter::splatPart(const Target& target, const Points& points, std::size
                 if (painted) draw.textures.push_back({"uSharpness", resources[level.sharpness]});
                 const int count = level.size.x * level.size.y;
                 if (splats) {
-                    draw.vertices = 6 * count;
+                    draw.vertices = one.corners * count;
+                    if (one.corners == 1) draw.topology = graph::Topology::Points;
+                    draw.textures.push_back({"uBalls", resources[balls]});
                     draw.block = one;
                     commands.draw(draw);
                     continue;
