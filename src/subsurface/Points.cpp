@@ -165,6 +165,15 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::E
     return Done{};
 }
 
+// @param move  without scale
+views::Eye moved(views::Eye eye, const mat4& move) {
+    eye.clipFromWorld = eye.clipFromWorld * glm::inverse(move);
+    eye.position = vec3(move * vec4(eye.position, 1));
+    for (vec3* direction : {&eye.forward, &eye.right, &eye.up})
+        *direction = mat3(move) * *direction;
+    return eye;
+}
+
 } // namespace
 
 ivec2 pixelsOf(const views::Eye& eye, const views::Bounds& object, const Grid& grid) {
@@ -220,13 +229,28 @@ Result<std::vector<Points>> recordSky(graph::FrameGraph& graph, gl::Context& con
     return list;
 }
 
-std::array<views::Eye, 3> axesOf(const views::Bounds& object, int size) {
+scene::Object unmoved(const scene::Object& object) {
+    scene::Object same = object;
+    same.transform = {.scale = object.transform.scale};
+    return same;
+}
+
+std::array<views::Eye, 3> axesOf(const views::Bounds& box, int size) {
     std::array<views::Eye, 3> axes;
     for (int i = 0; i < 3; ++i) {
         views::ShadowSource source{.place = vec4(0)};
         source.place[i] = 1;
-        axes[std::size_t(i)] = views::shadowViews(source, object, object, size).faces.front();
+        axes[std::size_t(i)] = views::shadowViews(source, box, box, size).faces.front();
     }
+    return axes;
+}
+
+std::array<views::Eye, 3> axesOf(const scene::Object& object, int size) {
+    const scene::Object before = unmoved(object);
+    const mat4 move = object.transform.worldFromObject() * glm::inverse(before.transform.worldFromObject());
+    std::array<views::Eye, 3> axes = axesOf(views::boundsOf(before), size);
+    for (views::Eye& eye : axes)
+        eye = moved(eye, move);
     return axes;
 }
 

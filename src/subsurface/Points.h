@@ -54,7 +54,12 @@ Result<std::vector<Points>> recordSky(graph::FrameGraph& graph, gl::Context& con
                                       const views::PosedMesh& object, int layers,
                                       const std::array<vec3, 9>& sky, const Grid& grid);
 
-/// Views of an object along x, y and z.
-std::array<views::Eye, 3> axesOf(const views::Bounds& object, int size);
+/// The object as large as it is, but neither moved nor turned: what depends on its shape and size alone.
+scene::Object unmoved(const scene::Object& object);
+
+/// Views of a box along x, y and z.
+std::array<views::Eye, 3> axesOf(const views::Bounds& box, int size);
+/// Views of an object along its own x, y and z: they show the same however it moves and turns.
+std::array<views::Eye, 3> axesOf(const scene::Object& object, int size);
 
 } // namespace lucent::subsurface

@@ -425,7 +425,7 @@ Status Splatter::lit(const Target& target, const views::LampPoint& lamp) {
 Status Splatter::sky(const Target& target) {
     const auto entering =
         enteringSky(*in_.scene.environment, target.mesh.drawn.object->material.surfaceIor());
-    const std::array<views::Eye, 3> axes = axesOf(target.bounds, target.layout.grid.most);
+    const std::array<views::Eye, 3> axes = axesOf(*target.mesh.drawn.object, target.layout.grid.most);
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
         Result<std::vector<Points>> layers =
             recordSky(graph_, context_, axes[axis], target.mesh, target.plan.layers[axis], entering,
@@ -507,7 +507,7 @@ Result<Radiosity> Splatter::record() {
     }
     for (std::size_t scale = places_.size() - 1; scale > 0; --scale)
         if (Status s = spread(scale); !s) return s.error();
-    return Radiosity{places_.front().light, unit_};
+    return Radiosity{places_.front().light, unit_, places_.front().place};
 }
 
 } // namespace

@@ -38,8 +38,9 @@ Layout layoutOf(const Profiled& profile, const views::DrawnMesh& mesh, const Set
 
 /// What leaves at each pixel.
 struct Radiosity {
-    graph::TextureId light; ///< of the picture's size
-    float unit = 1;         ///< W/m² that counts as 1
+    graph::TextureId light;    ///< of the picture's size
+    float unit = 1;            ///< W/m² that counts as 1
+    graph::TextureId places{}; ///< subsurface/receivers.frag, of each pixel, where points were summed
 };
 /// Adds the passes that sum it. Where the GPU cannot add to 32-bit floats, each pixel gathers its light in
 /// sums of some thousand points, which 16-bit floats add up: about 3 digits.

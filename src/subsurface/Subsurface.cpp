@@ -2,6 +2,7 @@
 
 #include "base/Log.h"
 #include "subsurface/Lambert.h"
+#include "subsurface/Past.h"
 #include "subsurface/Splatting.h"
 #include "subsurface/Volume.h"
 #include "views/Layers.h"
@@ -209,6 +210,7 @@ struct Wanted {
     std::array<diffusion::Medium, 3> media;
     KernelWish wish;
     Settings settings;
+    double width = 0; // m, of a light's view at most
 
     std::vector<float> key() const {
         std::vector<float> list;
@@ -219,12 +221,19 @@ struct Wanted {
         for (const diffusion::Medium& medium : media)
             list.insert(list.end(), {float(medium.scattering), float(medium.absorption), float(medium.ior)});
         list.insert(list.end(),
-                    {float(wish.thickness), float(wish.size), float(wish.sharpest), float(settings.method),
-                     float(settings.profile), float(settings.dipoleGeometry), settings.epsilon,
-                     float(settings.splats), float(settings.mostSplats)});
+                    {float(wish.thickness), float(wish.size), float(width), float(wish.sharpest),
+                     float(settings.method), float(settings.profile), float(settings.dipoleGeometry),
+                     settings.epsilon, float(settings.splats), float(settings.mostSplats)});
         return list;
     }
 };
+
+// Over a light's view of an object that is not turned; by steps of a fifth, so that tables stay while it
+// turns.
+double widerTurned(const scene::Object& object) {
+    const float wider = views::boundsOf(object).radius() / views::boundsOf(unmoved(object)).radius();
+    return std::exp2(std::ceil(4 * std::log2(double(wider)) - 0.01) / 4);
+}
 
 Wanted wantedOf(const views::DrawnMesh& mesh, const Settings& settings) {
     const scene::Object& object = *mesh.object;
@@ -233,11 +242,12 @@ Wanted wantedOf(const views::DrawnMesh& mesh, const Settings& settings) {
     wish.shape = settings.profile;
     wish.thickness = object.material.thickness;
     wish.epsilon = settings.epsilon;
-    wish.size = 2 * views::boundsOf(object).radius();
+    wish.size = 2 * views::boundsOf(unmoved(object)).radius();
     // In octaves, so that tables stay while someone paints.
     if (mesh.paint) wish.sharpest = std::exp2(std::max(0.0f, std::ceil(std::log2(mesh.paint->sharpest))));
     const bool bound = settings.splats == Splats::Bound;
-    wish.leastSpacing = bound ? wish.size / (kTilt * settings.mostSplats) : 0;
+    wanted.width = wish.size * widerTurned(object);
+    wish.leastSpacing = bound ? wanted.width / (kTilt * settings.mostSplats) : 0;
     wish.split = bound && settings.method == Method::Multires;
     const bool layered = settings.profile == diffusion::Shape::Multipole && wanted.media[0].isLayered();
     wish.shares = settings.dipoleGeometry == DipoleGeometry::Offset &&
@@ -247,13 +257,13 @@ Wanted wantedOf(const views::DrawnMesh& mesh, const Settings& settings) {
 
 // The dissertation's number of splats, as many of them as there may be.
 void usePapersSplats(Kernel& kernel, const Wanted& wanted, const std::string& name) {
-    const double wish = papersSplats(wanted.media, wanted.wish, wanted.wish.size);
+    const double wish = papersSplats(wanted.media, wanted.wish, wanted.width);
     const double splats = std::min(wish, double(wanted.settings.mostSplats));
     if (splats < wish)
         warnOnce("subsurface: eq. 6.17 and 6.18 ask for " + std::to_string(std::llround(wish)) +
                  " splats a side of object \"" + name + "\"; " + std::to_string(wanted.settings.mostSplats) +
                  " are drawn");
-    kernel.bands.front().spacing = wanted.wish.size / splats;
+    kernel.bands.front().spacing = wanted.width / splats;
 }
 
 std::shared_ptr<const Profiled> profileOf(gl::Context& context, const Wanted& wanted,
@@ -392,9 +402,21 @@ const ParamTable& Subsurface::params() {
              .doc =
                  "Along the longest side of a body, of method diffusion: details of light finer than a cell "
                  "are lost, and thinner parts shine alike on both sides."}),
+        declare(&Settings::temporal,
+                {.id = "temporal",
+                 .label = "Steady between pictures",
+                 .group = Group::Subsurface,
+                 .doc = "Mixes what leaves with what left there in the picture before, so that few splats "
+                        "flicker less where things turn. It changes no single picture, and none that is "
+                        "drawn again as it was."}),
     };
     static const ParamTable table = tableOf<Settings>("subsurface", list, "Light inside");
     return table;
+}
+
+bool acts(const Settings& settings, std::string_view id) {
+    const bool sums = settings.method == Method::Multires || settings.method == Method::Splat;
+    return id != "temporal" || sums;
 }
 
 std::optional<std::string> Subsurface::need(const scene::Scene& scene) {
@@ -425,14 +447,10 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
         const Grid grid = layoutOf(*object.profile, mesh, settings, context_.caps().maxTextureSize).grid;
         if (mesh.paint) warnOfPaint(mesh, grid, settings);
         if (hasEnvironment(scene) || settings.method == Method::Diffusion) {
-            const views::Bounds bounds = views::boundsOf(*mesh.object);
-            const std::array<views::Eye, 3> axes = axesOf(bounds, grid.most);
-            for (std::size_t i = 0; i < axes.size(); ++i) {
-                const Result<int> count = views::countLayers(pool, context_, axes[i], {mesh}, scene.view.time,
-                                                             pixelsOf(axes[i], bounds, grid));
-                if (!count) return count.error();
-                object.layers[i] = *count;
-            }
+            const Result<std::array<int, 3>> layers =
+                countLayers(pool, mesh, scene.view.time, settings, grid);
+            if (!layers) return layers.error();
+            object.layers = *layers;
         }
         plan.state_->objects.push_back(std::move(object));
     }
@@ -441,12 +459,41 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
         volumes_.reset();
     else if (!volumes_)
         volumes_ = std::make_shared<Volumes>();
+    if (!settings.temporal || !acts(settings, "temporal"))
+        past_.reset();
+    else if (!past_)
+        past_ = std::make_shared<Past>();
     return plan;
 }
 
+Result<std::array<int, 3>> Subsurface::countLayers(graph::TexturePool& pool, const views::DrawnMesh& mesh,
+                                                   float time, const Settings& settings, const Grid& grid) {
+    // Cells lie along the world's axes, points along the object's own.
+    const bool inCells = settings.method == Method::Diffusion;
+    const views::Bounds bounds = views::boundsOf(*mesh.object);
+    const std::array<views::Eye, 3> axes =
+        inCells ? axesOf(bounds, grid.most) : axesOf(*mesh.object, grid.most);
+    Counted now{.key = views::objectKey(inCells ? *mesh.object : unmoved(*mesh.object), time),
+                .sizes = {},
+                .layers = {}};
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        now.sizes[i] = pixelsOf(axes[i], bounds, grid);
+    Counted& known = counted_[mesh.index];
+    if (!mesh.water && known.key == now.key && known.sizes == now.sizes) return known.layers;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const Result<int> count = views::countLayers(pool, context_, axes[i], {mesh}, time, now.sizes[i]);
+        if (!count) return count.error();
+        now.layers[i] = *count;
+    }
+    known = now;
+    return now.layers;
+}
+
 void Subsurface::clear() {
+    counted_.clear();
     profiles_.clear();
     volumes_.reset();
+    past_.reset();
 }
 
 Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
@@ -458,6 +505,8 @@ Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan
                                   : settings.method == Method::Diffusion
                                       ? recordVolumes(graph, context_, in, *plan.state_, settings, *volumes_)
                                       : recordRadiosity(graph, context_, in, *plan.state_, settings);
+    if (radiosity && past_ && radiosity->places)
+        radiosity = recordSteady(graph, context_, in, *plan.state_, *radiosity, settings, past_);
     if (!radiosity) return radiosity.error();
     TextureId highlight;
     if (!showsLight(in))

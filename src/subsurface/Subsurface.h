@@ -7,12 +7,15 @@
 #include "graph/FrameGraph.h"
 #include "scene/Scene.h"
 #include "views/Lamps.h"
+#include "views/ObjectKey.h"
 #include "views/Surface.h"
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lucent::subsurface {
@@ -34,7 +37,11 @@ struct Settings {
     BlurEnergy blurEnergy = BlurEnergy::Kept; ///< of light where M_d is painted
     int lightSamples = 16;                    ///< points that stand for a lamp with a size
     int cells = 48;                           ///< along the longest side of a body, of diffusion
+    bool temporal = false;                    ///< light is mixed with that of the picture before
 };
+
+/// Whether a parameter changes anything beside these choices.
+bool acts(const Settings& settings, std::string_view id);
 
 struct Inputs {
     const scene::Scene& scene;
@@ -51,7 +58,9 @@ struct Inputs {
     graph::TextureId matt{}; ///< painted objects as if they were opaque (brdf), RGBA32F; not for radiosity
 };
 
+struct Grid;
 struct Profiled;
+struct Past;
 class Volumes;
 
 /// Profiles of the scene's materials as textures, and what is drawn for its environment. Made once for as
@@ -88,8 +97,8 @@ public:
 
     explicit Subsurface(gl::Context& context) : context_(context) {}
 
-    /// Makes the tables, and counts the layers of objects where an environment shines, which reads pictures
-    /// back.
+    /// Makes the tables, and counts the layers of objects where an environment shines. That reads pictures
+    /// back, but for objects that have only moved or turned since.
     ///
     /// @param meshes  visible ones
     Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene,
@@ -105,9 +114,20 @@ public:
     void clear();
 
 private:
+    // How many surfaces of an object lie behind each other along three axes, and what that depends on.
+    struct Counted {
+        views::ObjectKey key;
+        std::array<ivec2, 3> sizes{};
+        std::array<int, 3> layers{};
+    };
+    Result<std::array<int, 3>> countLayers(graph::TexturePool& pool, const views::DrawnMesh& mesh, float time,
+                                           const Settings& settings, const Grid& grid);
+
     gl::Context& context_;
+    std::map<int, Counted> counted_;                        // by the object's place in the scene
     std::vector<std::shared_ptr<const Profiled>> profiles_; // of the last plan
     std::shared_ptr<Volumes> volumes_;                      // null for methods that solve nothing
+    std::shared_ptr<Past> past_; // null where no picture keeps any of the one before
 };
 
 } // namespace lucent::subsurface

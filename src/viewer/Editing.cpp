@@ -1,5 +1,6 @@
 // The scene of a viewer: its controls, what is set, what is taken back.
 #include "refract/Refract.h"
+#include "subsurface/Subsurface.h"
 #include "viewer/State.h"
 
 #include <algorithm>
@@ -16,9 +17,10 @@ bool isIdle(const scene::Scene& scene, std::string_view path) {
     for (const auto& [name, settings] : scene.technique) {
         const std::string owner = "technique." + name + ".";
         if (!path.starts_with(owner)) continue;
-        const bool idle =
-            name == "refract" && !refract::acts(settings.as<refract::Settings>(), path.substr(owner.size()));
-        return idle || !frame::need(scene, name);
+        const std::string_view id = path.substr(owner.size());
+        if (name == "refract" && !refract::acts(settings.as<refract::Settings>(), id)) return true;
+        if (name == "subsurface" && !subsurface::acts(settings.as<subsurface::Settings>(), id)) return true;
+        return !frame::need(scene, name);
     }
     return false;
 }

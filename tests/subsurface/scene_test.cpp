@@ -246,6 +246,135 @@ TEST_F(Scattering, AnEnvironmentPeelsItsSurfacesAlongThreeAxes) {
     EXPECT_NEAR(image.at(1, 1)[1], 0.5f, 1e-3); // behind it the environment itself
 }
 
+TEST_F(Scattering, LayersUnderAnEnvironmentAreCountedOnceHoweverTheObjectMovesAndTurns) {
+    scene.environment.emplace();
+    auto map = std::make_shared<Image>(8, 4, 3);
+    std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);
+    scene.environment->map = map;
+    scene.lights.clear();
+    scene.objects[0].shape = scene::Box{{0.02f, 0.01f, 0.004f}};
+    scene.view.show = scene::Aov::Radiosity;
+    Renderer renderer(*context);
+    std::uint64_t revision = 0;
+    const auto draws = [&] {
+        EXPECT_TRUE(renderer.finish(scene, ++revision, scene.size).ok());
+        return renderer.stats().draws;
+    };
+    const int counted = draws();
+    scene.objects[0].transform.rotate = {20, 30, 40};
+    scene.objects[0].transform.translate = {0.003f, 0, 0};
+    EXPECT_EQ(draws(), counted - 3); // a picture along each of three axes
+    const Result<Image> kept = renderer.read(scene, scene::Aov::Radiosity);
+    ASSERT_TRUE(kept.ok());
+    EXPECT_EQ(kept->pixels, picture().pixels);
+    scene.objects[0].shape = scene::Box{{0.02f, 0.01f, 0.005f}};
+    EXPECT_EQ(draws(), counted);
+}
+
+// Radiosity of a box that turns, picture after picture.
+struct Turning : Scattering {
+    Turning() {
+        scene.view.show = scene::Aov::Radiosity;
+        scene.lights = {scene::DistantLight{.direction = {-1, -0.5f, -0.5f}}};
+        scene.camera.height = 0.03f;
+        scene.objects[0].shape = scene::Box{{0.02f, 0.008f, 0.008f}};
+    }
+    subsurface::Settings& settings() {
+        return *static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data());
+    }
+    void splatFew(bool temporal) {
+        settings() = {.method = subsurface::Method::Splat,
+                      .splats = subsurface::Splats::Paper,
+                      .mostSplats = 24,
+                      .temporal = temporal};
+    }
+    Image next(Renderer& renderer) {
+        EXPECT_TRUE(renderer.finish(scene, ++revision_, scene.size).ok());
+        Result<Image> image = renderer.read(scene, scene::Aov::Radiosity);
+        EXPECT_TRUE(image.ok());
+        return std::move(*image);
+    }
+    std::vector<Image> turned() {
+        Renderer renderer(*context);
+        std::vector<Image> images;
+        for (int frame = 0; frame < 6; ++frame) {
+            scene.objects[0].transform.rotate.y = 20 + float(frame);
+            images.push_back(next(renderer));
+        }
+        return images;
+    }
+
+private:
+    std::uint64_t revision_ = 0;
+};
+
+// RMS of what changes from picture to picture, less what changes in exact ones.
+double flicker(const std::vector<Image>& images, const std::vector<Image>& exact) {
+    double squares = 0;
+    for (std::size_t i = 1; i < images.size(); ++i)
+        for (std::size_t p = 0; p < images[i].pixels.size(); ++p) {
+            const float change = images[i].pixels[p] - images[i - 1].pixels[p],
+                        wanted = exact[i].pixels[p] - exact[i - 1].pixels[p];
+            squares += std::pow(double(change - wanted), 2);
+        }
+    return std::sqrt(squares);
+}
+
+TEST_F(Turning, FewSplatsFlickerLessMixedWithThePictureBefore) {
+    const std::vector<Image> exact = turned();
+    splatFew(false);
+    const double before = flicker(turned(), exact);
+    splatFew(true);
+    EXPECT_LT(flicker(turned(), exact), 0.5 * before);
+}
+
+TEST_F(Turning, APictureThatFollowsNoneOrItsLikeIsAsItIsWithoutTheOneBefore) {
+    splatFew(true);
+    Renderer renderer(*context);
+    const Image first = next(renderer);
+    scene.objects[0].transform.rotate.y = 1;
+    const Image moved = next(renderer), again = next(renderer);
+    scene.objects[0].material.scattering = vec3(1500);
+    const Image other = next(renderer);
+    scene.lights = {scene::DistantLight{.direction = {1, -0.5f, -0.5f}}};
+    const Image jumped = next(renderer);
+    splatFew(false);
+    EXPECT_EQ(jumped.pixels, picture().pixels);
+    scene.lights = {scene::DistantLight{.direction = {-1, -0.5f, -0.5f}}};
+    EXPECT_EQ(other.pixels, picture().pixels);
+    scene.objects[0].material.scattering = vec3(2000);
+    const Image alone = picture();
+    EXPECT_NE(moved.pixels, alone.pixels);
+    EXPECT_EQ(again.pixels, alone.pixels);
+    scene.objects[0].transform.rotate.y = 0;
+    EXPECT_EQ(first.pixels, picture().pixels);
+}
+
+TEST_F(Turning, LightThatChangesEvenlyDoesNotLagBehind) {
+    // A half space under a lamp that comes up: all of its radiosity follows at once, though it never was
+    // there.
+    scene.objects[0].shape = scene::Box{{0.1f, 0.1f, 0.02f}};
+    scene.camera.height = 0.01f;
+    splatFew(true);
+    Renderer renderer(*context);
+    Image last;
+    for (int frame = 0; frame < 6; ++frame) {
+        const float angle = 0.1f * float(frame);
+        scene.lights = {scene::DistantLight{.direction = {-std::cos(angle), 0, -std::sin(angle) - 0.1f}}};
+        last = next(renderer);
+    }
+    splatFew(false);
+    EXPECT_NEAR(sumOf(last) / sumOf(picture()), 1, 0.01);
+}
+
+TEST(Settings, WhatMixesPicturesActsWherePointsAreSummed) {
+    using subsurface::Method;
+    for (const Method method : {Method::Multires, Method::Splat, Method::Diffusion, Method::Lambert})
+        EXPECT_EQ(subsurface::acts({.method = method}, "temporal"),
+                  method == Method::Multires || method == Method::Splat);
+    EXPECT_TRUE(subsurface::acts({.method = Method::Diffusion}, "cells"));
+}
+
 TEST_F(Scattering, DiffusionIsSolvedAnewOnlyWhereSomethingElseThanTheCameraHasChanged) {
     auto* settings = static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data());
     settings->method = subsurface::Method::Diffusion;
