@@ -2,13 +2,16 @@
 
 #include "frame/Renderer.h"
 #include "measure/RefractPlan.h"
+#include "measure/Stopwatch.h"
 #include "measure/SubsurfaceTruth.h"
 #include "scene/MaterialPresets.h"
+#include "scene/Painting.h"
 #include "subsurface/Subsurface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 
 namespace lucent::measure {
@@ -51,6 +54,7 @@ std::vector<Setting> allSettings(bool quick) {
 
 constexpr float kRadius = 0.01f;           // m, of the ball
 constexpr float kPicture = 2.2f * kRadius; // m from its top to its bottom
+constexpr int kPaintedSize = 64;           // pixels: its exact solution is made for each of them
 
 scene::Material marble() {
     scene::Material material;
@@ -108,6 +112,28 @@ scene::Scene halfSpaceScene(int size) {
     return scene;
 }
 
+// The ball with bands of more and less blur, one that hardly lets light through, one that glows and one with
+// paint on top.
+Result<scene::Scene> paintedScene(int size) {
+    constexpr float kEnd = std::numeric_limits<float>::infinity();
+    const auto band = [](scene::PaintMap map, vec3 value, float low, float high) {
+        scene::Stroke stroke;
+        stroke.brush = {.map = map, .value = value};
+        stroke.fill = {vec3(-kEnd, low * kRadius, -kEnd), vec3(kEnd, high * kRadius, kEnd)};
+        return stroke;
+    };
+    const scene::Stroke strokes[] = {band(scene::PaintMap::Blur, vec3(0.5f), 0.4f, 0.8f),
+                                     band(scene::PaintMap::Blur, vec3(2), -0.7f, -0.4f),
+                                     band(scene::PaintMap::Glow, {1, 0.5f, 0.25f}, 0.1f, 0.5f),
+                                     band(scene::PaintMap::Translucency, vec3(0.3f), -kEnd, -0.7f),
+                                     band(scene::PaintMap::Outgoing, {0.3f, 1, 0.3f}, -0.2f, 0)};
+    scene::Scene scene = ballScene(size);
+    auto painting = scene::paint(scene.objects.front(), strokes, 128);
+    if (!painting) return painting.error();
+    scene.objects.front().painting = std::move(*painting);
+    return scene;
+}
+
 // Two blocks that touch; the light, along +x, ends on the left one.
 scene::Scene touchingScene(int size) {
     const scene::Shape block = scene::Box{vec3(0.01f)};
@@ -140,11 +166,10 @@ const Timed kViews{block, showNothing};
 
 // --- cases and series
 
-Case bodyCase(const std::string& name, scene::Scene scene, std::vector<Setting> settings, bool walks) {
-    const double rays = double(scene.size.x) * scene.size.y;
+Case bodyCase(const std::string& name, const MakeScene& scene, std::vector<Setting> settings, bool walks) {
     Case one{.technique = std::string(kTechnique),
              .name = name,
-             .scene = {[scene = std::move(scene)]() -> Result<scene::Scene> { return scene; }, rays},
+             .scene = scene,
              .settings = std::move(settings),
              .toPhysics = {},
              .timed = kWhole};
@@ -155,6 +180,12 @@ Case bodyCase(const std::string& name, scene::Scene scene, std::vector<Setting> 
     return one;
 }
 
+Case bodyCase(const std::string& name, scene::Scene scene, std::vector<Setting> settings, bool walks) {
+    const double rays = double(scene.size.x) * scene.size.y;
+    return bodyCase(name, {[scene = std::move(scene)]() -> Result<scene::Scene> { return scene; }, rays},
+                    std::move(settings), walks);
+}
+
 // The ball with each profile; diffusion has none, and stands beside the first.
 void addBalls(Plan& plan, int size) {
     plan.cases.push_back(bodyCase("ball", ballScene(size), allSettings(plan.quick), true));
@@ -163,6 +194,11 @@ void addBalls(Plan& plan, int size) {
     settingsOf(burley).profile = diffusion::Shape::Burley;
     plan.cases.push_back(bodyCase("ball, offset", offset, splatSettings(plan.quick), true));
     plan.cases.push_back(bodyCase("ball, burley", burley, splatSettings(plan.quick), true));
+}
+
+void addPainted(Plan& plan) {
+    plan.cases.push_back(bodyCase("painted ball", {[] { return paintedScene(kPaintedSize); }, 4096},
+                                  {splats("multires", kUsual), splats("splat", kUsual)}, false));
 }
 
 void addHalfSpace(Plan& plan) {
@@ -433,6 +469,71 @@ Status addAround(gl::Context& context, const SolveTruth& solve, int size, std::v
     return Done{};
 }
 
+// Light that scatters once, which the dipole leaves out: its share of random walks around the ball, and how
+// far from these the dipole is with it.
+Status addScatteredOnce(gl::Context& context, const SolveTruth& solve, int size, std::vector<Ratio>& ratios) {
+    scene::Scene walked = ballScene(size);
+    settingsOf(walked) = {.method = subsurface::Method::Diffusion};
+    const Result<truth::Picture> all = solve(walked, 0, {});
+    if (!all) return all.error();
+    const Result<truth::Picture> once = solveScatteredOnce(walked, 0);
+    if (!once) return once.error();
+    const Result<Image> image = Pictures(context)(ballScene(size));
+    if (!image) return image.error();
+    const RingMeans shares = ringMeans(once->values, all->values), model = ringMeans(*image, all->values);
+    dvec3 sum(0), whole(0);
+    double without = 0, with = 0;
+    for (int ring = kPole / kRing; ring < 80 / kRing; ++ring) {
+        sum += shares.image[ring];
+        whole += shares.exact[ring];
+        for (int c = 0; c < 3; ++c) {
+            const double walks = shares.exact[ring][c], dipole = model.image[ring][c];
+            without = std::max(without, std::abs(dipole / walks - 1));
+            with = std::max(with, std::abs((dipole + shares.image[ring][c]) / walks - 1));
+        }
+    }
+    const char* kFarthest = "ball: dipole%s, farthest from random walks up to 80 degrees from the light";
+    ratios.push_back({"ball: share of green light of random walks up to 80 degrees that scattered once",
+                      sum.g / whole.g,
+                      {},
+                      false});
+    ratios.push_back({formatted(kFarthest, " without light that scatters once"), without, {}, false});
+    ratios.push_back({formatted(kFarthest, " and light that scatters once"), with, {}, false});
+    return Done{};
+}
+
+// --- painting
+
+// What a picture of the painted ball takes more than one of the same ball unpainted, and what that takes.
+Status addPaintingCost(gl::Context& context, const Repeats& repeats, std::vector<Ratio>& ratios) {
+    const Result<scene::Scene> painted = paintedScene(kPaintedSize);
+    if (!painted) return painted.error();
+    const scene::Scene plain = ballScene(kPaintedSize);
+    scene::Scene nothing = plain;
+    showNothing(nothing);
+    Pictures pictures(context), others(context);
+    const auto median = [&](const scene::Scene& with, const scene::Scene& without) -> Result<double> {
+        const auto draw = [](Pictures& by, const scene::Scene& scene) {
+            return [&by, &scene] {
+                const Result<Image> image = by(scene);
+                return image ? Status(Done{}) : Status(image.error());
+            };
+        };
+        Stopwatch stopwatch(context, draw(pictures, with), draw(others, without), repeats);
+        for (;;) {
+            const Result<bool> done = stopwatch.step();
+            if (!done) return done.error();
+            if (*done) return stopwatch.spread().median;
+        }
+    };
+    const Result<double> unpainted = median(plain, nothing), more = median(*painted, plain);
+    if (!unpainted) return unpainted.error();
+    if (!more) return more.error();
+    ratios.push_back({"ball, 64x64: ms unpainted", *unpainted, {}, false});
+    ratios.push_back({"ball, 64x64: ms more where it is painted", *more, {}, false});
+    return Done{};
+}
+
 // --- flicker
 
 // Pictures of a body that turns by a degree from one to the next.
@@ -473,13 +574,20 @@ Status addFlicker(gl::Context& context, scene::Scene scene, bool quick, std::vec
     const auto converged =
         turning(context, scene, {"multires", {{"epsilon", "0.001"}, {"mostSplats", "512"}}}, frames);
     if (!converged) return converged.error();
+    const std::string name = scene.objects.front().name + ": flicker of ";
     for (const Setting& setting : {papersSplats(), splats("splat", kUsual), splats("multires", kUsual)}) {
-        const auto images = turning(context, scene, setting, frames);
-        if (!images) return images.error();
-        ratios.push_back({scene.objects.front().name + ": flicker of " + setting.name(),
-                          flicker(*images, *converged),
-                          {},
-                          false});
+        Setting steady = setting;
+        steady.knobs.emplace_back("temporal", "true");
+        double found[2];
+        for (const bool isSteady : {false, true}) {
+            const auto images = turning(context, scene, isSteady ? steady : setting, frames);
+            if (!images) return images.error();
+            found[isSteady] = flicker(*images, *converged);
+            ratios.push_back({name + (isSteady ? steady : setting).name(), found[isSteady], {}, false});
+        }
+        const bool isPapers = setting.name() == papersSplats().name(); // the others flicker little as it is
+        ratios.push_back({name + setting.name() + ", temporal over not", found[1] / found[0],
+                          isPapers ? std::optional(0.2) : std::nullopt, false});
     }
     return Done{};
 }
@@ -492,16 +600,18 @@ scene::Scene turningScene(const std::vector<BenchMesh>& meshes) {
 }
 
 int sizeOf(bool quick) { return quick ? 128 : 256; }
+Repeats repeatsOf(bool quick) { return quick ? Repeats{3, 5, 30} : Repeats{5, 31, 1000}; }
 
 } // namespace
 
 Plan subsurfacePlan(const std::vector<BenchMesh>& meshes, const std::vector<BenchMesh>& simpler, bool quick) {
     Plan plan;
     plan.quick = quick;
-    plan.repeats = quick ? Repeats{3, 5, 30} : Repeats{5, 31, 1000};
+    plan.repeats = repeatsOf(quick);
     const int size = sizeOf(quick);
     addBalls(plan, size);
     addHalfSpace(plan);
+    addPainted(plan);
     for (const BenchMesh& mesh : meshes)
         plan.cases.push_back(bodyCase(mesh.name, meshScene(mesh, size), splatSettings(quick), !quick));
     for (const Case& one : plan.cases)
@@ -531,6 +641,10 @@ Result<std::vector<Ratio>> proveSubsurface(gl::Context& context, const std::vect
     say("ball: by angle");
     if (Status s = addSides(context, solve, size, ratios); !s) return s.error();
     if (Status s = addAround(context, solve, size, ratios); !s) return s.error();
+    say("ball: light that scatters once");
+    if (Status s = addScatteredOnce(context, solve, size, ratios); !s) return s.error();
+    say("what painting costs");
+    if (Status s = addPaintingCost(context, repeatsOf(quick), ratios); !s) return s.error();
     say("flicker of what turns");
     if (Status s = addFlicker(context, turningScene(meshes), quick, ratios); !s) return s.error();
     return ratios;

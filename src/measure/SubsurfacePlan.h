@@ -15,8 +15,9 @@ namespace lucent::measure {
 Plan subsurfacePlan(const std::vector<BenchMesh>& meshes, const std::vector<BenchMesh>& simpler, bool quick);
 
 /// What single pictures do not show: the largest error on a half space and beside a ball, light that leaks
-/// into what touches a lit body, the light around a ball against random walks by angle, and the flicker of a
-/// body that turns. With the targets that each of them has.
+/// into what touches a lit body, the light around a ball against random walks by angle, what of it scatters
+/// once, what painting costs, and the flicker of a body that turns, with and without `temporal`. With the
+/// targets that each of them has.
 ///
 /// @param meshes  as above; the first turns, a block where there is none
 /// @param solve   as for Sweep

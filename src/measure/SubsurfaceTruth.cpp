@@ -134,13 +134,14 @@ Status averageAround(truth::Picture& picture, const scene::Scene& scene, const L
     return Done{};
 }
 
-Result<truth::Picture> solvePhysics(const scene::Scene& scene, const truth::Tile& rows, int threads) {
-    constexpr std::int64_t kWalksOfAPixel = 60; // on a ball 1 % of noise in front, once rings are averaged
+Result<truth::Picture> solvePhysics(const scene::Scene& scene, const truth::Tile& rows, int threads,
+                                    std::int64_t walksOfAPixel, std::optional<int> scatterings) {
     const std::int64_t pixels = std::int64_t(scene.size.x) * scene.size.y;
     const std::atomic<bool> never{false};
-    Result<truth::Picture> picture =
-        truth::traceWalks(scene, scene.size, {.aov = scene.view.show, .photons = kWalksOfAPixel * pixels},
-                          rows, {.threads = threads}, never);
+    Result<truth::Picture> picture = truth::traceWalks(
+        scene, scene.size,
+        {.aov = scene.view.show, .photons = walksOfAPixel * pixels, .scatterings = scatterings}, rows,
+        {.threads = threads}, never);
     const std::optional<LitBall> ball = litBallOf(scene);
     if (picture && ball)
         if (Status averaged = averageAround(*picture, scene, *ball); !averaged) return averaged.error();
@@ -160,7 +161,13 @@ truth::DipoleOptions dipoleOptionsOf(const scene::Scene& scene) {
 
 Result<truth::Picture> solveSubsurface(const scene::Scene& scene, const truth::Tile& rows, int threads) {
     const bool walks = settingsOf(scene).method == subsurface::Method::Diffusion;
-    return walks ? solvePhysics(scene, rows, threads) : solveModel(scene, rows, threads);
+    constexpr std::int64_t kWalksOfAPixel = 60; // on a ball 1 % of noise in front, once rings are averaged
+    return walks ? solvePhysics(scene, rows, threads, kWalksOfAPixel, {}) : solveModel(scene, rows, threads);
+}
+
+Result<truth::Picture> solveScatteredOnce(const scene::Scene& scene, int threads) {
+    constexpr std::int64_t kWalksOfAPixel = 15; // of such light rings hold enough
+    return solvePhysics(scene, {}, threads, kWalksOfAPixel, 1);
 }
 
 std::optional<LitBall> litBallOf(const scene::Scene& scene) {

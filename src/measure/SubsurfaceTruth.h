@@ -21,6 +21,9 @@ truth::DipoleOptions dipoleOptionsOf(const scene::Scene& scene);
 /// @param threads  0: as many as the machine has
 Result<truth::Picture> solveSubsurface(const scene::Scene& scene, const truth::Tile& rows, int threads);
 
+/// The same of random walks alone, but only light that was scattered once: what diffusion leaves out.
+Result<truth::Picture> solveScatteredOnce(const scene::Scene& scene, int threads);
+
 /// What leaves a half space under even light of irradiance 1 from straight above, W/m² of each colour: the
 /// share that enters, by the dipole's integral over a plane (Jensen et al. 2001, with the dissertation's
 /// Fresnel factor).

@@ -63,7 +63,8 @@ TEST(SubsurfacePlan, HasEveryBodyAndPromise) {
     std::set<std::string> names;
     for (const Case& one : plan.cases)
         names.insert(one.name);
-    EXPECT_EQ(names, (std::set<std::string>{"ball", "ball, offset", "ball, burley", "half space", "bunny"}));
+    EXPECT_EQ(names, (std::set<std::string>{"ball", "ball, offset", "ball, burley", "half space",
+                                            "painted ball", "bunny"}));
     // From a report in which everything is just missed.
     BenchReport report;
     for (const Case& one : plan.cases)
@@ -88,7 +89,7 @@ TEST(SubsurfacePlan, HasEveryBodyAndPromise) {
         missed += ratio->met() ? 0 : 1;
     }
     EXPECT_EQ(promised,
-              4 + 3 + 1); // misplaced light on each body, speed on each ball, the growth of the splats' stage
+              5 + 3 + 1); // misplaced light on each body, speed on each ball, the growth of the splats' stage
     EXPECT_EQ(missed, promised);
 }
 
