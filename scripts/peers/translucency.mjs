@@ -54,7 +54,7 @@ export const kComparison = {
   sideTarget: 0.05,
   rounds: [2, 1.4, 1.15, 1.05],
   knobs: {
-    lucent: { epsilon: [0.1, 0.05, 0.03, 0.01] },
+    lucent: { epsilon: [0.1, 0.07, 0.05, 0.03, 0.01] },
     babylon: [
       { mode: ['scattering'], ...kScattering },
       { mode: ['both'], ...kTranslucency, ...kScattering },
