@@ -174,6 +174,17 @@ views::Eye moved(views::Eye eye, const mat4& move) {
     return eye;
 }
 
+// More pixels across a flat object that a lamp grazes: there each stands for a strip that is so much longer.
+ivec2 pixelsOfGrazed(ivec2 size, const views::Eye& eye, const views::Bounds& object, const Grid& grid) {
+    constexpr float kSteepest = 4; // what finer levels of points make up for
+    const vec3 box = object.high - object.low;
+    const auto along = [&](const vec3& axis) { return glm::dot(glm::abs(axis), box); };
+    const vec2 seen = glm::max(vec2(along(eye.right), along(eye.up)), vec2(1e-12f));
+    const vec2 steeper = glm::max(along(eye.forward) / seen / kSteepest, vec2(1));
+    const float longest = std::min(glm::length(box) / grid.pixel, float(grid.most));
+    return glm::max(size, ivec2(glm::min(vec2(size) * steeper, vec2(longest))));
+}
+
 } // namespace
 
 ivec2 pixelsOf(const views::Eye& eye, const views::Bounds& object, const Grid& grid) {
@@ -190,7 +201,8 @@ ivec2 pixelsOf(const views::Eye& eye, const views::Bounds& object, const Grid& g
 Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const views::LampPoint& lamp,
                          const views::Eye& face, const views::PosedMesh& object,
                          const std::vector<views::PosedMesh>& casters, const Grid& grid) {
-    const ivec2 size = pixelsOf(face, views::boundsOf(*object.drawn.object), grid);
+    const views::Bounds bounds = views::boundsOf(*object.drawn.object);
+    const ivec2 size = pixelsOfGrazed(pixelsOf(face, bounds, grid), face, bounds, grid);
     const TextureId surface = graph.create("subsurface.lit", {.size = size, .format = Format::RGBA32F});
     if (Status s = views::recordSurface(graph, context, face, {}, casters, surface, size); !s)
         return s.error();

@@ -24,7 +24,9 @@ constexpr double kBalls = 3;                // along a side of a splat, about
 // Pixels of a splat in the middle of the picture that is drawn as a point. Devices with WebGL2 draw points of
 // 255 at least; the rest is for what a wide view stretches at its sides.
 constexpr int kMostPoint = 64;
-constexpr int kGathered = 4096; // points at once: a software driver ends a shader's loops after 65535 rounds
+// Points that are gathered at once. A sum of halves keeps 11 bits of each part, so that more points are no
+// more parts; a software driver ends a shader's loops after 65535 rounds.
+constexpr int kLeastGathered = 4096, kMostGathered = 60000, kParts = 32;
 
 // M_d lies above half of two to this power and not above it.
 int octaveOf(float sharpness) { return int(std::ceil(std::log2(sharpness))); }
@@ -392,8 +394,9 @@ Status Splatter::splatPart(const Target& target, const Points& points, std::size
                     continue;
                 }
                 draw.region = region;
-                for (one.first = 0; one.first < count; one.first += kGathered) {
-                    one.count = std::min(kGathered, count - one.first);
+                const int gathered = std::clamp((count + kParts - 1) / kParts, kLeastGathered, kMostGathered);
+                for (one.first = 0; one.first < count; one.first += gathered) {
+                    one.count = std::min(gathered, count - one.first);
                     draw.block = one;
                     commands.draw(draw);
                 }

@@ -1,5 +1,6 @@
 #include "subsurface/Volume.h"
 
+#include "base/Log.h"
 #include "subsurface/Sky.h"
 #include "views/ShadowMap.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr int kDepths = 4;         // shaders/subsurface/volume_source.vert
 constexpr double kUnsolved = 1e-3; // what is left of the first error
+constexpr double kWidestCell = 4;  // mean free paths
 
 struct VolumeBlock {
     views::ViewBlock view;
@@ -113,6 +115,7 @@ private:
     Status bind();
     Status lay(const Points& points, vec4 lamp);
     Status light();
+    void warnOfCells(const std::array<diffusion::Medium, 3>& media) const;
     Status solve();
     TextureId kept(graph::Texture& texture, const char* label);
     Status leave(TextureId target);
@@ -325,8 +328,22 @@ Status Body::light() {
     return Done{};
 }
 
+// Light of such cells is lost: next to a boundary it changes within a mean free path.
+void Body::warnOfCells(const std::array<diffusion::Medium, 3>& media) const {
+    double paths = 0;
+    for (const diffusion::Medium& medium : media)
+        paths = std::max(paths, double(cells_.width) * medium.extinction());
+    if (paths > kWidestCell)
+        warnOnce("subsurface: object \"" + mesh_.drawn.object->name + "\" is cut into cells " +
+                 std::to_string(std::llround(paths)) +
+                 " mean free paths wide, which lose light; more cells are nearer, and method multires has "
+                 "none");
+}
+
 Status Body::solve() {
-    const Rounds rounds = roundsOf(diffusion::mediaOf(mesh_.drawn.object->material), cells_);
+    const std::array<diffusion::Medium, 3> media = diffusion::mediaOf(mesh_.drawn.object->material);
+    warnOfCells(media);
+    const Rounds rounds = roundsOf(media, cells_);
     const dvec3 squares = rounds.radius * rounds.radius;
     dvec3 omega(1);
     TextureId before;
@@ -448,7 +465,8 @@ Rounds roundsOf(const std::array<diffusion::Medium, 3>& media, const Cells& cell
         rounds.radius[c] = radius;
         const double omega = 2 / (1 + std::sqrt(1 - radius * radius));
         const double left = std::sqrt(std::max(omega - 1, 1e-12)); // of the error, a round
-        rounds.count = std::max(rounds.count, int(std::ceil(std::log(kUnsolved) / std::log(left))) + 2);
+        const double needed = std::ceil(std::log(kUnsolved) / std::log(left)) + 2;
+        rounds.count = std::max(rounds.count, int(std::min(needed, double(kMostRounds))));
     }
     return rounds;
 }

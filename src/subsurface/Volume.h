@@ -59,8 +59,12 @@ struct Cells {
 };
 Cells cellsOf(const views::Bounds& body, int along);
 
-/// How many rounds bring Chebyshev's iteration within a thousandth of the solution, and its largest
-/// eigenvalue.
+/// Rounds that a solution takes at most: where a thousandth takes more, cells are a hundred mean free paths
+/// wide and tell nothing of the light in them anyway.
+inline constexpr int kMostRounds = 2000;
+
+/// How many rounds bring Chebyshev's iteration within a thousandth of the solution, kMostRounds at most, and
+/// its largest eigenvalue.
 struct Rounds {
     int count = 1;
     dvec3 radius{0}; ///< of Jacobi's iteration, per colour

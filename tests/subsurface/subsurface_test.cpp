@@ -1,6 +1,8 @@
 // Radiosity on simple bodies: closed forms first, then the same dipole summed by brute force.
 #include "subsurface/Subsurface.h"
 
+#include "subsurface/Volume.h"
+
 #include "tests/support/Gl.h"
 #include "views/FieldTextures.h"
 
@@ -306,6 +308,125 @@ TEST_F(SubsurfaceTest, AMeanFreePathOfAHundredthOfAPixelLeavesLightWhereItEntere
         EXPECT_NEAR(double(image.at(i % 8, i / 8)[1]) / expected, 1, 0.01);
 }
 
+TEST_F(SubsurfaceTest, WhatScattersNothingIsBlack) {
+    // And ever darker on the way there: of a ball R_d is sigma_s' / (4 pi) times what does not depend on it.
+    float before = 0;
+    for (const float scattering : {1e-2f, 1e-5f, 1e-30f}) {
+        scene::Material material = marble();
+        material.scattering = vec3(scattering);
+        const Image image = draw(sphereFromTheSide(0.01, material), {16, 16});
+        const float value = image.at(12, 8)[1];
+        EXPECT_TRUE(std::isfinite(value)) << scattering;
+        EXPECT_GE(value, 0) << scattering;
+        if (before > 0) {
+            EXPECT_NEAR(value / before, scattering > 1e-10f ? 1e-3f : 0, 1e-5f) << scattering;
+        }
+        before = value;
+    }
+}
+
+TEST_F(SubsurfaceTest, AnisotropyEntersByTheReducedCoefficientOnly) {
+    scene::Material forward = marble();
+    forward.anisotropy = 0.99f;
+    forward.scattering /= 1 - forward.anisotropy;
+    const Image even = draw(sphereFromTheSide(0.01, marble()), {32, 32}),
+                ahead = draw(sphereFromTheSide(0.01, forward), {32, 32});
+    for (std::size_t i = 0; i < even.pixels.size(); ++i)
+        EXPECT_NEAR(ahead.pixels[i], even.pixels[i], 1e-5f * std::abs(even.pixels[i]));
+}
+
+TEST_F(SubsurfaceTest, ASurfaceOfIndexOneMirrorsNothing) {
+    // A is that of F_dr = -1.440 + 0.710 + 0.668 + 0.0636, and everything enters.
+    scene::Material material = dense();
+    material.ior = 1;
+    const Image image = draw(sheet(material, 0.04f, 0.002f), {8, 8});
+    const double albedo = 2620.0 / 2820, s = std::sqrt(3 * (1 - albedo)), a = (1 + 0.0016) / (1 - 0.0016);
+    const double expected = 0.5 * albedo * (1 + std::exp(-4.0 / 3 * a * s)) * std::exp(-s);
+    EXPECT_NEAR(double(atMiddle(image)) / expected, 1, 0.01);
+}
+
+TEST_F(SubsurfaceTest, PointsThatCoincideWithWhatIsSeenHaveAFiniteShare) {
+    // Eye and lamp see the same lattice, and Burley's profile is infinite at 0: each texel's mean counts.
+    Settings settings;
+    settings.profile = diffusion::Shape::Burley;
+    const double expected = entering(1) * diffusion::totalReflectance(diffusion::mediaOf(dense())[1],
+                                                                      diffusion::Shape::Burley, 0);
+    for (const Method method : {Method::Splat, Method::Multires}) {
+        settings.method = method;
+        const Image image = draw(sheet(dense(), 0.04f, 0.04f), {64, 64}, settings);
+        EXPECT_NEAR(double(atMiddle(image)) / expected, 1, 0.02) << int(method);
+    }
+    // Two bodies in one place are each as it is alone.
+    scene::Scene one = sphereFromTheSide(0.01, dense());
+    const Image alone = draw(one, {24, 24});
+    one.objects.push_back(one.objects.front());
+    const Image both = draw(one, {24, 24});
+    for (std::size_t i = 0; i < alone.pixels.size(); ++i)
+        EXPECT_NEAR(both.pixels[i], alone.pixels[i], 1e-6f);
+}
+
+TEST_F(SubsurfaceTest, GrazingLightLeavesWhatEntersOfIt) {
+    const double whole =
+        diffusion::totalReflectance(diffusion::mediaOf(dense())[1], diffusion::Shape::Dipole, 0);
+    for (const double degrees : {80.0, 89.0, 89.9}) {
+        const double radians = degrees * kPi64 / 180, cosine = std::cos(radians);
+        scene::Scene scene = sheet(dense(), 0.04f, 0.002f);
+        scene.lights = {scene::DistantLight{.direction = {float(std::sin(radians)), 0, float(-cosine)}}};
+        const double expected = cosine * entering(cosine) * whole;
+        EXPECT_NEAR(double(atMiddle(draw(scene, {8, 8}))) / expected, 1, 0.02) << degrees;
+    }
+}
+
+TEST_F(SubsurfaceTest, ABodyThatLeavesALampsConeFadesToBlack) {
+    scene::Scene scene = sphereFromTheSide(0.01, dense());
+    std::vector<double> light;
+    for (const float aside : {0.0f, 0.05f, 0.085f, 0.14f}) { // where the cone is 0.09 m wide
+        scene.objects[0].transform.translate = {0, aside, 0};
+        scene.camera.eye.y = scene.camera.target.y = aside;
+        scene.lights = {scene::SpotLight{.position = {0.5f, 0, 0},
+                                         .direction = {-1, 0, 0},
+                                         .intensity = 1,
+                                         .innerAngle = 8,
+                                         .outerAngle = 10.2f}};
+        const Image image = draw(scene, {24, 24});
+        double sum = 0;
+        for (std::size_t i = 1; i < image.pixels.size(); i += 4) {
+            EXPECT_TRUE(std::isfinite(image.pixels[i]));
+            sum += std::max(0.0, double(image.pixels[i]));
+        }
+        light.push_back(sum);
+    }
+    EXPECT_GT(light[0], 0);
+    EXPECT_NEAR(light[1] / light[0], 1, 0.1); // inside, somewhat farther off
+    EXPECT_GT(light[2], 0.01 * light[0]);
+    EXPECT_LT(light[2], 0.5 * light[0]);
+    EXPECT_EQ(light[3], 0);
+}
+
+// Largest over least green radiosity of a picture.
+double unevenness(const Image& image) {
+    double least = 1e30, most = 0;
+    for (std::size_t i = 1; i < image.pixels.size(); i += 4) {
+        least = std::min(least, double(image.pixels[i]));
+        most = std::max(most, double(image.pixels[i]));
+    }
+    return most / least;
+}
+
+TEST_F(SubsurfaceTest, TooFewSplatsBlurWhereThePapersShowAsDots) {
+    // As in figure 6.10: 16 points a side, 2.5 mm apart, of light that reaches about one.
+    const scene::Scene scene = sheet(dense(), 0.04f, 0.01f);
+    Settings settings = with(Method::Splat);
+    settings.mostSplats = 16;
+    const Image blurred = draw(scene, {32, 32}, settings);
+    const double expected = entering(1) * diffusion::totalReflectance(diffusion::mediaOf(dense())[1],
+                                                                      diffusion::Shape::Dipole, 0);
+    EXPECT_LT(unevenness(blurred), 1.03);
+    EXPECT_NEAR(double(atMiddle(blurred)) / expected, 1, 0.03);
+    settings.splats = Splats::Paper;
+    EXPECT_GT(unevenness(draw(scene, {32, 32}, settings)), 3);
+}
+
 TEST_F(SubsurfaceTest, AThinSheetShinesWhereItIsLitFromBehind) {
     // Through a thickness d, light of points at a distance r >= d: what the profile holds beyond d.
     constexpr double thickness = 0.001;
@@ -495,6 +616,19 @@ TEST_F(SubsurfaceTest, DiffusionShinesThroughSheetsThinnerThanACell) {
             }
 }
 
+TEST(Volumes, RoundsAreBoundWhateverTheMedium) {
+    const views::Bounds ball{vec3(-0.01f), vec3(0.01f)};
+    for (const double scattering : {1e-6, 1.0, 2620.0, 1e5, 1e9})
+        for (const double absorption : {0.0, 1e-6, 4.1, 1e6}) {
+            const diffusion::Medium medium{.scattering = scattering, .absorption = absorption};
+            const Rounds rounds = roundsOf({medium, medium, medium}, cellsOf(ball, 128));
+            EXPECT_LE(rounds.count, kMostRounds) << scattering << " " << absorption;
+            EXPECT_GE(rounds.count, 1) << scattering << " " << absorption;
+        }
+    const auto marbles = diffusion::mediaOf(marble());
+    EXPECT_LT(roundsOf(marbles, cellsOf(ball, 48)).count, 200); // none of it is cut off
+}
+
 TEST_F(SubsurfaceTest, DiffusionKeepsTouchingObjectsApart) {
     scene::Scene scene = seen({bodyOf(scene::Box{vec3(0.01f)}, marble(), {-0.005f, 0, 0}),
                                bodyOf(scene::Box{vec3(0.01f)}, marble(), {0.005f, 0, 0})},
@@ -521,7 +655,7 @@ TEST_F(SubsurfaceTest, DiffusionUnderAnEvenEnvironmentIsEvenOnASphere) {
         EXPECT_NEAR(image.at(x, 24)[1] / middle, 1, 0.05) << x;
 }
 
-// The last one: another context stays behind.
+// The last ones: another context stays behind.
 TEST_F(SubsurfaceTest, WithoutFloatBlendingLightIsGatheredToThreeDigits) {
     const scene::Scene scene = sphereFromTheSide(0.01, marble());
     const Image splatted = draw(scene, {32, 32}, with(Method::Multires, DipoleGeometry::Planar, 0.05f));
@@ -540,6 +674,27 @@ TEST_F(SubsurfaceTest, WithoutFloatBlendingLightIsGatheredToThreeDigits) {
         }
     // Some dozens of sums, each rounded to 11 bits of what is there; measured 1.4e-3 on llvmpipe.
     EXPECT_LT(worst / most, 0.01);
+}
+
+TEST_F(SubsurfaceTest, AMillionSplatsKeepTheirSumInHalfFloatsToo) {
+    // A sum in halves stops growing at 2048 of the last digits of what is added; gathered, it is stored once
+    // a part.
+    scene::Scene scene = sheet(dense(), 0.01f, 0.001f);
+    Settings settings = with(Method::Splat);
+    settings.splats = Splats::Paper;
+    settings.mostSplats = 1024;
+    const Image splatted = draw(scene, {4, 4}, settings);
+    const double expected = entering(1) * diffusion::reflectanceWithin(diffusion::mediaOf(dense())[1],
+                                                                       diffusion::Shape::Dipole, 0, 0.005);
+    EXPECT_NEAR(double(atMiddle(splatted)) / expected, 1, 0.02);
+    const std::string_view missing[] = {"EXT_float_blend"};
+    const auto lesser = gl::Context::create(missing);
+    ASSERT_TRUE(lesser.ok());
+    gl::Context* const before = std::exchange(context, lesser->get());
+    const Image gathered = draw(scene, {4, 4}, settings);
+    EXPECT_EQ(context->takeError(), "");
+    context = before;
+    EXPECT_NEAR(atMiddle(gathered) / atMiddle(splatted), 1, 0.005f);
 }
 
 } // namespace
