@@ -1,5 +1,6 @@
 #include "truth/Walk.h"
 
+#include "base/Text.h"
 #include "truth/Interface.h"
 #include "truth/Lamps.h"
 #include "truth/Photons.h"
@@ -254,12 +255,23 @@ private:
     WalkOptions options_;
     std::vector<Sphere> targets_;
 };
+
+/// A profile knows a slab of any shape; walks know the body, which has no lower side where its slab ends.
+Status checkNoSlab(const scene::Scene& scene, const Bodies& bodies) {
+    for (const Body& body : bodies.all())
+        if (body.thickness > 0)
+            return Error{"truth: objects." + scene.objects[std::size_t(body.object)].name +
+                         ".material.thickness is " + shortest(float(body.thickness)) +
+                         "; walks go through the whole body: must be 0, and the shape that thin"};
+    return Done{};
+}
 } // namespace
 
 Result<Picture> traceWalks(const scene::Scene& scene, ivec2 size, const WalkOptions& options,
                            const Tile& part, const Work& work, const std::atomic<bool>& cancel) {
     const Result<Bodies> bodies = Bodies::create(scene);
     if (!bodies) return bodies.error();
+    if (Status s = checkNoSlab(scene, *bodies); !s) return s.error();
     // Every part has samples of its own: seeds of the command line have 32 bits.
     const std::uint64_t seed = options.seed + (std::uint64_t(part.index) << 32);
     const auto surroundings = Surroundings::create(scene, *bodies, size, options.aov, options.samples, seed);

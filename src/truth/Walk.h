@@ -32,7 +32,7 @@ struct WalkOptions {
 /// Each ray has one colour, chosen by chance. Light that has left a body is not followed to others, nor is
 /// what its boundary mirrors outside, nor light that reaches it by way of glass or mirrors; light that was
 /// never scattered inside leaves as well and is counted. Bodies end at their triangles, whose own normals
-/// count; from open ones light may be lost. A slab is a body that thin: material.thickness is not known. Of
+/// count; from open ones light may be lost. A slab is a body that thin: material.thickness is refused. Of
 /// material.layers light finds the one in whose depth it is, by its distance from the nearest place of the
 /// surface; their indices of refraction count at the surface only, where it is that of the top layer, and not
 /// between layers. Where bodies overlap the
@@ -49,9 +49,8 @@ struct WalkOptions {
 ///
 /// @param part    every part is a whole picture by its own rays; merge() takes their weighted mean
 /// @param cancel  set from elsewhere to stop
-/// @return        Error for another AOV, when nothing scatters, when cancelled, or when Embree cannot hold
-/// the
-///                scene
+/// @return        Error for another AOV, when nothing scatters, for material.thickness above 0, when
+///                cancelled, or when Embree cannot hold the scene
 Result<Picture> traceWalks(const scene::Scene& scene, ivec2 size, const WalkOptions& options,
                            const Tile& part, const Work& work, const std::atomic<bool>& cancel);
 

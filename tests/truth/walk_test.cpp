@@ -216,6 +216,17 @@ TEST(Walk, WhatStandsInTheLightsWayShadows) {
     EXPECT_EQ(dark.values.pixels[0], 0);
 }
 
+TEST(Walk, RefusesSlabsThatAreNoBodies) {
+    scene::Scene scene = test::marbleSphere();
+    scene.objects[0].material.thickness = 0.004f;
+    const Result<Picture> picture = traceWalks(scene, {2, 2}, {}, {}, {}, kNever);
+    ASSERT_FALSE(picture);
+    EXPECT_EQ(
+        picture.error().message,
+        "truth: objects.marble.material.thickness is 0.004; walks go through the whole body: must be 0, "
+        "and the shape that thin");
+}
+
 /// Mean radiosity in a band of angles from the light, of a square picture of the marble sphere from aside.
 dvec3 inBand(const Picture& picture, double from, double to) {
     dvec3 sum(0);
