@@ -135,7 +135,10 @@ export class Controls {
   #built = ''; // what there are controls for
   element = make('div', { className: 'twin', role: 'group', 'aria-label': 'Controls' });
 
-  /** @param actions  set(path, text): true when it was taken; reset(path); focus(path), "" when none has it */
+  /**
+   * @param actions  set(path, text): true when it was taken; reset(path); act(path) of a button; focus(path), "" when
+   *                 none has it
+   */
   constructor(actions) {
     this.#actions = actions;
     const pathOf = (event) => event.target.closest('[data-path]')?.dataset.path ?? '';
@@ -155,7 +158,8 @@ export class Controls {
     for (const control of controls.filter(({ group }) => group)) {
       if (!groups.has(control.group))
         groups.set(control.group, make('fieldset', {}, make('legend', { textContent: control.group })));
-      ownerPart(groups.get(control.group), control.owner).append(this.#row(control));
+      const row = control.kind === 'action' ? this.#button(control) : this.#row(control);
+      ownerPart(groups.get(control.group), control.owner).append(row);
     }
     this.element.replaceChildren(...groups.values());
     this.update(controls, profiles);
@@ -166,7 +170,7 @@ export class Controls {
     if (contentOf(controls) !== this.#built) {
       const focused = this.element.getRootNode().activeElement?.closest('[data-path]')?.dataset.path;
       this.build(controls, profiles);
-      if (this.#shows.has(focused)) this.#focus(focused);
+      if (focused) this.#focus(focused);
       return;
     }
     for (const control of controls) this.#shows.get(control.path)?.(valueOf(control, control.value));
@@ -187,7 +191,15 @@ export class Controls {
   }
 
   #focus(path) {
-    this.element.querySelector(`[data-path="${CSS.escape(path)}"] :is(input, select)`).focus();
+    this.element.querySelector(`[data-path="${CSS.escape(path)}"] :is(input, select, button)`)?.focus();
+  }
+
+  #button(control) {
+    const button = make('button', { type: 'button', textContent: control.label, ...described(control) });
+    button.addEventListener('click', () => this.#actions.act(control.path));
+    const row = make('div', { className: 'action' }, button);
+    row.dataset.path = control.path;
+    return row;
   }
 
   #row(control) {

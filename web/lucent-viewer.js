@@ -26,7 +26,8 @@ const kKeys =
   'Arrow keys on a relief move the light or turn the environment, page up and page down lift the light or zoom, ' +
   'shift with arrow keys orbits the camera. Arrow keys in other scenes orbit the camera, page up and page down zoom, ' +
   'shift with arrow keys turns the environment or moves the light, D lets a drop fall into water. Space plays what ' +
-  'moves, 0 goes back, question mark lists all keys, Escape leaves.';
+  'moves, 0 goes back, question mark lists all keys, Escape leaves. In mode paint brackets make the brush smaller and ' +
+  'larger, 1 to 4 choose translucency, blur, glow and outgoing, X erases back to how the object began, G fills.';
 
 const kStyle = new CSSStyleSheet();
 kStyle.replaceSync(css);
@@ -99,6 +100,7 @@ export class LucentViewer extends HTMLElement {
       set: (path, text) => this.#set(path, text),
       get: (path) => this.#runtime.text('viewer_get', this.#handle, path),
       reset: (path) => this.reset(path),
+      act: (path) => this.act(path),
       focus: (path) => this.#apply('viewer_focus', path),
     });
     this.#divider = find('#divider');
@@ -257,6 +259,14 @@ export class LucentViewer extends HTMLElement {
     for (const one of path === undefined ? Object.keys(this.changes) : [path]) this.#apply('viewer_reset', one);
     this.#sync();
   }
+  /** Does what a button of the panel does: "paint.fill", "paint.clearGlow". False, and an error event, when it cannot. */
+  act(path) {
+    const message = this.loaded ? this.#runtime.text('viewer_act', this.#handle, path) : 'no scene is loaded';
+    if (message) this.#fail(new LucentError('value', message));
+    this.#request();
+    this.#sync();
+    return !message;
+  }
   undo() {
     return this.#step('viewer_undo');
   }
@@ -307,8 +317,20 @@ export class LucentViewer extends HTMLElement {
     const text = typeof script === 'string' ? script : JSON.stringify(script);
     const message = this.loaded ? this.#runtime.text('viewer_paint', this.#handle, text, object) : 'no scene is loaded';
     if (message) this.#fail(new LucentError('value', message));
+    this.#request();
     this.#sync();
     return !message;
+  }
+
+  /**
+   * The maps of what is painted on an object, without a name the first that is: side, texels; entering and leaving,
+   * Float32Array of side x side x 4, row by row. Null where nothing is painted.
+   *
+   * entering: factor of the light that enters, and how many times as dense the material is (1 / blur); leaving: factor
+   * of what leaves, and the translucency.
+   */
+  paintedMaps(object = '') {
+    return this.loaded ? this.#runtime.painting(this.#handle, object) : null;
   }
 
   /** All strokes on the painted object, as a script that paint() takes. */

@@ -89,6 +89,15 @@ export class Runtime {
     return new Map(files.map(({ name, at, size }) => [name, this.#wasm.HEAPU8.slice(at, at + size)]));
   }
 
+  /** See paintedMaps() of the element. */
+  painting(handle, object) {
+    const maps = this.json('viewer_painting', handle, object);
+    if (!maps) return null;
+    const { side, entering, leaving } = maps;
+    const texels = (at) => new Float32Array(this.#wasm.HEAPU8.slice(at, at + 16 * side * side).buffer);
+    return { side, entering: texels(entering), leaving: texels(leaving) };
+  }
+
   /** The kind of context a viewer's own canvas must have for show(). */
   get displayContext() {
     return this.#canvas instanceof HTMLCanvasElement ? '2d' : 'bitmaprenderer';

@@ -21,6 +21,11 @@ std::string Renderer::State::leftOut(const scene::Scene& scene, const Drawn& dra
             !std::holds_alternative<scene::DistantLight>(scene.lights[i]))
             line("light " + std::to_string(i) + ": relief knows point and distant lights only");
     if (drawn.meshes.glass.empty()) line("refract: no object that is seen lets light through");
+    const auto& inside = scene.technique.at("subsurface").as<subsurface::Settings>();
+    for (const views::DrawnMesh& mesh : drawn.meshes.solid)
+        if (mesh.paint && mesh.paint->isBlurred() && inside.method == subsurface::Method::Diffusion)
+            line("blur painted on object \"" + mesh.object->name +
+                 "\": method diffusion spreads light as the material says");
     if (std::none_of(objects.begin(), objects.end(),
                      [](const auto& o) { return o.alpha != graph::TextureHandle::None; }))
         line("alpha: no object has an alpha image");

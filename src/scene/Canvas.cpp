@@ -224,9 +224,9 @@ Result<std::shared_ptr<const PaintSurface>> paintSurfaceOf(const Object& object,
 
 Canvas::Canvas(std::shared_ptr<const PaintSurface> surface, float scale,
                std::shared_ptr<const Image> entering, std::shared_ptr<const Image> leaving,
-               std::size_t budget)
-    : surface_(std::move(surface)), scale_(scale),
-      budget_(budget), maps_{std::move(entering), std::move(leaving)} {
+               std::size_t budget, std::optional<float> start)
+    : surface_(std::move(surface)), scale_(scale), budget_(budget),
+      start_(start), maps_{std::move(entering), std::move(leaving)} {
     const int side = surface_->side(), tiles = (side + kTile - 1) / kTile;
     for (auto& map : maps_)
         if (!map) map = unpaintedMap(side);
@@ -378,8 +378,14 @@ void Canvas::cover(std::uint32_t texel, float coverage) {
     setTexel(writable(step_.map), texel, blended(tile.before[inTile(texel)], brush_.strength * coverage));
 }
 
+// What the open stroke aims at.
+vec3 Canvas::target() const {
+    if (!brush_.erase) return brush_.value;
+    return vec3(brush_.map == PaintMap::Translucency ? start_.value_or(startOf(strokes())) : kUnpainted.x);
+}
+
 vec4 Canvas::blended(const vec4& before, float share) const {
-    vec3 target = brush_.erase ? vec3(kUnpainted) : brush_.value;
+    vec3 target = this->target();
     vec4 after = before;
     // At the whole share the value itself, to the bit.
     const auto mixed = [&](float from, float to) { return share >= 1 ? to : from + (to - from) * share; };

@@ -8,6 +8,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -70,8 +71,10 @@ public:
     /// @param scale     of the object: brushes are measured in the world
     /// @param entering  what is there before the first stroke, as large as the surface's picture; null:
     /// unpainted
+    /// @param start     translucency that erasing brings back; nothing: that of the canvas's own first stroke
     Canvas(std::shared_ptr<const PaintSurface> surface, float scale, std::shared_ptr<const Image> entering,
-           std::shared_ptr<const Image> leaving, std::size_t budget = kBudget);
+           std::shared_ptr<const Image> leaving, std::size_t budget = kBudget,
+           std::optional<float> start = {});
 
     /// A stroke of dabs: between begin() and end() the maps show what there is of it already.
     void begin(const Brush& brush);
@@ -115,6 +118,7 @@ private:
     void touch(vec3 centre, vec3 normal, float radius);
     void fill(const Stroke::Fill& fill);
     void cover(std::uint32_t texel, float coverage);
+    vec3 target() const;
     vec4 blended(const vec4& before, float share) const;
     Image& writable(int map);
     Tile& tileOf(std::uint32_t texel);
@@ -126,6 +130,7 @@ private:
     std::shared_ptr<const PaintSurface> surface_;
     float scale_;
     std::size_t budget_;
+    std::optional<float> start_;
     Maps maps_;
     mutable std::array<Image*, 2> own_{}; // of those that nobody else has: what is shown never changes
     std::vector<Stroke> strokes_;

@@ -54,6 +54,15 @@ Result<std::shared_ptr<const Image>> decodeLeaving(std::span<const std::byte> by
     return decodeMap(bytes, name, kTranslucency);
 }
 
+float startOf(std::span<const Stroke> strokes) {
+    if (strokes.empty() || !strokes.front().fill) return kUnpainted.a;
+    const Brush& brush = strokes.front().brush;
+    const Stroke::Fill& fill = *strokes.front().fill;
+    const bool whole = glm::all(glm::isinf(fill.low)) && glm::all(glm::isinf(fill.high));
+    const bool starts = whole && !brush.erase && brush.map == PaintMap::Translucency && brush.strength == 1;
+    return starts ? brush.value.x : kUnpainted.a;
+}
+
 Result<std::shared_ptr<const Painting>> paint(const Object& object, std::span<const Stroke> strokes, int side,
                                               std::shared_ptr<const Image> entering,
                                               std::shared_ptr<const Image> leaving) {

@@ -32,7 +32,7 @@ struct Brush {
     float radius = 0.05f;   ///< m in the world, > 0
     float hardness = 0.5f;  ///< [0,1]: share of the radius in which a dab has its full strength
     float strength = 1;     ///< [0,1] of the value after one stroke, however its dabs overlap
-    bool erase = false;     ///< aims at the unpainted value instead
+    bool erase = false;     ///< aims at how the object began instead: see startOf()
     bool symmetric = false; ///< paints the other side of the object's plane x = 0 as well
 };
 
@@ -73,6 +73,11 @@ struct Painting {
 
 /// What nobody painted changes nothing: the material as it is.
 inline constexpr vec4 kUnpainted{1};
+
+/// The translucency that an object begins with, which erasing brings back: what its first stroke fills all of
+/// it with, where that is one of translucency; else 1, the material as it is. By hand objects begin opaque:
+/// their first stroke fills them with 0.
+float startOf(std::span<const Stroke> strokes);
 
 /// The brightest factor of a colour.
 inline constexpr float kMostPaint = 1e6f;

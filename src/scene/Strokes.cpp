@@ -228,7 +228,9 @@ const ParamTable& brushParams() {
         declare(&Brush::erase, {.id = "erase",
                                 .label = "Erase",
                                 .group = Group::Mode,
-                                .doc = "Brings back what the material has where nothing is painted."}),
+                                .doc = "Brings back how the object began: by hand opaque, in scripts as the "
+                                       "first stroke fills all of it with translucency or else as its "
+                                       "material is; blur, glow and outgoing as the material has them."}),
         declare(&Brush::symmetric, {.id = "symmetric",
                                     .label = "Symmetric",
                                     .group = Group::Mode,

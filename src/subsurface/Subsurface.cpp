@@ -203,6 +203,47 @@ Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs&
     return Done{};
 }
 
+struct LayerBlock {
+    int object = 0, layer = 0;
+    int padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {{"object", offsetof(LayerBlock, object)},
+                                                             {"layer", offsetof(LayerBlock, layer)}};
+        static const graph::BlockLayout layout{"PaintLayerBlock", sizeof(LayerBlock), members};
+        return layout;
+    }
+};
+
+// Shows what is painted on objects in place of their light.
+Status recordLayer(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
+                   const std::vector<views::PosedMesh>& painted, PaintLayer layer) {
+    const bool entering = layer == PaintLayer::Blur || layer == PaintLayer::Glow;
+    Result<TextureId> map = entering ? views::recordEnteringMap(graph, context, in.eye, painted, in.size)
+                                     : views::recordLeaving(graph, context, in.eye, painted, in.size);
+    if (!map) return map.error();
+    Result<const gl::Program*> program = context.program("subsurface/layer");
+    if (!program) return program.error();
+    std::vector<graph::Block> blocks;
+    for (const views::PosedMesh& mesh : painted)
+        blocks.push_back(LayerBlock{.object = mesh.drawn.index, .layer = int(layer)});
+    graph.addPass("subsurface.layer", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what is painted on " + std::to_string(painted.size()) +
+                    " object(s), in place of their light");
+        pass.sample(in.surface);
+        pass.sample(*map);
+        pass.write(in.target);
+        return [blocks, surface = in.surface, paint = *map,
+                program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            for (const graph::Block& block : blocks)
+                commands.draw({.program = program,
+                               .block = block,
+                               .textures = {{"uSurface", resources[surface]}, {"uPaint", resources[paint]}}});
+        };
+    });
+    return Done{};
+}
+
 // --- plan
 
 // What a kernel is made of.
@@ -295,8 +336,7 @@ void warnOfPaint(const views::DrawnMesh& mesh, const Grid& grid, const Settings&
     const views::Paint& paint = *mesh.paint;
     const std::string object = "subsurface: object \"" + mesh.object->name + "\" is painted with ";
     if (settings.method == Method::Diffusion) {
-        if (paint.bluntest != 1 || paint.sharpest != 1)
-            warnOnce(object + "blur, which method diffusion does not draw");
+        if (paint.isBlurred()) warnOnce(object + "blur, which method diffusion does not draw");
     } else if (paint.sharpest > grid.sharpness.most) {
         warnOnce(object + "less blur than mostSplats can tell apart; M_d counts as " +
                  std::to_string(grid.sharpness.most) + " at most");
@@ -498,7 +538,15 @@ void Subsurface::clear() {
 
 Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
                           const Settings& settings) const {
-    const std::vector<views::PosedMesh> objects = scattering(in.solids);
+    std::vector<views::PosedMesh> objects = scattering(in.solids);
+    if (settings.layer != PaintLayer::None && !showsLight(in)) {
+        const auto rest = std::stable_partition(
+            objects.begin(), objects.end(), [](const views::PosedMesh& mesh) { return !mesh.drawn.paint; });
+        const std::vector<views::PosedMesh> painted(rest, objects.end());
+        objects.erase(rest, objects.end());
+        if (!painted.empty())
+            if (Status s = recordLayer(graph, context_, in, painted, settings.layer); !s) return s;
+    }
     if (objects.empty()) return Done{};
     Result<Radiosity> radiosity = in.irradiance || settings.method == Method::Lambert
                                       ? recordLambert(graph, context_, in, objects, settings)

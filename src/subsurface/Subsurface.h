@@ -25,6 +25,8 @@ enum class DipoleGeometry : int { Planar, Offset };
 enum class Splats : int { Bound, Paper };
 enum class Exit : int { Whole, Paper };
 enum class BlurEnergy : int { Kept, Paper };
+/// A painted map shown on its object in place of light.
+enum class PaintLayer : int { None, Translucency, Blur, Glow, Outgoing };
 
 struct Settings {
     Method method = Method::Multires;
@@ -38,6 +40,7 @@ struct Settings {
     int lightSamples = 16;                    ///< points that stand for a lamp with a size
     int cells = 48;                           ///< along the longest side of a body, of diffusion
     bool temporal = false;                    ///< light is mixed with that of the picture before
+    PaintLayer layer = PaintLayer::None;      ///< no parameter: who paints asks for it, not a scene
 };
 
 /// Whether a parameter changes anything beside these choices.

@@ -196,14 +196,17 @@ void Viewer::State::reset(const std::string& path) {
             (void)change(one.bound.path, one.loaded, step);
 }
 
-// What belongs to the view alone is no step to take back, and changes no picture but by `matt`.
+// What belongs to the view alone is no step to take back, and changes no picture but by `matt` and layers of
+// paint.
 Status Viewer::State::changeView(const BoundParam& bound, const std::string& value) {
     const std::string before = getText(*bound.param, bound.data);
     if (Status set = setText(*bound.param, bound.data, value); !set)
         return Error{bound.path + " " + set.error().message};
     if (getText(*bound.param, bound.data) == before) return Done{};
     if (bound.data == &mode.mode || bound.path.starts_with("paint.")) bind(); // other controls stand there
-    if (bound.data == &mode.matt) stale = true;
+    const bool seen = bound.data == &mode.matt || bound.data == &paintSettings.layer ||
+                      (bound.data == &mode.mode && paintSettings.layer != subsurface::PaintLayer::None);
+    if (seen) stale = true;
     ++revision;
     settled = false;
     return Done{};

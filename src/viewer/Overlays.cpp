@@ -43,7 +43,20 @@ constexpr HelpLine kOrbitHelp[] = {
     {"Shift + arrows", "turn the environment, or move the light"},
     {"Space", "plays what moves, or stops it"},
 };
-static_assert(std::size(kReliefHelp) == std::size(kOrbitHelp)); // one card for both
+constexpr HelpLine kPaintHelp[] = {
+    {"Drag", "paints what is translucent, else orbits"},
+    {"Shift + drag", "orbits the camera"},
+    {"1, 2, 3, 4", "translucency, blur, glow, outgoing"},
+    {"[ and ]", "make the brush smaller, larger"},
+    {"X", "erases: back to how the object began"},
+    {"G", "fills all of the object"},
+    {"Wheel, pinch", "zooms"},
+    {"Arrows", "orbit the camera"},
+    {"Space", "plays what moves, or stops it"},
+};
+// One card for all.
+static_assert(std::size(kReliefHelp) == std::size(kOrbitHelp));
+static_assert(std::size(kReliefHelp) == std::size(kPaintHelp));
 constexpr HelpLine kHelp[] = {
     {"0, Home", "camera and light as they were"},
     {"Ctrl + Z, Ctrl + Y", "undo, redo"},
@@ -150,7 +163,7 @@ bool drawMessage(const std::string& message, vec2 picture, const Theme& theme) {
     return closed;
 }
 
-bool drawHelp(bool orbiting, vec2 picture, const Theme& theme) {
+bool drawHelp(Hand hand, vec2 picture, const Theme& theme) {
     const std::size_t lines = std::size(kReliefHelp) + std::size(kHelp);
     const vec2 size(std::min(470.0f, picture.x - 2 * kMargin), float(lines) * kLine + 2 * kPadding);
     const vec2 at = glm::max((picture - size) / 2.0f, vec2(kMargin));
@@ -164,7 +177,8 @@ bool drawHelp(bool orbiting, vec2 picture, const Theme& theme) {
             y += kLine;
         }
     };
-    write(orbiting ? kOrbitHelp : kReliefHelp);
+    constexpr std::span<const HelpLine> kOfHands[] = {kReliefHelp, kOrbitHelp, kPaintHelp};
+    write(kOfHands[int(hand)]);
     write(kHelp);
     const bool closed = closeButton({at.x + size.x, at.y}, theme);
     ImGui::End();

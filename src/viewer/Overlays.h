@@ -16,10 +16,10 @@ void drawLightDot(vec2 place, vec3 color);
 /// A card at the top with a message. @return true when its close button was pressed
 bool drawMessage(const std::string& message, vec2 picture, const Theme& theme);
 
+/// What a drag on the picture is for: a relief's light, the camera where there is none, or a brush.
+enum class Hand { Light, Camera, Brush };
 /// The list of gestures and keys. @return true when it was closed
-///
-/// @param orbiting  a drag is for the camera, with Shift for the light: a scene without a relief
-bool drawHelp(bool orbiting, vec2 picture, const Theme& theme);
+bool drawHelp(Hand hand, vec2 picture, const Theme& theme);
 
 /// One line at the bottom: what the last complete picture cost.
 void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme);

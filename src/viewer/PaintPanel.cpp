@@ -4,9 +4,7 @@
 #include "scene/Canvas.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 namespace lucent::viewer {
 
@@ -16,15 +14,6 @@ constexpr float kSpacing = 0.25f;     // of the radius, between dabs
 constexpr float kLeastSpacing = 1;    // CSS pixels
 constexpr float kRadiusFactor = 1.2f; // a key's
 constexpr int kRing = 64;             // corners
-
-constexpr std::array kMaps = {scene::PaintMap::Translucency, scene::PaintMap::Blur, scene::PaintMap::Glow,
-                              scene::PaintMap::Outgoing};
-
-// All of an object.
-scene::Stroke everywhere(const scene::Brush& brush) {
-    constexpr float kEndless = std::numeric_limits<float>::infinity();
-    return {brush, {}, scene::Stroke::Fill{vec3(-kEndless), vec3(kEndless)}};
-}
 
 } // namespace
 
@@ -80,9 +69,19 @@ void Viewer::State::dabOnce(vec2 position, float withPressure) {
     painted();
 }
 
+// Says what of a stroke the chosen method does not draw.
+void Viewer::State::noteUndrawn(const scene::Stroke& stroke) {
+    const auto& settings = scene->technique.at("subsurface").as<subsurface::Settings>();
+    if (stroke.brush.map == scene::PaintMap::Blur && settings.method == subsurface::Method::Diffusion)
+        message =
+            "Painted blur is kept, but method diffusion spreads light as the material says; multires and "
+            "splat draw it.";
+}
+
 void Viewer::State::endStroke() {
     scene::Object& object = scene->objects[paintObject];
     painter.end(object);
+    noteUndrawn(object.painting->strokes.back());
     history.record(gesture, {kStrokesOn + object.name, std::to_string(paintBefore),
                              std::to_string(painter.count(object))});
     bind(); // the matt share has a colour now
@@ -95,22 +94,45 @@ Status Viewer::State::addStrokes(std::size_t index, std::span<const scene::Strok
     if (Status added = painter.add(object, strokes); !added) return added;
     history.record(gesture,
                    {kStrokesOn + object.name, std::to_string(before), std::to_string(painter.count(object))});
+    for (const scene::Stroke& stroke : strokes)
+        noteUndrawn(stroke);
     bind();
     painted();
     return Done{};
 }
 
 // All of the object that was painted last, or of the first one that can be.
-void Viewer::State::fillWith(scene::Brush brush) {
+void Viewer::State::fillWith(const scene::Brush& brush) {
     const auto& objects = scene->objects;
     if (paintObject >= objects.size() || !isPaintable(objects[paintObject]))
         paintObject =
             std::size_t(std::find_if(objects.begin(), objects.end(), isPaintable) - objects.begin());
     if (paintObject == objects.size()) return;
+    std::vector<scene::Stroke> strokes;
+    if (!objects[paintObject].painting) {
+        if (brush.erase) return; // there is nothing to clear
+        strokes.push_back(opaqueStart());
+    }
+    strokes.push_back(everywhere(brush));
     ++gesture;
-    const scene::Stroke stroke = everywhere(brush);
-    if (Status filled = addStrokes(paintObject, {&stroke, 1}); !filled) message = filled.error().message;
+    if (Status filled = addStrokes(paintObject, strokes); !filled) message = filled.error().message;
     ++gesture;
+}
+
+std::span<const Action> Viewer::State::actions() const {
+    return painting() ? paintActions() : std::span<const Action>();
+}
+
+Status Viewer::State::act(std::string_view path) {
+    const std::span<const Action> offered = actions();
+    const auto found = std::find_if(offered.begin(), offered.end(),
+                                    [&](const Action& action) { return action.path == path; });
+    if (found == offered.end())
+        return Error{std::string(path) + ": cannot be done now; actions of paint need the mode paint"};
+    const auto number = found - offered.begin();
+    number == 0 ? fillWith(brushOf(paintSettings))
+                : fillWith({.map = scene::PaintMap(number - 1), .erase = true});
+    return Done{};
 }
 
 bool Viewer::State::paintKey(const std::string& key) {
@@ -141,19 +163,6 @@ void Viewer::State::paintOverlay() {
         list.AddCircle({hoverAt.x, hoverAt.y}, radius + 1, IM_COL32(0, 0, 0, 160), kRing, 1);
         list.AddCircle({hoverAt.x, hoverAt.y}, radius, IM_COL32(255, 255, 255, 220), kRing, 1.5f);
     }
-    // What is done at once stands in a row below the picture's upper edge.
-    ImGui::SetNextWindowPos({open.low.x + layout::kText, open.low.y + layout::kText});
-    ImGui::Begin("##paint", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
-    if (ImGui::Button("Fill")) fillWith(brushOf(paintSettings));
-    const auto names = scene::brushParams().params[0].choices;
-    for (const scene::PaintMap map : kMaps) {
-        ImGui::SameLine();
-        const std::string label = "Clear " + std::string(names[std::size_t(map)]);
-        if (ImGui::Button(label.c_str())) fillWith({.map = map, .erase = true});
-    }
-    ImGui::End();
 }
 
 } // namespace lucent::viewer

@@ -50,6 +50,21 @@ const ParamTable& valueParams() {
     return table;
 }
 
+const Param& layerParam() {
+    static constexpr std::string_view names[] = {"light", "translucency", "blur", "glow", "outgoing"};
+    static const Param param = declare(
+        &PaintSettings::layer,
+        {.id = "layer",
+         .label = "Show",
+         .group = Group::Mode,
+         .doc =
+             "What painted objects show: light; or a layer of their paint. Translucency and blur are grey: "
+             "black is opaque, or a 16th as far as the material says; white is translucent, or 16 times as "
+             "far. Glow and outgoing are their colours.",
+         .choices = names});
+    return param;
+}
+
 bool isUsed(const scene::Brush& brush, std::string_view value) {
     if (brush.erase) return false;
     if (brush.map == scene::PaintMap::Translucency) return value == "translucency";
@@ -86,7 +101,23 @@ std::vector<BoundParam> bindPaint(PaintSettings& settings, bool shown) {
         for (const Param& value : valueParams().params)
             add(value, &settings, &defaults, isUsed(settings.brush, value.id));
     }
+    add(layerParam(), &settings, &defaults, true);
     return bound;
+}
+
+std::span<const Action> paintActions() {
+    static constexpr Action actions[] = {
+        {"paint.fill", "Fill", "All of the object with the brush's value (key G)."},
+        {"paint.clearTranslucency", "Clear translucency", "All of it as translucent as it began."},
+        {"paint.clearBlur", "Clear blur", "Light spreads everywhere as far as the material says."},
+        {"paint.clearGlow", "Clear glow", "Light has everywhere the brightness and colour of the material."},
+        {"paint.clearOutgoing", "Clear outgoing", "Nothing is painted on top."}};
+    return actions;
+}
+
+void applyLayer(const PaintSettings& settings, bool shown, scene::Scene& scene) {
+    auto* technique = static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data());
+    technique->layer = shown ? settings.layer : subsurface::PaintLayer::None;
 }
 
 scene::Brush brushOf(const PaintSettings& settings) {
@@ -97,6 +128,12 @@ scene::Brush brushOf(const PaintSettings& settings) {
     if (brush.erase) brush.value = vec3(1);
     return brush;
 }
+
+scene::Stroke everywhere(const scene::Brush& brush) {
+    return {brush, {}, scene::Stroke::Fill{vec3(-kEndless), vec3(kEndless)}};
+}
+
+scene::Stroke opaqueStart() { return everywhere({.map = scene::PaintMap::Translucency, .value = vec3(0)}); }
 
 bool isPaintable(const scene::Object& object) {
     return object.material.isScattering() && !object.isField() &&
@@ -186,8 +223,10 @@ Result<Painter::Easel*> Painter::easelOf(scene::Object& object) {
     const auto surface = scene::paintSurfaceOf(object, first ? first->side() : scene::kUsualPaintSide);
     if (!surface) return Error{"objects." + object.name + ": " + surface.error().message};
     const float scale = first ? first->scale : object.transform.scale;
-    scene::Canvas canvas(*surface, scale, first ? first->entering : nullptr,
-                         first ? first->leaving : nullptr);
+    std::optional<float> start; // of strokes that are in the maps already
+    if (first && !first->strokes.empty()) start = scene::startOf(first->strokes);
+    scene::Canvas canvas(*surface, scale, first ? first->entering : nullptr, first ? first->leaving : nullptr,
+                         scene::Canvas::kBudget, start);
     if (found != easels_.end())
         for (const scene::Stroke& stroke : found->second.canvas.strokes())
             canvas.add(stroke);
@@ -220,10 +259,7 @@ Status Painter::begin(scene::Object& object, const scene::Brush& brush) {
     const Result<Easel*> easel = easelOf(object);
     if (!easel) return easel.error();
     scene::Canvas& canvas = (*easel)->canvas;
-    if (!object.painting)
-        canvas.add({{.map = scene::PaintMap::Translucency, .value = vec3(0)},
-                    {},
-                    scene::Stroke::Fill{vec3(-kEndless), vec3(kEndless)}});
+    if (!object.painting) canvas.add(opaqueStart());
     canvas.begin(asOfEasel(brush, object, **easel));
     return Done{};
 }

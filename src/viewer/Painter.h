@@ -5,7 +5,9 @@
 #include "base/Param.h"
 #include "scene/Canvas.h"
 #include "scene/Scene.h"
+#include "subsurface/Subsurface.h"
 #include "viewer/Interaction.h"
+#include "viewer/Panel.h"
 
 #include <map>
 #include <memory>
@@ -18,16 +20,28 @@ namespace lucent::viewer {
 /// The brush in hand. Part of the view, not of the scene: no undo step, not in a scene file.
 struct PaintSettings {
     scene::Brush brush;
-    float translucency = 1, blur = 2; ///< values of the brushes that take a number
-    vec3 color{1};                    ///< of the others,
-    float brightness = 1;             ///< times this
+    subsurface::PaintLayer layer = subsurface::PaintLayer::None; ///< shown in place of light
+    float translucency = 1, blur = 2;                            ///< values of the brushes that take a number
+    vec3 color{1};                                               ///< of the others,
+    float brightness = 1;                                        ///< times this
 };
 
 /// "paint.brush", "paint.radius" and so on; the values of other brushes are not shown. Shown while a person
 /// paints.
 std::vector<BoundParam> bindPaint(PaintSettings& settings, bool shown);
+/// The scene as it is drawn while a layer of paint is looked at.
+void applyLayer(const PaintSettings& settings, bool shown, scene::Scene& scene);
 /// The brush with the value that it aims at.
 scene::Brush brushOf(const PaintSettings& settings);
+
+/// What is done at once with a whole object: "paint.fill" with the brush, "paint.clearTranslucency" and so on
+/// in the order of scene::PaintMap.
+std::span<const Action> paintActions();
+
+/// A stroke over all of an object.
+scene::Stroke everywhere(const scene::Brush& brush);
+/// The first stroke on an object that is painted by hand: only what a brush makes translucent scatters.
+scene::Stroke opaqueStart();
 
 /// In front of an object's name: path of how many strokes are on it, among what was changed.
 inline const std::string kStrokesOn = "strokes on ";
@@ -82,10 +96,6 @@ public:
     void end(scene::Object& object);
     /// Whole strokes.
     Status add(scene::Object& object, std::span<const scene::Stroke> strokes);
-    /// Those of the object, the ones that it was loaded with before them; none where it has no paint.
-    static std::vector<scene::Stroke> strokesOf(const scene::Object& object) {
-        return object.painting ? object.painting->strokes : std::vector<scene::Stroke>{};
-    }
     /// Takes strokes back, or does them again, until so many are done.
     void go(scene::Object& object, int count);
 

@@ -185,6 +185,7 @@ private:
     void body(Rect place);
     bool groupHeading(Group group);
     void groupControls(Group group);
+    void groupActions(Group group);
     void ownerHeading(const std::string& owner);
     void profileOf(const std::string& owner);
     void control(const Control& control);
@@ -220,9 +221,9 @@ private:
         ImGui::Dummy({width_, height});
         return at;
     }
-    void seen(const Control& control, vec2 low, vec2 high);
+    void seen(std::string_view path, vec2 low, vec2 high);
     void edit(const Control& control, std::string text) {
-        edits_.push_back({control.bound.path, std::move(text)});
+        edits_.push_back({control.bound.path, std::move(text), Edit::Kind::Set});
     }
     void editComponent(const Control& control, int component, const std::string& text) {
         edit(control, withComponent(control.bound, component, text));
@@ -348,8 +349,28 @@ void Panel::Frame::groupControls(Group group) {
         control(c);
     }
     if (group == Group::Subsurface) profileOf(owner);
+    groupActions(group);
     const vec2 at = take(kGap);
     list_->AddLine({at.x, at.y + kGap - 1}, {at.x + width_, at.y + kGap - 1}, theme_.cardBorder);
+}
+
+void Panel::Frame::groupActions(Group group) {
+    const vec2 start = glmVec(ImGui::GetCursorScreenPos());
+    vec2 at = start;
+    for (const Action& action : input_.actions) {
+        if (action.group != group) continue;
+        const vec2 size(textWidth(action.label) + 20, kChip);
+        if (at.x > start.x && at.x + size.x > start.x + width_) at = {start.x, at.y + kChip + kChipGap};
+        list_->AddRectFilled(im(at), im(at + size), theme_.track, kRound);
+        if (button(action.path.data(), at, size))
+            edits_.push_back({std::string(action.path), "", Edit::Kind::Act});
+        if (action.path == input_.focus)
+            list_->AddRect(im(at - vec2(2)), im(at + size + vec2(2)), theme_.accentFaint, kRound, 0, 2);
+        text({at.x + 10, at.y + (kChip - kText) / 2 - 1}, theme_.text, action.label);
+        seen(action.path, at, at + size);
+        at.x += size.x + kChipGap;
+    }
+    if (at != start) take(at.y + kChip + kGap - start.y);
 }
 
 void Panel::Frame::ownerHeading(const std::string& owner) {
@@ -419,7 +440,7 @@ void Panel::Frame::labelLine(const Control& control, const std::string& valueTex
 // An arrow that turns back, drawn because it must look the same in every type size.
 void Panel::Frame::resetMark(const Control& control, vec2 at) {
     if (button("reset", at - vec2(11), vec2(22)))
-        edits_.push_back({control.bound.path, control.loaded, true});
+        edits_.push_back({control.bound.path, control.loaded, Edit::Kind::Reset});
     const ImU32 ink = ImGui::IsItemHovered() ? theme_.text : theme_.accent;
     list_->PathArcTo(im(at), 4.5f, -2.2f, 3.0f, 16);
     list_->PathStroke(ink, 0, 1.5f);
@@ -466,8 +487,8 @@ bool Panel::Frame::heldArea(const char* id, vec2 at, vec2 size, vec2& t) {
     return ImGui::IsItemActive();
 }
 
-void Panel::Frame::seen(const Control& control, vec2 low, vec2 high) {
-    if (low.y >= clip_.low.y && high.y <= clip_.high.y) panel_.widgets_[control.bound.path] = {low, high};
+void Panel::Frame::seen(std::string_view path, vec2 low, vec2 high) {
+    if (low.y >= clip_.low.y && high.y <= clip_.high.y) panel_.widgets_[std::string(path)] = {low, high};
 }
 
 // --- typing
@@ -536,7 +557,7 @@ void Panel::Frame::number(const Control& control) {
     labelLine(control, withUnit(param, numberText(param, getComponent(param, control.bound.data, 0))), 0);
     const vec2 at = take(kSlider);
     slider(control, 0, at, width_);
-    seen(control, at, at + vec2(width_, kSlider));
+    seen(control.bound.path, at, at + vec2(width_, kSlider));
 }
 
 void Panel::Frame::vector(const Control& control) {
@@ -552,7 +573,7 @@ void Panel::Frame::vector(const Control& control) {
         value(control, i, withUnit(param, numberText(param, getComponent(param, control.bound.data, i))),
               {at.x + width_, at.y + 4});
     }
-    seen(control, start + vec2(kAxis, 0), start + vec2(kAxis + sliderWidth, float(count) * kLine));
+    seen(control.bound.path, start + vec2(kAxis, 0), start + vec2(kAxis + sliderWidth, float(count) * kLine));
 }
 
 void Panel::Frame::range(const Control& control) {
@@ -574,7 +595,7 @@ void Panel::Frame::range(const Control& control) {
     if (ImGui::IsItemActivated()) panel_.handle_ = pointer.x > (a + b) / 2 ? 1 : 0;
     knob({at.x + a * width_, at.y + kSlider / 2}, lively);
     knob({at.x + b * width_, at.y + kSlider / 2}, lively);
-    seen(control, at, at + vec2(width_, kSlider));
+    seen(control.bound.path, at, at + vec2(width_, kSlider));
     if (!held) return;
     // An end stops at the other one.
     const float t = panel_.handle_ ? std::max(pointer.x, a) : std::min(pointer.x, b);
@@ -595,7 +616,7 @@ void Panel::Frame::toggle(const Control& control) {
     const float r = kSwitch.y / 2;
     list_->AddCircleFilled({on ? at.x + kSwitch.x - r : at.x + r, at.y + r}, r - 3, theme_.knob);
     if (button("toggle", at, kSwitch)) edit(control, on ? "false" : "true");
-    seen(control, at, at + kSwitch);
+    seen(control.bound.path, at, at + kSwitch);
 }
 
 void Panel::Frame::choice(const Control& control) {
@@ -617,7 +638,7 @@ void Panel::Frame::choice(const Control& control) {
         at.x += width + kChipGap;
     }
     take(at.y + kChip - start.y);
-    seen(control, start, {start.x + width_, at.y + kChip});
+    seen(control.bound.path, start, {start.x + width_, at.y + kChip});
 }
 
 void Panel::Frame::color(const Control& control) {
@@ -629,7 +650,7 @@ void Panel::Frame::color(const Control& control) {
     list_->AddRect(im(at), im(at + kSwatch), open ? theme_.accent : theme_.cardBorder, kRound, 0,
                    open ? 2.0f : 1.0f);
     if (button("swatch", at, kSwatch)) panel_.picker_ = open ? "" : control.bound.path;
-    seen(control, at, at + kSwatch);
+    seen(control.bound.path, at, at + kSwatch);
     if (open) picker(control);
 }
 

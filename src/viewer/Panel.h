@@ -28,10 +28,17 @@ std::string ownerOf(const BoundParam& bound);
 /// The same where its group has controls of several; else "".
 std::string headingOf(const Control& control, std::span<const Control> controls);
 
-/// What a person did in the panel: the parameter and its new value as text, not yet checked.
+/// What a person did in the panel: the parameter and its new value as text, not yet checked; or an action.
 struct Edit {
+    enum class Kind { Set, Reset, Act };
     std::string path, text;
-    bool reset = false; ///< back to the value as loaded, which is `text`
+    Kind kind = Kind::Set; ///< Reset: back to the value as loaded, which is `text`
+};
+
+/// What is done at once: a button.
+struct Action {
+    std::string_view path, label, doc;
+    Group group = Group::Mode; ///< below whose controls it stands
 };
 
 /// CSS pixels from the top left corner.
@@ -43,6 +50,7 @@ struct Rect {
 struct PanelInput {
     std::string_view title;
     std::span<const Control> controls;
+    std::span<const Action> actions;
     std::span<const ProfilePlot> profiles; ///< each stands below the controls of its object
     std::string_view focus;                ///< path of the control whose twin has the keyboard focus
     vec2 canvas;                           ///< CSS pixels
@@ -67,8 +75,8 @@ public:
     /// True while a value is being typed: keys belong to the panel.
     bool typing() const { return !typing_.path.empty(); }
 
-    /// Where the widgets of the controls are that can be seen in full, by path. The rows of a vector share
-    /// their height equally.
+    /// Where the widgets of the controls and actions are that can be seen in full, by path. The rows of a
+    /// vector share their height equally.
     const std::map<std::string, Rect>& widgets() const { return widgets_; }
     /// Control under the pointer ("" for none) and where it is.
     const std::string& hovered() const { return hovered_; }

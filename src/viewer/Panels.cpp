@@ -86,6 +86,7 @@ void Viewer::State::frame() {
     if (scene)
         edits = panel.draw({.title = scene->title,
                             .controls = controls,
+                            .actions = actions(),
                             .profiles = profiles,
                             .focus = focus == "divider" ? "" : focus, // which is not in the panel
                             .canvas = canvas(),
@@ -95,8 +96,10 @@ void Viewer::State::frame() {
     ImGui::Render();
     settled = false;
     for (const Edit& edit : edits)
-        if (edit.reset)
+        if (edit.kind == Edit::Kind::Reset)
             reset(edit.path);
+        else if (edit.kind == Edit::Kind::Act)
+            (void)act(edit.path);
         else if (Status set = change(edit.path, edit.text, burst(edit.path)); !set)
             message = set.error().message;
 }
@@ -116,7 +119,8 @@ void Viewer::State::overlays() {
     paintOverlay();
     if (showStats && renderer && compare.mode == CompareMode::Off) // whose card holds the cost as well
         drawStats(renderer->stats(), openSize(), theme(dark));
-    if (help && drawHelp(scene && !hasField(), size, theme(dark))) help = false;
+    const Hand hand = painting() ? Hand::Brush : scene && !hasField() ? Hand::Camera : Hand::Light;
+    if (help && drawHelp(hand, size, theme(dark))) help = false;
     if (!message.empty() && drawMessage(message, size, theme(dark))) message.clear();
     if (const Control* control = find(tooltip); control && panel.hovered() == tooltip)
         drawTooltip(control->bound.param->doc, panel.hoveredPlace(), canvas(), theme(dark));

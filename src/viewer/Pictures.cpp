@@ -20,6 +20,7 @@ bool Viewer::State::advance() {
     if (stale && phase != Phase::Look) {
         picture = *scene;
         applyMatt(mode, picture);
+        applyLayer(paintSettings, painting(), picture);
         picture.camera = seenCamera();
         if (dropTime && picture.view.time < *dropTime) dropTime.reset(); // the water begins anew
         ++pictureNumber;

@@ -32,6 +32,14 @@ void writeControl(JsonWriter& json, const Control& control, std::span<const Cont
     json.end();
 }
 
+void writeAction(JsonWriter& json, const Action& action) {
+    json.beginObject();
+    json.key("path").value(action.path).key("attribute").value("").key("label").value(action.label);
+    json.key("group").value(name(action.group)).key("doc").value(action.doc);
+    json.key("owner").value("").key("kind").value("action").key("choices").beginArray().end();
+    json.key("value").value("").key("default").value("").end();
+}
+
 // W of each colour.
 void writeEnergy(JsonWriter& json, const caustics::Energy& energy) {
     const auto write = [&](const char* name, dvec3 watts) {
@@ -55,11 +63,13 @@ void writeRect(JsonWriter& json, const Rect& rect) {
 
 } // namespace
 
-std::string controlsJson(std::span<const Control> controls) {
+std::string controlsJson(std::span<const Control> controls, std::span<const Action> actions) {
     JsonWriter json;
     json.beginArray();
     for (const Control& control : controls)
         writeControl(json, control, controls);
+    for (const Action& action : actions)
+        writeAction(json, action);
     json.end();
     return json.text();
 }

@@ -10,8 +10,8 @@
 
 namespace lucent::viewer {
 
-/// Array of the controls in panel order; those of Group::None too, with an empty group.
-std::string controlsJson(std::span<const Control> controls);
+/// Array of the controls in panel order; those of Group::None too, with an empty group. Then the actions.
+std::string controlsJson(std::span<const Control> controls, std::span<const Action> actions);
 
 /// Object path -> value of every parameter that differs from the loaded scene.
 ///

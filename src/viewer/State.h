@@ -184,9 +184,12 @@ struct Viewer::State {
     void dabTo(vec2 position);
     void dabOnce(vec2 position, float withPressure);
     void endStroke();
+    void noteUndrawn(const scene::Stroke& stroke);
     void painted();
     Status addStrokes(std::size_t object, std::span<const scene::Stroke> strokes);
-    void fillWith(scene::Brush brush);
+    void fillWith(const scene::Brush& brush);
+    std::span<const Action> actions() const;
+    Status act(std::string_view path);
     bool paintKey(const std::string& key);
     void paintOverlay();
 

@@ -285,7 +285,12 @@ void Viewer::focusControl(const std::string& path) {
     state_->settled = false;
 }
 
-std::string Viewer::controls() { return controlsJson(state_->controls); }
+Status Viewer::act(const std::string& path) {
+    state_->settled = false;
+    return state_->act(path);
+}
+
+std::string Viewer::controls() { return controlsJson(state_->controls, state_->actions()); }
 
 std::string Viewer::stats() const {
     const State& s = *state_;
@@ -326,12 +331,16 @@ Status Viewer::paint(std::string_view script, const std::string& object) {
     return s.addStrokes(std::size_t(found - objects.begin()), *strokes);
 }
 
-std::string Viewer::strokes(const std::string& object) const {
-    std::vector<scene::Stroke> strokes;
+std::shared_ptr<const scene::Painting> Viewer::painting(const std::string& object) const {
     if (state_->scene)
         for (const scene::Object& one : state_->scene->objects)
-            if (strokes.empty() && (object.empty() || one.name == object)) strokes = Painter::strokesOf(one);
-    return scene::toJson(strokes);
+            if (one.painting && (object.empty() || one.name == object)) return one.painting;
+    return nullptr;
+}
+
+std::string Viewer::strokes(const std::string& object) const {
+    const auto painted = painting(object);
+    return scene::toJson(painted ? painted->strokes : std::vector<scene::Stroke>{});
 }
 
 std::string Viewer::title() const { return state_->scene ? state_->scene->title : ""; }

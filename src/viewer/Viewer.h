@@ -77,12 +77,15 @@ public:
     void reset(const std::string& path);
     bool undo();
     bool redo();
+    /// Does what a button of the panel does, by its path in controls(). Error where that cannot be done now.
+    Status act(const std::string& path);
     /// Marks one control of the panel: its DOM twin has the keyboard focus ("" for none).
     void focusControl(const std::string& path);
 
     /// JSON array of the controls in panel order: path, attribute, label, unit, group, doc, kind, components,
     /// min, max, low, high, logarithmic, choices, value, default (as loaded; both as text). An empty group:
-    /// not in the panel. The DOM twin is made from it.
+    /// not in the panel. Buttons stand at the end: path, label, group, doc and the kind "action". The DOM
+    /// twin is made from it.
     std::string controls();
     /// JSON: milliseconds, passes, draws, lights, bytes, complete, frames, revision; light: [x, y] of the
     /// dot; panel: path -> [x, y, width, height] of each control's widget that can be seen in full. CSS
@@ -101,6 +104,8 @@ public:
     Status paint(std::string_view script, const std::string& object = "");
     /// The script of all strokes on an object; "": the first that is painted, or an empty script.
     std::string strokes(const std::string& object = "") const;
+    /// What is painted on an object, "": the first that is painted; null where nothing is.
+    std::shared_ptr<const scene::Painting> painting(const std::string& object = "") const;
 
     /// While the parameter "playing" is on, which scenes have in which something moves, each draw() shows a
     /// later moment: view.time follows its clock.

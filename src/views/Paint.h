@@ -39,6 +39,8 @@ struct Paint {
     graph::TextureHandle entering, leaving; ///< scene::Painting's maps
     graph::TextureHandle places;
     float bluntest, sharpest; ///< least and largest M_d
+
+    bool isBlurred() const { return bluntest != 1 || sharpest != 1; }
 };
 
 /// What shaders/views/paint.glsl samples for what enters.
@@ -50,6 +52,10 @@ std::vector<graph::Binding> enteringBindings(const Paint& paint);
 /// @return           RGBA32F. rgb: M_i times translucency, a: M_d
 Result<graph::TextureId> recordEntering(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
                                         const PosedMesh& mesh, ivec2 size);
+
+/// The map itself on painted objects. rgb: M_i, a: M_d
+Result<graph::TextureId> recordEnteringMap(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                                           const std::vector<PosedMesh>& meshes, ivec2 size);
 
 /// The same for what leaves painted objects. rgb: its factor; a: translucency
 Result<graph::TextureId> recordLeaving(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,

@@ -169,6 +169,16 @@ const char* viewer_paint(int viewer, const char* script, const char* object) {
 const char* viewer_strokes(int viewer, const char* object) {
     return answer(viewerOf(viewer).strokes(object));
 }
+const char* viewer_painting(int viewer, const char* object) {
+    const auto painting = viewerOf(viewer).painting(object);
+    if (!painting) return answer("null");
+    const auto address = [](const Image& map) { return double(std::uintptr_t(map.pixels.data())); };
+    JsonWriter json;
+    json.beginObject().key("side").value(painting->side());
+    json.key("entering").value(address(*painting->entering));
+    json.key("leaving").value(address(*painting->leaving)).end();
+    return answer(json.text());
+}
 const char* viewer_get(int viewer, const char* path) { return answer(viewerOf(viewer).get(path)); }
 const char* viewer_set(int viewer, const char* path, const char* value) {
     return answer(viewerOf(viewer).set(path, value));
@@ -176,6 +186,7 @@ const char* viewer_set(int viewer, const char* path, const char* value) {
 void viewer_reset(int viewer, const char* path) { viewerOf(viewer).reset(path); }
 int viewer_undo(int viewer) { return viewerOf(viewer).undo(); }
 int viewer_redo(int viewer) { return viewerOf(viewer).redo(); }
+const char* viewer_act(int viewer, const char* path) { return answer(viewerOf(viewer).act(path)); }
 void viewer_focus(int viewer, const char* path) { viewerOf(viewer).focusControl(path); }
 const char* viewer_controls(int viewer) { return answer(viewerOf(viewer).controls()); }
 const char* viewer_stats(int viewer) { return answer(viewerOf(viewer).stats()); }

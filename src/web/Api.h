@@ -47,11 +47,15 @@ int viewer_key(int viewer, const char* key, int modifiers);
 /// A stroke script on an object, "": the first that can be painted; "" or the message.
 const char* viewer_paint(int viewer, const char* script, const char* object);
 const char* viewer_strokes(int viewer, const char* object); ///< the script of what is on it
+/// JSON: {"side", "entering", "leaving"}, the maps of what is painted on an object as addresses of side x
+/// side x 4 floats, valid until the next call for any viewer; null where nothing is.
+const char* viewer_painting(int viewer, const char* object);
 const char* viewer_get(int viewer, const char* path);
 const char* viewer_set(int viewer, const char* path, const char* value); ///< "" or the message
 void viewer_reset(int viewer, const char* path);
 int viewer_undo(int viewer);
 int viewer_redo(int viewer);
+const char* viewer_act(int viewer, const char* path); ///< a button; "" or the message
 void viewer_focus(int viewer, const char* path);
 const char* viewer_controls(int viewer);
 const char* viewer_stats(int viewer);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -200,6 +201,41 @@ TEST(Canvas, EraseBringsBackTheUnpaintedValue) {
     EXPECT_NE(canvas.entering()->pixels, before.pixels);
     canvas.add({{.map = PaintMap::Blur, .erase = true}, {}, Stroke::Fill{vec3(-1), vec3(1)}});
     EXPECT_EQ(canvas.entering()->pixels, before.pixels);
+}
+
+constexpr float kEndless = std::numeric_limits<float>::infinity();
+
+TEST(Canvas, EraseBringsAnOpaqueStartBack) {
+    const auto filledWith = [&](Brush brush, float low = -kEndless) {
+        return Stroke{brush, {}, Stroke::Fill{vec3(low), vec3(kEndless)}};
+    };
+    const Stroke opaque = filledWith({.value = vec3(0)}), erased = filledWith({.erase = true});
+    const Stroke stroke = arc({.value = vec3(1), .radius = 0.2f}, {1, 0, 0}, {0, 1, 0});
+    EXPECT_EQ(startOf({}), 1);
+    EXPECT_EQ(startOf(std::array{opaque, stroke}), 0);
+    EXPECT_EQ(startOf(std::array{stroke, opaque}), 1);
+    EXPECT_EQ(startOf(std::array{filledWith({.value = vec3(0)}, 0)}), 1); // a part of it
+    EXPECT_EQ(startOf(std::array{filledWith({.map = PaintMap::Glow, .value = vec3(0)})}), 1);
+
+    const Object object = ball();
+    for (const std::size_t budget : {Canvas::kBudget, std::size_t(0)}) { // undone from tiles, or painted anew
+        Canvas canvas(*paintSurfaceOf(object, 64), 1, nullptr, nullptr, budget);
+        canvas.add(opaque);
+        const Image before = *canvas.leaving();
+        canvas.add(stroke);
+        const Image painted = *canvas.leaving();
+        canvas.add(erased);
+        EXPECT_EQ(canvas.leaving()->pixels, before.pixels);
+        EXPECT_TRUE(canvas.undo());
+        EXPECT_EQ(canvas.leaving()->pixels, painted.pixels);
+        EXPECT_TRUE(canvas.redo());
+        EXPECT_EQ(canvas.leaving()->pixels, before.pixels);
+
+        // Strokes that are in the maps already say how it began.
+        Canvas later(*paintSurfaceOf(object, 64), 1, nullptr, std::make_shared<Image>(painted), budget, 0);
+        later.add(erased);
+        EXPECT_EQ(later.leaving()->pixels, before.pixels);
+    }
 }
 
 TEST(Canvas, SymmetricPaintsBothSidesAlike) {

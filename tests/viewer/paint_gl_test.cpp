@@ -139,6 +139,118 @@ TEST_F(Paint, PressureIsOfTheRadiusAndKeysChangeTheBrush) {
     EXPECT_NEAR(std::strtof(viewer->get("paint.radius").c_str(), nullptr), 1.2f * radius, 1e-5f);
 }
 
+TEST_F(Paint, EraseGoesBackToHowTheObjectBegan) {
+    load(kBall);
+    choose(*viewer, "mode", "paint");
+    drag(kMiddle, kMiddle + vec2(40, 0));
+    EXPECT_TRUE(viewer->act("paint.fill").ok()); // with a translucency of 1
+    choose(*viewer, "paint.erase", "true");
+    choose(*viewer, "paint.radius", "1");
+    drag(kMiddle, kMiddle + vec2(4, 0));
+    const std::string scene = viewer->sceneJson();
+    const auto leastSeen = [&] {
+        const std::vector<float> leaving = texels(*viewer)[1];
+        float least = 1;
+        for (std::size_t i = 3; i < leaving.size(); i += 4)
+            least = std::min(least, leaving[i]);
+        return least;
+    };
+    EXPECT_EQ(leastSeen(), 0); // opaque, as by hand it begins
+    load(scene.c_str());       // and begins still where the file holds its strokes
+    choose(*viewer, "mode", "paint");
+    choose(*viewer, "paint.erase", "false");
+    EXPECT_TRUE(viewer->act("paint.fill").ok());
+    EXPECT_EQ(leastSeen(), 1);
+    EXPECT_TRUE(viewer->act("paint.clearTranslucency").ok());
+    EXPECT_EQ(leastSeen(), 0);
+
+    load(kBall); // a script that says nothing of its start begins translucent, as the material is
+    const Status painted = viewer->paint(
+        R"({"lucentStrokes": 1, "strokes": [{"brush": "glow", "value": [1, 0, 0], "fill": {}},
+                                            {"brush": "translucency", "value": 0, "fill": {}}]})");
+    ASSERT_TRUE(painted.ok()) << painted.error().message;
+    choose(*viewer, "mode", "paint");
+    EXPECT_EQ(leastSeen(), 0);
+    EXPECT_TRUE(viewer->act("paint.clearTranslucency").ok());
+    EXPECT_EQ(leastSeen(), 1);
+}
+
+TEST_F(Paint, ClearingWhatIsNotPaintedChangesNothing) {
+    load(kBall);
+    EXPECT_FALSE(viewer->act("paint.clearGlow").ok()); // not in this mode
+    choose(*viewer, "mode", "paint");
+    EXPECT_TRUE(viewer->act("paint.clearGlow").ok());
+    EXPECT_EQ(ball(*viewer).painting, nullptr);
+    EXPECT_FALSE(viewer->undo());
+    EXPECT_EQ(viewer->act("paint.rub").error().message,
+              "paint.rub: cannot be done now; actions of paint need the mode paint");
+}
+
+// Mean of 9 pixels around a place of the screen, [0,1].
+vec3 colorAt(const Image& screen, vec2 at) {
+    vec3 sum(0);
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
+            const float* pixel = screen.at(int(at.x) + x, int(at.y) + y);
+            sum += vec3(pixel[0], pixel[1], pixel[2]) / 9.0f;
+        }
+    return sum;
+}
+
+TEST_F(Paint, LayersAreShownInPlaceOfLight) {
+    load(kBall);
+    choose(*viewer, "mode", "paint");
+    // Left half blurred to 16 times as far, its upper part red; all of it half translucent.
+    const Status painted = viewer->paint(
+        R"({"lucentStrokes": 1, "strokes": [
+            {"brush": "translucency", "value": 0.5, "fill": {}},
+            {"brush": "blur", "value": 16, "fill": {"high": [0, null, null]}},
+            {"brush": "glow", "value": [1, 0, 0], "fill": {"low": [null, 0, null], "high": [0, null, null]}},
+            {"brush": "outgoing", "value": [0, 0, 1], "fill": {"low": [0, null, null]}}]})");
+    ASSERT_TRUE(painted.ok()) << painted.error().message;
+    settle();
+    const Image light = window->read();
+    const auto shown = [&](const char* layer, vec2 away) {
+        choose(*viewer, "paint.layer", layer);
+        settle();
+        return colorAt(window->read(), kMiddle + away);
+    };
+    const auto isNear = [](vec3 color, vec3 expected) {
+        for (int i = 0; i < 3; ++i)
+            EXPECT_NEAR(color[i], expected[i], 1.5f / 255) << i;
+    };
+    const vec2 upperLeft(-40, -40), lowerLeft(-40, 40), right(40, 40);
+    const vec3 half(srgbFromLinear(0.5f));
+    isNear(shown("translucency", upperLeft), half);
+    isNear(shown("translucency", right), half);
+    isNear(shown("blur", lowerLeft), vec3(1));
+    isNear(shown("blur", right), half);
+    isNear(shown("glow", upperLeft), {1, 0, 0}); // without the translucency that halves its light
+    isNear(shown("glow", lowerLeft), vec3(1));
+    isNear(shown("outgoing", right), {0, 0, 1});
+    isNear(shown("outgoing", upperLeft), vec3(1));
+    (void)shown("light", right);
+    EXPECT_EQ(window->read().pixels, light.pixels); // to the bit
+    (void)shown("glow", right);
+    choose(*viewer, "mode", "subsurface"); // layers belong to the brush
+    settle();
+    isNear(colorAt(window->read(), kMiddle + right), colorAt(light, kMiddle + right));
+}
+
+TEST_F(Paint, BlurThatDiffusionDoesNotDrawIsNamed) {
+    load(kBall);
+    choose(*viewer, "mode", "paint");
+    choose(*viewer, "technique.subsurface.cells", "8");
+    for (const auto& [method, brush] :
+         {std::pair("lambert", "blur"), {"diffusion", "glow"}, {"diffusion", "blur"}}) {
+        choose(*viewer, "technique.subsurface.method", method);
+        choose(*viewer, "paint.brush", brush);
+        drag(kMiddle, kMiddle + vec2(4, 0));
+        const bool named = viewer->key("Escape", {}); // closes the message
+        EXPECT_EQ(named, method == std::string("diffusion") && brush == std::string("blur"));
+    }
+}
+
 TEST_F(Paint, WrongScriptsChangeNothing) {
     load(kBall);
     const Status painted = viewer->paint(R"({"lucentStrokes": 1, "strokes": [{"brush": "rainbow"}]})");
