@@ -213,6 +213,7 @@ void append(measure::Plan& plan, const measure::Plan& more) {
     };
     add(plan.cases, more.cases);
     add(plan.series, more.series);
+    add(plan.hard, more.hard);
     add(plan.ratios, more.ratios);
 }
 

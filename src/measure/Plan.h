@@ -85,6 +85,15 @@ struct HardCase {
     std::optional<MakeScene> reference; ///< the scene whose exact solution counts; nothing: the same
 };
 
+/// Such scenes of one technique, each drawn with every setting.
+struct HardTable {
+    std::string technique;
+    std::vector<HardCase> cases;
+    std::vector<Setting> settings;
+    /// A method passes where 99 % of the pixels are as near: within one step of an 8-bit display.
+    double tolerance = 1.0 / 255;
+};
+
 /// Reads a figure off a report; nothing when what it needs was not measured.
 using RatioRule = std::function<std::optional<Ratio>(const BenchReport&)>;
 
@@ -99,9 +108,7 @@ struct Plan {
     Repeats repeats;
     std::vector<Case> cases;
     std::vector<Series> series;
-    std::string hardTechnique;
-    std::vector<HardCase> hardCases;
-    std::vector<Setting> hardSettings;
+    std::vector<HardTable> hard;
     std::vector<RatioRule> ratios;
 };
 

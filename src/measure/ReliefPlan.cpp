@@ -317,11 +317,7 @@ Plan reliefPlan(const ReliefParts& parts, const std::vector<BenchField>& fields,
         plan.series = reliefSeries(quick);
         plan.ratios.push_back(costOfATexel);
     }
-    if (parts.hard) {
-        plan.hardTechnique = "relief";
-        plan.hardCases = reliefHardCases(quick);
-        plan.hardSettings = kHardSettings;
-    }
+    if (parts.hard) plan.hard.push_back({"relief", reliefHardCases(quick), kHardSettings});
     return plan;
 }
 

@@ -72,10 +72,6 @@ scene::Object bodyOf(scene::Shape shape, vec3 place = vec3(0)) {
     return object;
 }
 
-subsurface::Settings& settingsOf(scene::Scene& scene) {
-    return *static_cast<subsurface::Settings*>(scene.technique.at(std::string(kTechnique)).data());
-}
-
 // What leaves bodies, seen along -z; light comes from the right.
 scene::Scene sceneOf(std::vector<scene::Object> objects, ivec2 size, float height) {
     scene::Scene scene;
@@ -89,8 +85,6 @@ scene::Scene sceneOf(std::vector<scene::Object> objects, ivec2 size, float heigh
     scene.lights = {scene::DistantLight{.direction = {-1, 0, 0}}};
     return scene;
 }
-
-scene::Scene ballScene(int size) { return sceneOf({bodyOf(scene::Sphere{kRadius})}, ivec2(size), kPicture); }
 
 // As glassScene() has it, but of marble and 20 mm long, in light from the right, above and before.
 scene::Scene meshScene(const BenchMesh& mesh, int size) {
@@ -175,7 +169,7 @@ Case bodyCase(const std::string& name, const MakeScene& scene, std::vector<Setti
              .timed = kWhole};
     if (walks) // by one scene whatever the profile, so that it is solved once
         one.toPhysics = [](scene::Scene& scene) {
-            settingsOf(scene) = {.method = subsurface::Method::Diffusion};
+            subsurfaceSettings(scene) = {.method = subsurface::Method::Diffusion};
         };
     return one;
 }
@@ -188,10 +182,10 @@ Case bodyCase(const std::string& name, scene::Scene scene, std::vector<Setting> 
 
 // The ball with each profile; diffusion has none, and stands beside the first.
 void addBalls(Plan& plan, int size) {
-    plan.cases.push_back(bodyCase("ball", ballScene(size), allSettings(plan.quick), true));
-    scene::Scene offset = ballScene(size), burley = ballScene(size);
-    settingsOf(offset).dipoleGeometry = subsurface::DipoleGeometry::Offset;
-    settingsOf(burley).profile = diffusion::Shape::Burley;
+    plan.cases.push_back(bodyCase("ball", marbleBall(size), allSettings(plan.quick), true));
+    scene::Scene offset = marbleBall(size), burley = marbleBall(size);
+    subsurfaceSettings(offset).dipoleGeometry = subsurface::DipoleGeometry::Offset;
+    subsurfaceSettings(burley).profile = diffusion::Shape::Burley;
     plan.cases.push_back(bodyCase("ball, offset", offset, splatSettings(plan.quick), true));
     plan.cases.push_back(bodyCase("ball, burley", burley, splatSettings(plan.quick), true));
 }
@@ -219,7 +213,7 @@ constexpr double kExtinctions[] = {0.27, 1.47, 3.27};
 
 scene::Scene extinctScene(double extinction, int size) {
     constexpr float kLarge = 3; // times the ball of the other scenes
-    scene::Scene scene = ballScene(size);
+    scene::Scene scene = marbleBall(size);
     std::get<scene::Sphere>(scene.objects[0].shape).radius *= kLarge;
     scene.camera.height *= kLarge;
     scene::Material& material = scene.objects[0].material;
@@ -385,8 +379,8 @@ double degreesAt(ivec2 pixel, const Image& image) {
 Status addSides(gl::Context& context, const SolveTruth& solve, int size, std::vector<Ratio>& ratios) {
     for (const auto& [name, geometry] : {std::pair("planar", subsurface::DipoleGeometry::Planar),
                                          std::pair("offset", subsurface::DipoleGeometry::Offset)}) {
-        scene::Scene scene = ballScene(size);
-        settingsOf(scene).dipoleGeometry = geometry;
+        scene::Scene scene = marbleBall(size);
+        subsurfaceSettings(scene).dipoleGeometry = geometry;
         const Result<truth::Picture> exact = solve(scene, 0, {});
         if (!exact) return exact.error();
         const Result<Image> image = Pictures(context)(scene);
@@ -439,12 +433,12 @@ const Model kModels[] = {
 // Each model against random walks in rings around the ball: the farthest of three colours before and behind,
 // and all of them by angle.
 Status addAround(gl::Context& context, const SolveTruth& solve, int size, std::vector<Ratio>& ratios) {
-    scene::Scene walked = ballScene(size);
-    settingsOf(walked) = {.method = subsurface::Method::Diffusion};
+    scene::Scene walked = marbleBall(size);
+    subsurfaceSettings(walked) = {.method = subsurface::Method::Diffusion};
     const Result<truth::Picture> exact = solve(walked, 0, {});
     if (!exact) return exact.error();
     for (const Model& model : kModels) {
-        const Result<Image> image = pictureOf(context, ballScene(size), model.setting);
+        const Result<Image> image = pictureOf(context, marbleBall(size), model.setting);
         if (!image) return image.error();
         const RingMeans means = ringMeans(*image, exact->values);
         double before = 0, behind = 0;
@@ -604,11 +598,18 @@ Repeats repeatsOf(bool quick) { return quick ? Repeats{3, 5, 30} : Repeats{5, 31
 
 } // namespace
 
+scene::Scene marbleBall(int size) { return sceneOf({bodyOf(scene::Sphere{kRadius})}, ivec2(size), kPicture); }
+
+subsurface::Settings& subsurfaceSettings(scene::Scene& scene) {
+    return *static_cast<subsurface::Settings*>(scene.technique.at(std::string(kTechnique)).data());
+}
+
 Plan subsurfacePlan(const std::vector<BenchMesh>& meshes, const std::vector<BenchMesh>& simpler, bool quick) {
     Plan plan;
     plan.quick = quick;
     plan.repeats = repeatsOf(quick);
     const int size = sizeOf(quick);
+    plan.hard = {subsurfaceHardCases()};
     addBalls(plan, size);
     addHalfSpace(plan);
     addPainted(plan);

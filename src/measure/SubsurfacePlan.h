@@ -7,7 +7,20 @@
 
 #include <vector>
 
+namespace lucent::subsurface {
+struct Settings;
+}
+
 namespace lucent::measure {
+
+/// A ball of marble, 20 mm wide, seen along -z under light of 1 W/m² from the right; what is shown is the
+/// radiosity.
+scene::Scene marbleBall(int size);
+subsurface::Settings& subsurfaceSettings(scene::Scene& scene);
+
+/// What has no scale of its own or too fine a one for any picture: on that ball, whose light is known by its
+/// angle.
+HardTable subsurfaceHardCases();
 
 /// @param meshes   of marble, 20 mm long, beside a ball and a half space
 /// @param simpler  one shape in several numbers of triangles, for the cost over triangles; empty: spheres

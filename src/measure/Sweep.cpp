@@ -377,7 +377,8 @@ private:
 
 class Sweep::Hard : public Task {
 public:
-    Hard(const HardCase& plan, const Setting& setting) : plan_(plan), setting_(setting) {
+    Hard(const HardTable& table, const HardCase& plan, const Setting& setting)
+        : table_(table), plan_(plan), setting_(setting) {
         label = "hard case " + plan.name + ": " + setting.name();
     }
     bool step(Sweep& sweep) override {
@@ -406,7 +407,7 @@ private:
             if (*done) break;
         }
         exact = solving.picture().values;
-        if (Status set = apply(*scene, sweep.plan_.hardTechnique, setting_); !set) return set.error();
+        if (Status set = apply(*scene, table_.technique, setting_); !set) return set.error();
         return Drawing(sweep.context_, std::move(*scene), timedLight()).picture();
     }
     // A picture with values that are not finite is no refusal: it is an error without a figure.
@@ -414,10 +415,11 @@ private:
         const Result<Metrics> metrics = compare(image, setting_.name(), exact, "exact solution", &exact);
         result.error = metrics ? metrics->rmse : std::numeric_limits<double>::quiet_NaN();
         if (!metrics) result.message = metrics.error().message;
-        const bool passes = metrics && metrics->p99 <= kHardTolerance;
+        const bool passes = metrics && metrics->p99 <= table_.tolerance;
         result.status = passes ? HardResult::Status::Pass : HardResult::Status::Error;
     }
 
+    const HardTable& table_;
     const HardCase& plan_;
     const Setting& setting_;
 };
@@ -458,9 +460,10 @@ void Sweep::addTasks() {
             add(std::make_unique<SeriesPoint>(series, report_.scaling.size() - 1, i),
                 timingCost(series.setting, series.points[i].scene.rays));
     }
-    for (const HardCase& hard : plan_.hardCases)
-        for (const Setting& setting : plan_.hardSettings)
-            add(std::make_unique<Hard>(hard, setting), kTruthRay * hard.scene.rays);
+    for (const HardTable& table : plan_.hard)
+        for (const HardCase& hard : table.cases)
+            for (const Setting& setting : table.settings)
+                add(std::make_unique<Hard>(table, hard, setting), kTruthRay * hard.scene.rays);
 }
 
 bool Sweep::step() {

@@ -20,9 +20,6 @@ using SolveTruth =
 /// Called with a line before each part of the work.
 using Say = std::function<void(const std::string&)>;
 
-/// A picture passes a hard case when 99 % of its pixels are within one step of an 8-bit display.
-inline constexpr double kHardTolerance = 1.0 / 255;
-
 class Sweep {
 public:
     Sweep(gl::Context& context, Plan plan, SolveTruth solve, Say say);

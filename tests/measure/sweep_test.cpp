@@ -135,10 +135,9 @@ TEST_F(SweepTest, AnEnvironmentsExactSolutionTellsItsOwnNoise) {
 
 TEST_F(SweepTest, HardCasesPassOrTellTheirErrorOrTheirRefusal) {
     Plan plan;
-    plan.hardTechnique = "relief";
-    plan.hardSettings = {{"hierarchy"}};
+    HardTable& table = plan.hard.emplace_back(HardTable{"relief", {}, {{"hierarchy"}}});
     for (HardCase& hard : reliefHardCases(true))
-        if (hard.name == "cliff" || hard.name == "a texel that is NaN") plan.hardCases.push_back(hard);
+        if (hard.name == "cliff" || hard.name == "a texel that is NaN") table.cases.push_back(hard);
     const BenchReport report = sweep(*context, plan, solve, [](const std::string&) {});
     ASSERT_EQ(report.hardCases.size(), 2u);
     EXPECT_EQ(report.hardCases[0].status, HardResult::Status::Pass);

@@ -1,0 +1,54 @@
+#include "measure/SubsurfacePlan.h"
+
+#include "subsurface/Subsurface.h"
+
+namespace lucent::measure {
+
+namespace {
+
+constexpr int kSize = 48;                      // pixels
+constexpr float kPixel = 2.2f * 0.01f / kSize; // m, of the ball's picture
+
+using Change = void (*)(scene::Scene&);
+
+HardCase ballWith(const std::string& name, Change change) {
+    scene::Scene scene = marbleBall(kSize);
+    change(scene);
+    return {name, {[=]() -> Result<scene::Scene> { return scene; }, double(kSize) * kSize}, {}};
+}
+
+scene::Material& materialOf(scene::Scene& scene) { return scene.objects.front().material; }
+
+// Of marble's colours, with another mean free path [m].
+void setPath(scene::Scene& scene, float path) {
+    scene::Material& material = materialOf(scene);
+    const float denser = 1 / (path * (material.scattering.g + material.absorption().g));
+    const vec3 absorption = denser * material.absorption();
+    material.scattering *= denser;
+    material.setAbsorption(absorption);
+}
+
+} // namespace
+
+HardTable subsurfaceHardCases() {
+    // Twice the error that splats are asked for, of light of 1 W/m².
+    HardTable table{"subsurface", {}, {{"multires"}, {"splat"}}, 0.02};
+    table.cases = {
+        ballWith("nothing is absorbed", [](scene::Scene& s) { materialOf(s).setAbsorption(vec3(0)); }),
+        ballWith("nearly nothing scatters", [](scene::Scene& s) { materialOf(s).scattering = vec3(1e-6f); }),
+        ballWith("mean free path of 100 balls", [](scene::Scene& s) { setPath(s, 100 * 0.02f); }),
+        ballWith("mean free path of 1/100 pixel", [](scene::Scene& s) { setPath(s, kPixel / 100); }),
+        ballWith("anisotropy 0.99",
+                 [](scene::Scene& s) {
+                     materialOf(s).anisotropy = 0.99f;
+                     materialOf(s).scattering *= 100.0f;
+                 }),
+        ballWith("index 1", [](scene::Scene& s) { materialOf(s).ior = 1; }),
+        ballWith("a profile that is infinite at 0",
+                 [](scene::Scene& s) { subsurfaceSettings(s).profile = diffusion::Shape::Burley; }),
+        ballWith("32 splats a side", [](scene::Scene& s) { subsurfaceSettings(s).mostSplats = 32; }),
+    };
+    return table;
+}
+
+} // namespace lucent::measure
