@@ -176,6 +176,40 @@ TEST_F(Painted, AnUnpaintedObjectRunsNoPassOfPaint) {
     EXPECT_EQ(explained().find("views.paint"), std::string::npos);
 }
 
+TEST_F(Painted, ExplainNamesBlurThatDiffusionLeavesOut) {
+    add(scene::Sphere{0.01f}).painting = evenly(sharp(2));
+    const char* const line =
+        "blur painted on object \"body 0\": method diffusion spreads light as the material says";
+    EXPECT_EQ(explained().find(line), std::string::npos);
+    settings().method = Method::Diffusion;
+    settings().cells = 8;
+    EXPECT_NE(explained().find(line), std::string::npos);
+    scene.objects[0].painting = evenly({.entering = {2, 2, 2, 1}});
+    EXPECT_EQ(explained().find(line), std::string::npos);
+}
+
+TEST_F(Painted, ALayerOfPaintNeedsNoLight) {
+    add(scene::Sphere{0.01f}).painting =
+        evenly({.entering = {0.5f, 1, 2, 0.25f}, .leaving = {1, 1, 1, 0.5f}});
+    settings().layer = subsurface::PaintLayer::Glow;
+    const std::string text = explained();
+    EXPECT_NE(text.find("\n  subsurface.layer:"), std::string::npos);
+    for (const char* pass : {"subsurface.splat", "subsurface.flux", "frame.matt"})
+        EXPECT_EQ(text.find(std::string("\n  ") + pass + ":"), std::string::npos) << pass;
+    scene.lights.clear();
+    const auto shown = [&](subsurface::PaintLayer layer) {
+        settings().layer = layer;
+        const Image image = picture(scene::Aov::Color);
+        const float* pixel = image.at(image.width / 2, image.height / 2);
+        return vec3(pixel[0], pixel[1], pixel[2]);
+    };
+    EXPECT_EQ(shown(subsurface::PaintLayer::Glow), vec3(0.5f, 1, 2));
+    EXPECT_EQ(shown(subsurface::PaintLayer::Translucency), vec3(0.5f));
+    EXPECT_EQ(shown(subsurface::PaintLayer::Blur), vec3(0.75f)); // four times as far
+    EXPECT_EQ(shown(subsurface::PaintLayer::Outgoing), vec3(1));
+    EXPECT_EQ(shown(subsurface::PaintLayer::None), vec3(0));
+}
+
 TEST_F(Painted, OnesAreTheUnpaintedPictureBitForBit) {
     add(scene::Sphere{0.008f}).material.roughness = 0.4f;
     add(scene::Box{vec3(0.006f)}).transform = {.translate = {0.007f, 0.004f, 0.004f}, .rotate = {20, 30, 0}};
