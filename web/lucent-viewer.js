@@ -664,9 +664,10 @@ export class LucentViewer extends HTMLElement {
   #layout() {
     const wanted = this.controls !== null;
     const below = this.controls === 'html';
-    this.#twin.element.classList.toggle('shown', below);
-    if (wanted) this.#root.append(this.#twin.element);
-    else this.#twin.element.remove();
+    const twin = this.#twin.element;
+    twin.classList.toggle('shown', below);
+    if (!wanted) twin.remove();
+    else if (!twin.parentNode) this.#root.append(twin); // moved within the page it would lose the focus
     this.#apply('viewer_panel', wanted && !below ? 1 : 0);
   }
 
