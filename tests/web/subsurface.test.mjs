@@ -1,7 +1,7 @@
 /** Mode subsurface: words for light inside as controls, their numbers for screen readers, the matt comparison. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { complete, difference, openStage, openViewers, pictureOf, valueOf } from './support.mjs';
+import { brightness, complete, difference, openStage, openViewers, pictureOf, valueOf } from './support.mjs';
 
 const kMaterial = 'objects.ball.material.';
 
@@ -71,5 +71,34 @@ test('a screen reader hears how far light goes, as the curves show it', async ()
   assert.ok(distances.length === values.length && values[0][0] > values.at(-1)[0]);
   await page.evaluate((path) => document.querySelector('lucent-viewer').set(path, 'skin1'), kMaterial + 'preset');
   assert.doesNotMatch(await profile(page), / 83\.0 %/);
+  await page.leave();
+});
+
+// Brightness of the ball a little behind where light from the left grazes it: an eighth to two fifths of its radius
+// right of its middle, in a picture twice as wide as high. What is seen there went in elsewhere.
+const behind = (picture) => brightness(picture, [0.52, 0.45, 0.57, 0.55]);
+
+test('as matt, by space on its twin or M on the picture, the shadow side is dark, and back to the bit', async () => {
+  const page = await open();
+  const scattered = await pictureOf(page);
+  assert.ok(behind(scattered) > 20, `${behind(scattered)}`);
+  const twin = input(page, 'matt');
+  const canvas = page.locator('lucent-viewer canvas');
+  for (const [control, key] of [
+    [twin, ' '],
+    [canvas, 'm'],
+  ]) {
+    await control.focus();
+    await page.keyboard.press(key);
+    await complete(page);
+    assert.equal(await twin.isChecked(), true, key);
+    const matt = await pictureOf(page);
+    assert.ok(behind(matt) < 0.5 * behind(scattered), `${key}: ${behind(matt)} of ${behind(scattered)}`);
+    await page.keyboard.press(key);
+    await complete(page);
+    assert.equal(await twin.isChecked(), false, key);
+    assert.equal(difference(scattered, await pictureOf(page)).max, 0, key);
+  }
+  assert.deepEqual(await page.evaluate(() => document.querySelector('lucent-viewer').changes), {});
   await page.leave();
 });
