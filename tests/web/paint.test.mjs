@@ -23,9 +23,8 @@ async function ready(page, name) {
 
 /** A page with a marble ball, lit from the left, and a brush of 2 mm, 10 pixels. */
 async function open(attributes, options) {
-  const page = await openViewers(stage, viewerOf('hand', 'marble.json', attributes), options);
+  const page = await openViewers(stage, viewerOf('hand', 'ball.json', attributes), options);
   await ready(page, 'hand');
-  await set(page, 'technique.subsurface.epsilon', 0.1);
   await set(page, 'mode', 'paint');
   await set(page, 'paint.radius', 0.002);
   await set(page, 'paint.hardness', 1);
@@ -76,6 +75,7 @@ test('a drag paints where it goes, and nowhere else', async () => {
   const page = await open();
   assert.equal(await mapsOf(page), null);
   await draw(page, [-25, 30]); // the ball is opaque but for this from now on
+  await set(page, 'technique.subsurface.method', 'multires');
   const once = await finished(page);
   await draw(page, [-35, -15], [-5, -15], [10, 0]);
   const twice = await finished(page);
@@ -113,14 +113,10 @@ test('what a hand paints comes back from its script, from the saved scene, and f
   await page.route('**/made/saved.json', (route) => route.fulfill({ body: saved }));
   await page.evaluate(
     (markup) => document.body.insertAdjacentHTML('beforeend', markup),
-    viewerOf('script', 'marble.json') + viewerOf('file', 'saved.json'),
+    viewerOf('script', 'ball.json') + viewerOf('file', 'saved.json'),
   );
   await ready(page, 'script');
-  await page.evaluate((strokes) => {
-    const viewer = document.getElementById('script');
-    viewer.set('technique.subsurface.epsilon', 0.1);
-    viewer.paint(strokes);
-  }, script);
+  await page.evaluate((strokes) => document.getElementById('script').paint(strokes), script);
   await ready(page, 'file');
   for (const name of ['script', 'file']) {
     assert.deepEqual(await mapsOf(page, name), last.maps, name);
@@ -163,7 +159,6 @@ test('layers, fill and clear have twins in the order of the panel, which the key
   await page.evaluate(() =>
     Object.assign(document.querySelector('lucent-viewer').style, { width: '700px', height: '1000px' }),
   );
-  await set(page, 'technique.subsurface.method', 'lambert'); // of a larger picture
   await complete(page);
   const twins = await page.evaluate(() =>
     [...document.querySelector('lucent-viewer').shadowRoot.querySelectorAll('.twin [data-path]')].map((row) => ({

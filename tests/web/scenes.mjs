@@ -66,6 +66,8 @@ const marble = {
   lights: [{ type: 'distant', direction: [1, -0.3, 0], irradiance: 2 }],
   objects: [{ name: 'ball', shape: { type: 'sphere', radius: 0.01 }, material: { preset: 'marble' } }],
 };
+/** The same where texels count, not how they are drawn. */
+const ball = { ...marble, title: 'A ball', technique: { subsurface: { method: 'lambert', epsilon: 0.3 } } };
 const broken = structuredClone(dome);
 broken.objects[0].shape.heightScale = 'tall';
 
@@ -76,6 +78,7 @@ export const kScenes = {
   'banner.json': JSON.stringify(banner),
   'pond.json': JSON.stringify(pond),
   'marble.json': JSON.stringify(marble),
+  'ball.json': JSON.stringify(ball),
   'ridge.json': JSON.stringify(scene('A ridge', 'ridge.pfm')),
   'ridge.pfm': pfm((x) => 1 - Math.abs(x)),
   'sky.json': JSON.stringify(
