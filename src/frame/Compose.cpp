@@ -120,6 +120,7 @@ Status Compose::prepare(const Inputs& in) {
     }
     if (!replaces(in.scene, in.drawn)) {
         through_ = graph::Texture();
+        layers_ = {};
         return Done{};
     }
     const graph::TextureDesc& desc = in.shown.desc();
@@ -150,16 +151,29 @@ Status Compose::countLayers(const Inputs& in) {
     return Done{};
 }
 
-// As many layers as there were, and one more, which should be empty.
+// As many layers as there were, and one more, which should be empty. Those that are kept are asked about
+// once.
 Result<views::Layers> Compose::recordPeeled(graph::FrameGraph& graph, const Inputs& in,
                                             const std::vector<views::PosedMesh>& glass, TextureId solid,
-                                            int most) {
+                                            int most, views::KeptLayers* kept) {
     const int count = std::min(layerCounter_.drawn(), most);
-    const bool asks = count == layerCounter_.drawn();
+    const bool stands = kept && kept->current && kept->count == count;
+    const bool asks = !stands && count == layerCounter_.drawn();
     unsure_ = asks && layerCounter_.waits();
     unanswered_ = 0;
-    return views::recordLayers(graph, context_, closeEye(in), glass, in.shown.desc().size, count, solid,
-                               asks ? layerCounter_.ask() : views::LayerQueries{});
+    Result<views::Layers> layers =
+        views::recordLayers(graph, context_, closeEye(in), glass, in.shown.desc().size, count, solid,
+                            asks ? layerCounter_.ask() : views::LayerQueries{}, kept);
+    if (kept && unsure_) kept->current = false; // to be drawn and asked about again
+    return layers;
+}
+
+// Layers stay while all surfaces do and the eye does: light and materials may change.
+views::KeptLayers* Compose::keptLayers(const Inputs& in) {
+    SurfaceKey key = surfaceKey(in.scene, in.shown.desc().size, waters_.changes());
+    if (layered_ != key) layers_.current = false;
+    layered_ = std::move(key);
+    return &layers_;
 }
 
 Result<bool> Compose::settle(const Inputs& in) {
@@ -246,7 +260,7 @@ Status Compose::recordInside(graph::FrameGraph& graph, const Inputs& in,
         recordNothing(graph, "nothing that is seen refracts", target);
         return Done{};
     }
-    Result<views::Layers> layers = recordPeeled(graph, in, seen(glass), {}, views::kMostLayers);
+    Result<views::Layers> layers = recordPeeled(graph, in, seen(glass), {}, views::kMostLayers, nullptr);
     return layers ? recordLayerView(graph, context_, *layers, view.layer, view.show, target) : layers.error();
 }
 
@@ -462,9 +476,10 @@ Status Compose::recordThrough(graph::FrameGraph& graph, const Inputs& in,
             !s)
             return s;
     }
-    Result<views::Layers> layers = settings.layers == refract::LayerMethod::Peel
-                                       ? recordPeeled(graph, in, glass, solid, settings.maxLayers)
-                                       : views::recordLayers(graph, context_, eye, glass, size, 1, solid);
+    Result<views::Layers> layers =
+        settings.layers == refract::LayerMethod::Peel
+            ? recordPeeled(graph, in, glass, solid, settings.maxLayers, keptLayers(in))
+            : views::recordLayers(graph, context_, eye, glass, size, 1, solid);
     if (!layers) return layers.error();
     Result<graph::TextureHandle> environment = environmentMap(in.scene);
     if (!environment) return environment.error();
@@ -516,6 +531,7 @@ void Compose::clear() {
     layerCounter_.reset();
     counted_.clear();
     triangles_ = {};
+    layers_ = {};
     unsure_ = false;
     forget();
 }

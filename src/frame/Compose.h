@@ -4,7 +4,7 @@
 
 #include "brdf/Brdf.h"
 #include "caustics/Caustics.h"
-#include "views/ObjectKey.h"
+#include "frame/SurfaceKey.h"
 #include "refract/Refract.h"
 #include "subsurface/Subsurface.h"
 #include "views/Surface.h"
@@ -64,7 +64,7 @@ public:
     /// What record() added did not run.
     void forgetRecorded() {
         layerCounter_.reset();
-        triangles_.current = false;
+        triangles_.current = layers_.current = false;
     }
     void clear();
 
@@ -94,7 +94,8 @@ private:
                                                       const std::vector<views::DrawnMesh>& glass);
     Result<views::Layers> recordPeeled(graph::FrameGraph& graph, const Inputs& in,
                                        const std::vector<views::PosedMesh>& glass, graph::TextureId solid,
-                                       int most);
+                                       int most, views::KeptLayers* kept);
+    views::KeptLayers* keptLayers(const Inputs& in);
     Status checkVoxels(const Inputs& in, const views::Eye& eye, const refract::Settings& settings);
     Status recordBackground(graph::FrameGraph& graph, const Inputs& in, graph::TextureId surface,
                             graph::TextureId shown);
@@ -122,8 +123,10 @@ private:
     std::optional<subsurface::Plan> scattering_; ///< nothing where no light scatters
     graph::Texture through_;
     views::KeptTriangles triangles_;                  ///< of refractive objects,
-    std::vector<views::ObjectKey> triangled_;       ///< as they stood
+    std::vector<views::ObjectKey> triangled_;         ///< as they stood
     std::uint64_t watersThen_ = 0;                    ///< Waters::changes()
+    views::KeptLayers layers_;                        ///< of what the eye sees through,
+    std::optional<SurfaceKey> layered_;               ///< as it was seen
     views::LayerCount layerCounter_;                  ///< of peeled ones
     std::vector<const views::MeshTextures*> counted_; ///< for which it knows
     bool unsure_ = false;                             ///< nothing was asked about the picture

@@ -44,6 +44,8 @@ struct BlocksBlock {
     }
 };
 
+constexpr const char kImagesLabel[] = "views.layers", kBlocksLabel[] = "views.blocks",
+                     kDepthLabel[] = "views.peelDepth";
 constexpr int kBlockLevels = 3;
 constexpr vec4 kEmptyRanges{1e30f, -1e30f, 1e30f, -1e30f};
 
@@ -75,7 +77,11 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye
         if (query) pass.query(*query);
         done = pass.createColor("views.peeled", {.size = size, .format = Format::RG32F});
         pass.clear(done, vec4(0));
-        const TextureId depth = pass.createDepth("views.peelDepth", size, Format::Depth32F);
+        TextureId depth = first ? layers.depth : TextureId{};
+        if (depth)
+            pass.write(depth);
+        else
+            depth = pass.createDepth(kDepthLabel, size, Format::Depth32F);
         pass.clear(depth, 1.0f);
         if (first) layers.depth = depth;
         return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
@@ -141,24 +147,50 @@ Status recordBlocks(graph::FrameGraph& graph, gl::Context& context, TextureId ra
     return Done{};
 }
 
-// Ranges of depth by which rays skip: what is opaque first, where it is there, then the layers from the
-// front; two a texel.
-Status recordSkipping(graph::FrameGraph& graph, gl::Context& context, const ViewBlock& view, Layers& layers,
-                      TextureId solid, ivec2 size) {
+// How many pairs of surfaces have ranges: what is opaque first, where it is there, then the layers from the
+// front.
+int pairsOf(int count, bool withSolid) { return (count + (withSolid ? 1 : 0) + 1) / 2; }
+
+TextureDesc imagesDesc(ivec2 size, int count) {
+    return {.size = size, .format = Format::RGBA32F, .layers = arrayLayers(count)};
+}
+TextureDesc blocksDesc(ivec2 size, int pairs) {
     const ivec2 fine = (size + 3) / 4;
     ivec2 all(fine.x, 0);
     for (int level = 0, rows = fine.y; level < kBlockLevels; ++level, rows = (rows + 3) / 4)
         all.y += rows;
-    const int shift = solid ? 1 : 0, pairs = (layers.count + shift + 1) / 2;
-    layers.blocks =
-        graph.create("views.blocks", {.size = all, .format = Format::RGBA32F, .layers = arrayLayers(pairs)});
-    for (int pair = 0; pair < pairs; ++pair) {
+    return {.size = all, .format = Format::RGBA32F, .layers = arrayLayers(pairs)};
+}
+
+// Ranges of depth by which rays skip, two a texel.
+Status recordSkipping(graph::FrameGraph& graph, gl::Context& context, const ViewBlock& view,
+                      const Layers& layers, TextureId solid, ivec2 size) {
+    const int shift = solid ? 1 : 0;
+    for (int pair = 0; pair < pairsOf(layers.count, bool(solid)); ++pair) {
         const Result<TextureId> ranges =
             recordRanges(graph, context, view, layers, solid, size, 2 * pair - shift);
         if (!ranges) return ranges.error();
-        if (Status s = recordBlocks(graph, context, *ranges, fine, layers.blocks, pair); !s) return s;
+        if (Status s = recordBlocks(graph, context, *ranges, (size + 3) / 4, layers.blocks, pair); !s)
+            return s;
     }
     return Done{};
+}
+
+// Makes textures anew that are of another size.
+void importKept(graph::FrameGraph& graph, gl::Context& context, KeptLayers& kept, ivec2 size, bool withSolid,
+                Layers& layers) {
+    kept.current = kept.current && kept.count == layers.count;
+    kept.count = layers.count;
+    const auto import = [&](graph::Texture& texture, const TextureDesc& desc, const char* label) {
+        if (!texture || texture.desc() != desc) {
+            texture = graph::Texture(context.device(), desc, label);
+            kept.current = false;
+        }
+        return graph.import(texture.handle(), desc, label);
+    };
+    layers.images = import(kept.images, imagesDesc(size, layers.count), kImagesLabel);
+    layers.blocks = import(kept.blocks, blocksDesc(size, pairsOf(layers.count, withSolid)), kBlocksLabel);
+    layers.depth = import(kept.depth, {.size = size, .format = Format::Depth32F}, kDepthLabel);
 }
 
 } // namespace
@@ -221,12 +253,20 @@ bool LayerCount::poll() {
 
 Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
                             const std::vector<PosedMesh>& meshes, ivec2 size, int count, TextureId solid,
-                            const LayerQueries& queries) {
+                            const LayerQueries& queries, KeptLayers* kept) {
     Layers layers;
     layers.count = count;
     if (!meshes.empty()) layers.triangles = meshes.front().triangles;
-    layers.images =
-        graph.create("views.layers", {.size = size, .format = Format::RGBA32F, .layers = arrayLayers(count)});
+    if (kept && count > 0) {
+        importKept(graph, context, *kept, size, bool(solid), layers);
+        if (kept->current) return layers;
+        for (const TextureId image : {layers.images, layers.blocks, layers.depth})
+            graph.keep(image);
+    } else {
+        layers.images = graph.create(kImagesLabel, imagesDesc(size, count));
+        if (count > 0)
+            layers.blocks = graph.create(kBlocksLabel, blocksDesc(size, pairsOf(count, bool(solid))));
+    }
     TextureId done;
     for (int layer = 0; layer < count; ++layer) {
         graph::Query* query = layer == count - 1   ? queries.last
@@ -238,6 +278,7 @@ Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, cons
     if (count > 0)
         if (Status s = recordSkipping(graph, context, viewBlock(eye, size), layers, solid, size); !s)
             return s.error();
+    if (kept) kept->current = count > 0;
     return layers;
 }
 

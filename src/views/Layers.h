@@ -20,6 +20,13 @@ struct Layers {
     int count = 0;
 };
 
+/// Images that outlive the frame, so that the layers of a view that stands still are drawn once.
+struct KeptLayers {
+    graph::Texture images, blocks, depth;
+    int count = 0;        ///< layers that were drawn
+    bool current = false; ///< they are still as they were: who keeps them says so
+};
+
 /// How many surfaces lie behind each other at most in any pixel, by drawing all of them once and reading the
 /// picture back. At most kMostLayers; more are named in a warning.
 Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
@@ -68,9 +75,13 @@ private:
 /// @param meshes  a texel's object is the place in this list
 /// @param solid   opaque surfaces (views::recordSolid), to be traced with the layers as one more; or
 /// none
+/// @param kept    where they stay, and are only drawn where they are not current or another number is wanted;
+/// null:
+///                images of this frame
 Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
                             const std::vector<PosedMesh>& meshes, ivec2 size, int count,
-                            graph::TextureId solid, const LayerQueries& queries = {});
+                            graph::TextureId solid, const LayerQueries& queries = {},
+                            KeptLayers* kept = nullptr);
 
 /// What shaders/views/layers.glsl samples.
 void sampleLayers(graph::PassBuilder& pass, const Layers& layers);

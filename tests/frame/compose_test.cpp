@@ -145,7 +145,7 @@ TEST_F(Composed, TrianglesAreMadeAnewOnlyWhereSomethingMoved) {
     scene.objects[0].transform.translate.x = 0.1f;
     EXPECT_EQ(passes(), first);
     scene.objects[0].material.ior = 1.2f;
-    EXPECT_EQ(passes(), first - 1);
+    EXPECT_EQ(passes(), 2); // what is behind, and the rays
     // What moves by itself is where a fresh renderer shows it.
     scene.objects[0].wave.amplitude = {0, 0.05f, 0};
     for (const float time : {0.1f, 0.3f}) {
@@ -155,6 +155,38 @@ TEST_F(Composed, TrianglesAreMadeAnewOnlyWhereSomethingMoved) {
         ASSERT_TRUE(kept.ok());
         EXPECT_EQ(kept->pixels, picture().pixels) << time;
     }
+}
+
+// Two layers, a spare one, and two ranges for each pair of them.
+TEST_F(Composed, LayersAreDrawnAnewOnlyWhereTheEyeOrASurfaceMoved) {
+    addBall();
+    addFloor();
+    Renderer renderer(*context);
+    std::uint64_t revision = 0;
+    const auto passes = [&] {
+        EXPECT_TRUE(renderer.finish(scene, ++revision, scene.size).ok());
+        return renderer.stats().passes;
+    };
+    passes();
+    scene.environment->rotation.y = 90;
+    const int still = passes();
+    constexpr int kLayerPasses = 3 + 2 * 2;
+    const auto expectSameAsAnew = [&](int expected, const char* what) {
+        EXPECT_EQ(passes(), expected) << what;
+        const Result<Image> kept = renderer.read(scene, scene::Aov::Color);
+        ASSERT_TRUE(kept.ok());
+        EXPECT_EQ(kept->pixels, picture().pixels) << what;
+    };
+    scene.environment->rotation.y = 180;
+    expectSameAsAnew(still, "a turned map");
+    scene.objects[0].material.ior = 1.3f;
+    expectSameAsAnew(still, "other glass");
+    scene.camera.eye.y += 0.1f;
+    expectSameAsAnew(still + kLayerPasses + 1, "another eye"); // and the surfaces that it sees
+    scene.objects[1].transform.translate.y -= 0.1f;
+    expectSameAsAnew(still + kLayerPasses + 1, "another floor");
+    static_cast<refract::Settings*>(scene.technique.at("refract").data())->maxLayers = 1;
+    expectSameAsAnew(still + 1 + 2, "fewer layers");
 }
 
 TEST_F(Composed, AFloorRunsNoLayers) {
