@@ -9,7 +9,8 @@ uniform sampler2D uCorners;       // place in the world; w: packed normal of the
 uniform sampler2D uCornerNormals; // world, unit
 uniform usampler2D uLinks;
 
-const int kMostTriangles = 64; // that one walk goes through
+// That one walk goes through: over the rows of a side that the view sees edge-on, hundreds of them within a pixel.
+const int kMostTriangles = 512;
 
 struct Piercing {
     int triangle; // kNoTriangle: the ray passes by
