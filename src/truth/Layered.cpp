@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <math.h> // Bessel functions: <cmath> has none in some libraries
 #include <numbers>
 #include <utility>
 
@@ -235,7 +236,7 @@ private:
 double transformed(const Waves& waves, double r) {
     constexpr int kPanels = 40;
     const double panel = std::min(kPi / r, 2 / waves.depth());
-    const auto f = [&](double k) { return waves.leaving(k) * std::cyl_bessel_j(0.0, k * r) * k; };
+    const auto f = [&](double k) { return waves.leaving(k) * ::j0(k * r) * k; };
     double sum = 0;
     for (int i = 10; i >= 0; --i) // near 0 absorption may bend what else is smooth
         sum += integral(f, i == 10 ? 0 : panel / (2 << i), panel / (1 << i));

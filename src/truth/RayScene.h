@@ -1,10 +1,11 @@
 #pragma once
 /// Rays through whole scenes: which of many shapes one meets first, and whether any is in its way.
 ///
-/// Embree (3.13) finds the candidates; its numbers are floats. Every hit is therefore solved again in double
-/// precision: height fields by their exact cut, spheres and tori in closed form, waves between the places
-/// where they turn, triangles by their plane. Rays start where they enter the scene's box, so that a distant
-/// eye or lamp costs no digits, and Embree's begin a little earlier, so that it misses no layer close by.
+/// Embree (3.13) finds the candidates where there is one, a tree of boxes elsewhere. Embree's numbers are
+/// floats. Every hit is therefore solved again in double precision: height fields by their exact cut, spheres
+/// and tori in closed form, waves between the places where they turn, triangles by their plane. Rays start
+/// where they enter the scene's box, so that a distant eye or lamp costs no digits, and Embree's begin a
+/// little earlier, so that it misses no layer close by.
 
 #include "base/Math.h"
 #include "base/Result.h"
@@ -102,10 +103,19 @@ struct Nearest {
 
 class RayScene {
 public:
+    /// What finds the shapes that a ray may meet. A page has no Embree.
+    enum class By { Embree, Boxes };
+#ifdef __EMSCRIPTEN__
+    static constexpr By kUsual = By::Boxes;
+#else
+    static constexpr By kUsual = By::Embree;
+#endif
+
     /// Error when Embree cannot work on this machine, with its own message.
     ///
     /// @param hidden  for each shape whether the eye does not see it; empty: it sees all
-    static Result<RayScene> create(std::vector<Shape> shapes, const std::vector<bool>& hidden = {});
+    static Result<RayScene> create(std::vector<Shape> shapes, const std::vector<bool>& hidden = {},
+                                   By by = kUsual);
     RayScene(RayScene&&) noexcept;
     ~RayScene();
 

@@ -3,6 +3,7 @@
 #include "truth/Relief.h"
 #include "truth/Torus.h"
 
+#include "scene/Mesh.h"
 #include "tests/truth/fields.h"
 
 #include <gtest/gtest.h>
@@ -223,6 +224,63 @@ TEST(RayScene, OfManyShapesTheNearestIsMetAndTheOneLeftIsNot) {
     EXPECT_FALSE(scene.occluded({{0.5, 0, 1}, {1, 0, 0}}, {1, 1e-9}));
     EXPECT_NEAR(scene.intersect({{0.5, 0, 1}, {-1, 0, 0}}, {1, 1e-9})->distance, 1, 1e-12);
     EXPECT_FALSE(scene.occluded({{3, 0, 0}, {0, 0, 1}}, {0, 1e-9}));
+}
+
+TEST(RayScene, BoxesFindWhatEmbreeFinds) {
+    // Everything at once, balls in balls and triangles among them, a hidden one too.
+    test::Random random(7);
+    std::vector<Shape> shapes{Sphere{{0, 0, 0}, 1}, Sphere{{0.1, 0, 0}, 0.5},
+                              Torus{{0.5, 0, 0}, {0, 0, 1}, 1, 0.25}};
+    Triangles soup;
+    for (std::uint32_t i = 0; i < 3 * 400; ++i) {
+        const dvec3 middle = i % 3 == 0 ? 2.0 * anyDirection(random) : soup.positions[i - i % 3];
+        soup.positions.push_back(middle + random.between(0, 0.5) * anyDirection(random));
+        soup.indices.push_back(i);
+    }
+    shapes.push_back(soup);
+    const std::vector<bool> hidden{false, true, false, false};
+    const RayScene embree = std::move(*RayScene::create(shapes, hidden, RayScene::By::Embree));
+    const RayScene boxes = std::move(*RayScene::create(shapes, hidden, RayScene::By::Boxes));
+    int hits = 0;
+    for (int trial = 0; trial < 3000; ++trial) {
+        WorldRay ray{3.0 * anyDirection(random), anyDirection(random)};
+        ray.direction = glm::normalize(random.between(0, 2) * anyDirection(random) - ray.origin);
+        ray.meetsHidden = trial % 2 == 0;
+        if (trial % 3 == 0) ray.length = random.between(0, 6);
+        if (trial % 5 == 0) ray.begin = -kInfinity;
+        const Hits expected = embree.meet(ray), found = boxes.meet(ray);
+        ASSERT_EQ(found.count, expected.count) << trial;
+        EXPECT_EQ(boxes.occluded(ray), embree.occluded(ray)) << trial;
+        for (int i = 0; i < found.count; ++i) {
+            EXPECT_EQ(found.at[std::size_t(i)].shape, expected.at[std::size_t(i)].shape) << trial;
+            EXPECT_EQ(found.at[std::size_t(i)].distance, expected.at[std::size_t(i)].distance) << trial;
+        }
+        hits += found.count;
+        const auto near = embree.nearest(ray.origin), nearest = boxes.nearest(ray.origin);
+        ASSERT_TRUE(near && nearest);
+        EXPECT_EQ(nearest->triangle, near->triangle) << trial;
+    }
+    EXPECT_GT(hits, 2000);
+}
+
+TEST(RayScene, ATreeOfBoxesLetsNoRayThroughAnEdge) {
+    // A ball of 2048 triangles around the origin; every fourth ray is aimed at a corner or along an edge.
+    const scene::Mesh ball = scene::meshOf(scene::Sphere{1}, 45);
+    Triangles triangles;
+    for (const vec3& place : ball.positions)
+        triangles.positions.emplace_back(place);
+    triangles.indices = ball.indices;
+    const RayScene boxes = std::move(*RayScene::create({triangles}, {}, RayScene::By::Boxes));
+    test::Random random(8);
+    for (std::size_t trial = 0; trial < 4000; ++trial) {
+        const std::size_t first = trial % triangles.indices.size() / 3 * 3;
+        const dvec3 a = triangles.positions[triangles.indices[first]],
+                    b = triangles.positions[triangles.indices[first + 1]];
+        const dvec3 target = trial % 4 == 0   ? a
+                             : trial % 4 == 1 ? glm::mix(a, b, random.between(0, 1))
+                                              : anyDirection(random);
+        EXPECT_TRUE(boxes.intersect({dvec3(0), glm::normalize(target)})) << trial;
+    }
 }
 
 TEST(RayScene, AnEmptySceneIsInNobodysWay) {
