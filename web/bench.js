@@ -3,7 +3,7 @@ import createBench from './lucent-bench.js';
 import { callWasm } from './wasm.js';
 
 const kSliceMs = 50;
-const kParts = ['methods', 'environments', 'scaling', 'hard', 'quick'];
+const kParts = ['methods', 'environments', 'scaling', 'hard', 'refraction', 'caustics', 'quick'];
 
 /** The module on a context of its own. */
 class Bench {

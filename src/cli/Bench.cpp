@@ -14,8 +14,8 @@
 #include "measure/GlassProof.h"
 #include "measure/RefractPlan.h"
 #include "measure/ReliefPlan.h"
+#include "measure/Solve.h"
 #include "measure/SubsurfacePlan.h"
-#include "measure/SubsurfaceTruth.h"
 #include "scene/Load.h"
 #include "scene/readers/Readers.h"
 
@@ -207,16 +207,6 @@ Result<std::vector<measure::BenchMesh>> causticMeshes(const BenchOptions& option
     return meshes;
 }
 
-void append(measure::Plan& plan, const measure::Plan& more) {
-    const auto add = [](auto& list, const auto& others) {
-        list.insert(list.end(), others.begin(), others.end());
-    };
-    add(plan.cases, more.cases);
-    add(plan.series, more.series);
-    add(plan.hard, more.hard);
-    add(plan.ratios, more.ratios);
-}
-
 Result<measure::Plan> makePlan(const BenchOptions& options, const Parts& parts) {
     Result<measure::Plan> plan = makeReliefPlan(options, parts.relief);
     if (plan && (parts.refraction || parts.subsurface)) {
@@ -246,22 +236,11 @@ Status drawOnce(gl::Context& context) {
     return Done{};
 }
 
-bool isRefraction(const scene::Scene& scene) {
-    return scene.view.show == scene::Aov::Direction || scene.view.show == scene::Aov::Layers;
-}
-
-Result<truth::Picture> solve(const scene::Scene& scene, int directions, const truth::Tile& rows) {
-    if (isRefraction(scene)) return measure::solveRefraction(scene, rows, 0);
-    if (scene.view.show == scene::Aov::Irradiance) return measure::solveCaustics(scene, rows, 0);
-    if (scene.view.show == scene::Aov::Radiosity) return measure::solveSubsurface(scene, rows, 0);
-    return measure::solveRelief(scene, directions, rows, 0);
-}
-
 // Whole solutions, kept in a folder.
 measure::SolveTruth solvingOnce(const std::string& truths) {
     return [truths](const scene::Scene& scene, int directions, const truth::Tile& rows) {
         return cachedTruth(truthPath(truths, scene, directions),
-                           [&] { return solve(scene, directions, rows); });
+                           [&] { return measure::solveWhatIsShown(scene, directions, rows, 0); });
     };
 }
 

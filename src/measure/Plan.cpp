@@ -28,4 +28,14 @@ const Measurement* measured(const BenchReport& report, std::string_view techniqu
     return nullptr;
 }
 
+void append(Plan& plan, const Plan& more) {
+    const auto add = [](auto& list, const auto& others) {
+        list.insert(list.end(), others.begin(), others.end());
+    };
+    add(plan.cases, more.cases);
+    add(plan.series, more.series);
+    add(plan.hard, more.hard);
+    add(plan.ratios, more.ratios);
+}
+
 } // namespace lucent::measure

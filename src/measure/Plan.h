@@ -112,4 +112,7 @@ struct Plan {
     std::vector<RatioRule> ratios;
 };
 
+/// Adds another plan's cases, series and ratios.
+void append(Plan& plan, const Plan& more);
+
 } // namespace lucent::measure

@@ -121,7 +121,7 @@ Result<scene::Scene> paintedScene(int size) {
                                      band(scene::PaintMap::Glow, {1, 0.5f, 0.25f}, 0.1f, 0.5f),
                                      band(scene::PaintMap::Translucency, vec3(0.3f), -kEnd, -0.7f),
                                      band(scene::PaintMap::Outgoing, {0.3f, 1, 0.3f}, -0.2f, 0)};
-    scene::Scene scene = ballScene(size);
+    scene::Scene scene = marbleBall(size);
     auto painting = scene::paint(scene.objects.front(), strokes, 128);
     if (!painting) return painting.error();
     scene.objects.front().painting = std::move(*painting);
@@ -466,13 +466,13 @@ Status addAround(gl::Context& context, const SolveTruth& solve, int size, std::v
 // Light that scatters once, which the dipole leaves out: its share of random walks around the ball, and how
 // far from these the dipole is with it.
 Status addScatteredOnce(gl::Context& context, const SolveTruth& solve, int size, std::vector<Ratio>& ratios) {
-    scene::Scene walked = ballScene(size);
-    settingsOf(walked) = {.method = subsurface::Method::Diffusion};
+    scene::Scene walked = marbleBall(size);
+    subsurfaceSettings(walked) = {.method = subsurface::Method::Diffusion};
     const Result<truth::Picture> all = solve(walked, 0, {});
     if (!all) return all.error();
     const Result<truth::Picture> once = solveScatteredOnce(walked, 0);
     if (!once) return once.error();
-    const Result<Image> image = Pictures(context)(ballScene(size));
+    const Result<Image> image = Pictures(context)(marbleBall(size));
     if (!image) return image.error();
     const RingMeans shares = ringMeans(once->values, all->values), model = ringMeans(*image, all->values);
     dvec3 sum(0), whole(0);
@@ -502,7 +502,7 @@ Status addScatteredOnce(gl::Context& context, const SolveTruth& solve, int size,
 Status addPaintingCost(gl::Context& context, const Repeats& repeats, std::vector<Ratio>& ratios) {
     const Result<scene::Scene> painted = paintedScene(kPaintedSize);
     if (!painted) return painted.error();
-    const scene::Scene plain = ballScene(kPaintedSize);
+    const scene::Scene plain = marbleBall(kPaintedSize);
     scene::Scene nothing = plain;
     showNothing(nothing);
     Pictures pictures(context), others(context);

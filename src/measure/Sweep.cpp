@@ -1,6 +1,7 @@
 #include "measure/Sweep.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
@@ -75,13 +76,15 @@ public:
         return Done{};
     }
     // Nothing that was made for the light of one picture may be used for the next: an eighth of a turn of a
-    // map, next to nothing of a sun's way.
+    // map, next to nothing of a sun's way; nor layers of glass: next to nothing of the eye's.
     void turnLight() {
         if (with_.environment) with_.environment->rotation.y += 45;
         isTurned_ = !isTurned_;
         for (scene::Light& light : with_.lights)
             if (auto* sun = std::get_if<scene::DistantLight>(&light))
                 sun->direction += vec3(isTurned_ ? 1e-5f : -1e-5f);
+        if (frame::need(scene_, "refract"))
+            with_.camera.eye = without_.camera.eye + vec3(isTurned_ ? 1e-5f : -1e-5f);
     }
     // What the scene shows; stats() is then what the timed picture cost.
     Result<Image> picture() {
@@ -162,20 +165,35 @@ public:
     Result<bool> step() {
         const int parts = std::min(sweep_.plan_.truthParts, scene_.size.y);
         const truth::Tile tile{done_, parts};
-        const Result<truth::Picture> rows = sweep_.solve_(scene_, sweep_.plan_.directions, tile);
-        if (!rows) return rows.error();
-        for (int y = 0; y < tile.rows(scene_.size.y); ++y) {
-            const auto copyRow = [&](const Image& from, Image& to) {
-                std::copy_n(from.at(0, y), from.width * from.channels, to.at(0, tile.row(y)));
-            };
-            copyRow(rows->values, picture_.values);
-            copyRow(rows->errors, picture_.errors);
-        }
+        const Result<truth::Picture> part = sweep_.solve_(scene_, sweep_.plan_.directions, tile);
+        if (!part) return part.error();
+        if (part->values.height == scene_.size.y)
+            addWhole(*part, parts);
+        else
+            copyRows(*part, tile);
         return ++done_ == parts;
     }
     const truth::Picture& picture() const { return picture_; }
 
 private:
+    void copyRows(const truth::Picture& rows, const truth::Tile& tile) {
+        for (int y = 0; y < tile.rows(scene_.size.y); ++y) {
+            const auto copyRow = [&](const Image& from, Image& to) {
+                std::copy_n(from.at(0, y), from.width * from.channels, to.at(0, tile.row(y)));
+            };
+            copyRow(rows.values, picture_.values);
+            copyRow(rows.errors, picture_.errors);
+        }
+    }
+    // Parts by rays of their own, as many each: their mean counts.
+    void addWhole(const truth::Picture& part, int parts) {
+        const float share = 1 / float(parts);
+        for (std::size_t i = 0; i < part.values.pixels.size(); ++i)
+            picture_.values.pixels[i] += share * part.values.pixels[i];
+        for (std::size_t i = 0; i < part.errors.pixels.size(); ++i)
+            picture_.errors.pixels[i] = std::hypot(picture_.errors.pixels[i], share * part.errors.pixels[i]);
+    }
+
     const Sweep& sweep_;
     const scene::Scene scene_;
     truth::Picture picture_;

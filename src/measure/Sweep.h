@@ -11,11 +11,12 @@
 
 namespace lucent::measure {
 
-/// Some rows of the exact solution of what a scene shows (Color or Illumination), with their standard errors.
+/// A part of the exact solution of what a scene shows, with its standard errors: some rows, or a whole
+/// picture by rays of its own (measure/Solve.h).
 ///
 /// @param directions  that stand for an environment
 using SolveTruth =
-    std::function<Result<truth::Picture>(const scene::Scene& scene, int directions, const truth::Tile& rows)>;
+    std::function<Result<truth::Picture>(const scene::Scene& scene, int directions, const truth::Tile& part)>;
 
 /// Called with a line before each part of the work.
 using Say = std::function<void(const std::string&)>;

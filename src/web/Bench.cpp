@@ -8,7 +8,10 @@
 
 #include "frame/Renderer.h"
 #include "gl/Context.h"
+#include "measure/CausticsPlan.h"
+#include "measure/RefractPlan.h"
 #include "measure/ReliefPlan.h"
+#include "measure/Solve.h"
 #include "measure/Sweep.h"
 #include "scene/Load.h"
 
@@ -74,7 +77,7 @@ Status keep(Result<Image> image) {
 
 // One thread: a page has no more.
 Result<truth::Picture> solve(const scene::Scene& scene, int directions, const truth::Tile& rows) {
-    return measure::solveRelief(scene, directions, rows, 1);
+    return measure::solveWhatIsShown(scene, directions, rows, 1);
 }
 
 Status addField(const std::string& name) {
@@ -155,13 +158,17 @@ const char* bench_add_field(const char* name) { return answer(addField(name)); }
 /// Adds an environment map that was put; "" or the message.
 const char* bench_add_environment(const char* path) { return answer(addEnvironment(path)); }
 
-/// Begins the benchmark of relief on noise and what was added; each part is wanted or not (0).
-void bench_sweep(int methods, int environments, int scaling, int hard, int quick) {
+/// Begins the benchmark of relief on noise and what was added, and of glass and caustics on shapes; each part
+/// is wanted or not (0). Exact solutions of light inside take minutes natively: too long for a page.
+void bench_sweep(int methods, int environments, int scaling, int hard, int refraction, int caustics,
+                 int quick) {
     Bench& b = bench();
     const measure::ReliefParts parts{methods != 0, environments != 0, scaling != 0, hard != 0};
-    b.sweep = std::make_unique<measure::Sweep>(
-        *b.context, measure::reliefPlan(parts, b.fields, b.environments, quick != 0), solve,
-        [](const std::string& line) { bench().part = line; });
+    measure::Plan plan = measure::reliefPlan(parts, b.fields, b.environments, quick != 0);
+    if (refraction) append(plan, measure::refractPlan({}, {}, quick != 0));
+    if (caustics) append(plan, measure::causticsPlan({}, quick != 0));
+    b.sweep = std::make_unique<measure::Sweep>(*b.context, std::move(plan), solve,
+                                               [](const std::string& line) { bench().part = line; });
 }
 
 /// Some rows of an exact solution, or one picture; 0 when all is done.

@@ -9,7 +9,7 @@ after(() => stage.close());
 
 async function start(parts) {
   const page = await openPage(stage, 'bench.html');
-  for (const part of ['methods', 'environments', 'scaling', 'hard'])
+  for (const part of ['methods', 'environments', 'scaling', 'hard', 'refraction', 'caustics'])
     await page.setChecked(`input[name=${part}]`, parts.includes(part));
   await page.click('#start');
   return page;
@@ -46,5 +46,19 @@ test('after a cancelled run the next one starts anew', async () => {
   await page.waitForFunction(() => document.querySelector('#part').value.startsWith('hard case'));
   assert.ok(await page.isEnabled('#cancel'));
   assert.ok((await page.evaluate(() => document.querySelector('#share').value)) < 0.9);
+  await page.leave();
+});
+
+test('refraction is measured in the page as natively', async () => {
+  const page = await start(['refraction']);
+  await page.waitForFunction(() => document.querySelector('#part').value.startsWith('sphere: peel maxLayers'));
+  await page.click('#cancel');
+  await page.waitForSelector('#download:not([hidden])');
+  const [first] = (await page.evaluate(() => window.found)).measurements;
+  assert.equal(first.technique, 'refract');
+  assert.ok(first.ms.median > 0);
+  const { median, p95, lost } = first.error.degrees.all; // natively 0.002 and 0.021
+  assert.ok(median < 0.004 && p95 < 0.04 && lost === 0, JSON.stringify(first.error));
+  assert.deepEqual(page.problems, []);
   await page.leave();
 });
