@@ -120,7 +120,8 @@ Bracket passBehind(float edge, float b, vec3 v, vec3 r) {
     layer = 1;
     mostLooks = looks + light.steps;
     float gap = gapAt(v, r, edge);
-    return Bracket(edge, within > 0.0 && within < gap ? -1.0 : gap, b, gapAt(v, r, b));
+    bool isSide = within > 0.0 && within < gap + 0.01 * texelAt(v + edge * r); // of what may stand on what lies behind
+    return Bracket(edge, isSide ? -1.0 : gap, b, gapAt(v, r, b));
 }
 
 float distanceAlong(vec3 v, vec3 r) {
@@ -186,6 +187,9 @@ void main() {
     vec3 landing = place.xyz + d * direction.xyz;
     Glance glance = lookFrom(landing, layer);
     if (glance.gap > kFar) return;
-    oLanding = vec4(landing, place.w + (layer == 1 ? kBehind : 0.0));
+    oLanding = vec4(landing, place.w);
+#ifdef USE_BEHIND
+    if (layer == 1 && isBehind(landing)) oLanding.w += kBehind;
+#endif
     oEffort.y = glance.gap / texelAt(landing);
 }

@@ -9,16 +9,32 @@ uniform sampler2D uBack;   // and where the first ones end, if they are solid: b
 
 const float kFar = 1e29; // beyond it there is nothing
 
-// @param layer  0: of what the light sees; 1: of the receivers behind; 2: of the first ones' backs
-float depthAt(int face, vec2 texel, int layer) {
+ivec2 texelOn(int face, vec2 texel) {
     ivec2 corner = ivec2(face % 3, face / 3) * ivec2(light.faces[face].size);
-    ivec2 at = corner + ivec2(clamp(texel, vec2(0.0), light.faces[face].size - 1.0));
+    return corner + ivec2(clamp(texel, vec2(0.0), light.faces[face].size - 1.0));
+}
+
+// @param layer  0: of what the light sees; 1: of the receivers behind, which go on as the first where none lies behind,
+//               as a floor does beside a table; 2: of the first ones' backs
+float depthAt(int face, vec2 texel, int layer) {
+    ivec2 at = texelOn(face, texel);
+    float first = texelFetch(uShadow, at, 0).r;
 #ifdef USE_BEHIND
-    if (layer == 1) return texelFetch(uBehind, at, 0).r;
+    float behind = texelFetch(uBehind, at, 0).r;
+    if (layer == 1 && behind < kFar) return behind;
     if (layer == 2) return texelFetch(uBack, at, 0).r;
 #endif
-    return texelFetch(uShadow, at, 0).r;
+    return first;
 }
+
+#ifdef USE_BEHIND
+// Whether a receiver lies behind another one at a place.
+bool isBehind(vec3 place) {
+    int number = faceOf(place);
+    View face = light.faces[number];
+    return texelFetch(uBehind, texelOn(number, floor(pixelOf(face, inView(face, place - face.eye.xyz)))), 0).r < kFar;
+}
+#endif
 
 // Depths that differ by more widths of a texel are not of one surface: it would be 7 degrees from edge-on, and neither
 // show nor light up. Chosen by eye.

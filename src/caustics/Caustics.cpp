@@ -49,9 +49,20 @@ int borderOf(const std::vector<views::Eye>& faces, int size) {
 // are frayed where it ends.
 //
 // @param ray  m between rays
-views::Bounds seenWithMargin(const views::Eye& eye, const views::Bounds& all, float ray) {
+views::Bounds seenWithMargin(const views::Eye& eye, const std::vector<views::DrawnMesh>& meshes,
+                             const std::vector<views::DrawnObject>& fields, float ray) {
     constexpr float kMargin = 1.0f / 16, kRays = 4; // of the longest side; at least
-    const views::Bounds seen = views::seenBy(eye, all);
+    views::Bounds seen;
+    const auto add = [&](const scene::Object& object) {
+        const views::Bounds one = views::seenBy(eye, views::boundsOf(object));
+        seen.low = glm::min(seen.low, one.low);
+        seen.high = glm::max(seen.high, one.high);
+    };
+    for (const views::DrawnMesh& mesh : meshes)
+        add(*mesh.object);
+    for (const views::DrawnObject& field : fields)
+        add(*field.object);
+    const views::Bounds all = boundsOfAll(meshes, fields);
     const vec3 size = seen.high - seen.low;
     const vec3 margin(std::max(kMargin * std::max({size.x, size.y, size.z}), kRays * ray));
     return {glm::max(seen.low - margin, all.low), glm::min(seen.high + margin, all.high)};
@@ -230,7 +241,7 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
     all.insert(all.end(), meshes.glass.begin(), meshes.glass.end());
     const views::Bounds everything = boundsOfAll(all, fields);
     const float ray = meshes.glass.empty() ? 0 : 2 * glass.radius() / float(settings.grid);
-    const views::Bounds receivers = seenWithMargin(eye, boundsOfAll(receiversOf(meshes.solid), fields), ray);
+    const views::Bounds receivers = seenWithMargin(eye, receiversOf(meshes.solid), fields, ray);
     for (const views::LampPoint& lamp : views::lampPoints(scene, settings.lightSamples)) {
         if (lamp.color == vec3(0)) continue;
         views::ShadowSource around = lamp.source; // light leaves the cone of a spot where it is bent

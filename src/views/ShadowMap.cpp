@@ -13,10 +13,10 @@ constexpr float kWidest =
     1.7320508f;                   // tangent of 60 degrees: beyond it a plane view wastes most of its texels
 constexpr float kNearest = 1e-3f; // of the farthest depth
 constexpr float kNothing = 1e30f;
-// Texels by which a view of parallel light lies beside the middle of what it shows. Where triangles are cut
-// at the border, llvmpipe's clipper may leave a sliver along the edge that two of them share, whose depths
-// are 0.4 % off; it is seen only where texel centres lie just on that edge, as on the diagonal of a square in
-// the middle.
+// Texels by which a view that is fitted to what it shows lies beside the middle of that. Where triangles are
+// cut at the border, llvmpipe's clipper may leave a sliver along the edge that two of them share, whose
+// depths are 0.4 % off; it is seen only where texel centres lie just on that edge, as on the diagonal of a
+// square in the middle.
 constexpr vec2 kAside(0.31f, 0.17f);
 
 bool isEmpty(const Bounds& bounds) { return glm::any(glm::lessThan(bounds.high, bounds.low)); }
@@ -114,15 +114,34 @@ Eye pointEye(const Frame& frame, const vec3& position, vec2 extents, float farth
                  kNearest * farthest, farthest);
 }
 
+// Whether a view may show something of a box: its corners do not all lie beside one of the view's sides.
+bool mayShow(const Eye& eye, const Bounds& bounds) {
+    bool beside[5] = {true, true, true, true, true};
+    for (const vec3& corner : cornersOf(bounds)) {
+        const vec3 v = corner - eye.position;
+        const float depth = dot(v, eye.forward);
+        const vec2 at(dot(v, eye.right), dot(v, eye.up));
+        const vec2 half = (eye.perspective ? depth : 1) * eye.halfExtent;
+        const bool here[5] = {depth<0, at.x> half.x, at.x<-half.x, at.y> half.y, at.y < -half.y};
+        for (int side = 0; side < 5; ++side)
+            beside[side] = beside[side] && here[side];
+    }
+    return std::none_of(std::begin(beside), std::end(beside), [](bool all) { return all; });
+}
+
 std::vector<Eye> pointEyes(const ShadowSource& source, const Bounds& receivers, int size) {
     const vec3 position(source.place);
     const float farthest = farthestOf(position, receivers);
     const vec3 towards = receivers.center() - position;
     if (glm::length(towards) > 0) {
-        const Frame frame(glm::normalize(towards));
-        const std::optional<vec2> extents = extentsOf(frame, position, receivers);
-        if (extents && std::max(extents->x, extents->y) <= source.tangent)
-            return {pointEye(frame, position, *extents, farthest, size)};
+        const Frame middle(glm::normalize(towards));
+        std::optional<vec2> extents = extentsOf(middle, position, receivers);
+        if (extents && std::max(extents->x, extents->y) <= source.tangent) {
+            const vec2 aside = kAside * 2.0f * *extents / float(size);
+            const Frame frame(glm::normalize(middle.forward + aside.x * middle.right + aside.y * middle.up));
+            extents = extentsOf(frame, position, receivers);
+            if (extents) return {pointEye(frame, position, *extents, farthest, size)};
+        }
     }
     if (source.tangent <= kWidest)
         return {pointEye(Frame(source.axis), position, vec2(source.tangent + 1e-4f), farthest, size)};
@@ -133,20 +152,8 @@ std::vector<Eye> pointEyes(const ShadowSource& source, const Bounds& receivers, 
             forward[axis] = side;
             faces.push_back(pointEye(Frame(forward), position, vec2(1), farthest, size));
         }
+    std::erase_if(faces, [&](const Eye& face) { return !mayShow(face, receivers); });
     return faces;
-}
-
-// Whether a view may show something of a ball.
-bool mayShow(const Eye& eye, const Bounds& bounds) {
-    const vec3 v = bounds.center() - eye.position;
-    const float radius = bounds.radius(), depth = dot(v, eye.forward);
-    if (depth + radius < eye.nearest) return false;
-    const auto beside = [&](const vec3& axis, float half) {
-        const float reach =
-            eye.perspective ? depth * half + radius * std::sqrt(1 + half * half) : half + radius;
-        return std::abs(dot(v, axis)) > reach;
-    };
-    return !beside(eye.right, eye.halfExtent.x) && !beside(eye.up, eye.halfExtent.y);
 }
 
 } // namespace
@@ -227,15 +234,54 @@ Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& con
     return depths;
 }
 
+namespace {
+
+// Sides of a view: places in it are not below 0 of any.
+std::array<float, 6> depthsWithin(const Eye& eye, const vec3& place) {
+    const vec3 v = place - eye.position;
+    const float depth = dot(v, eye.forward);
+    const vec2 at(dot(v, eye.right), dot(v, eye.up)), half = (eye.perspective ? depth : 1) * eye.halfExtent;
+    return {depth - eye.nearest, eye.farthest - depth, half.x - at.x,
+            half.x + at.x,       half.y - at.y,        half.y + at.y};
+}
+
+// The part of a convex polygon that a view shows (Sutherland, Hodgman 1974).
+std::vector<vec3> shownOf(const Eye& eye, std::vector<vec3> polygon) {
+    for (std::size_t side = 0; side < 6; ++side) {
+        std::vector<vec3> kept;
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+            const float within = depthsWithin(eye, a)[side], next = depthsWithin(eye, b)[side];
+            if (within >= 0) kept.push_back(a);
+            if ((within >= 0) != (next >= 0)) kept.push_back(glm::mix(a, b, within / (within - next)));
+        }
+        polygon = std::move(kept);
+    }
+    return polygon;
+}
+
+} // namespace
+
 Bounds seenBy(const Eye& eye, const Bounds& bounds) {
+    constexpr int kFaces[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                  {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
     Bounds shown;
-    for (const float depth : {eye.nearest, eye.farthest})
+    const std::array<vec3, 8> corners = cornersOf(bounds);
+    for (const auto& face : kFaces) {
+        std::vector<vec3> polygon;
+        for (const int corner : face)
+            polygon.push_back(corners[std::size_t(corner)]);
+        for (const vec3& place : shownOf(eye, std::move(polygon)))
+            shown.add(place);
+    }
+    for (const float depth : {eye.nearest, eye.farthest}) // corners of the view inside the box
         for (const float x : {-1.0f, 1.0f})
             for (const float y : {-1.0f, 1.0f}) {
                 const vec2 at = eye.halfExtent * vec2(x, y) * (eye.perspective ? depth : 1.0f);
-                shown.add(eye.position + at.x * eye.right + at.y * eye.up + depth * eye.forward);
+                const vec3 place = eye.position + at.x * eye.right + at.y * eye.up + depth * eye.forward;
+                if (glm::clamp(place, bounds.low, bounds.high) == place) shown.add(place);
             }
-    return common(shown, bounds);
+    return shown;
 }
 
 } // namespace lucent::views

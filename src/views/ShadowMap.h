@@ -21,14 +21,15 @@ struct ShadowViews {
     static constexpr int kMost = 6;
     static constexpr int kColumns = 3;
 
-    std::vector<Eye> faces; ///< one, or the six faces of a cube; none: nothing can lie in shadow
+    std::vector<Eye> faces; ///< one, or faces of a cube, at most six; none: nothing can lie in shadow
     int size = 0;           ///< pixels a side of each
     ivec2 imageSize() const;
     ivec2 corner(int face) const { return size * ivec2(face % kColumns, face / kColumns); }
 };
 
 /// Where to look from a light: as narrow as what casts shadows and what receives them allow. Parallel light
-/// and a point that has everything before it within 60 degrees need one view, other points six.
+/// and a point that has everything before it within 60 degrees need one view, other points those of a cube's
+/// six faces in which receivers may be.
 ///
 /// @param casters    box around all that casts shadows
 /// @param receivers  box around all on which they fall
@@ -57,7 +58,7 @@ Bounds boundsOfAll(const std::vector<Mesh>& meshes, const std::vector<DrawnObjec
     return all;
 }
 
-/// The part of a box that a view can show, as a box.
+/// The box around the part of a box that a view shows.
 Bounds seenBy(const Eye& eye, const Bounds& bounds);
 
 } // namespace lucent::views

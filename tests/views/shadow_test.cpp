@@ -56,6 +56,13 @@ TEST(ShadowViews, APointBeforeTheSceneNeedsOneViewAndOneAmidItSix) {
     EXPECT_EQ(squares, vec3(2));
 }
 
+TEST(ShadowViews, APointNearAFloorDoesNotLookAwayFromIt) {
+    const ShadowViews views = shadowViews({.place = {0, 1, 0, 1}}, kBox, kFloor, 512);
+    ASSERT_EQ(views.faces.size(), 5u);
+    for (const Eye& eye : views.faces)
+        EXPECT_LE(eye.forward.y, 0);
+}
+
 TEST(ShadowViews, ASpotLooksNoFartherAroundThanItShines) {
     const ShadowSource narrow{{0, 1.5f, 0, 1}, {0, -1, 0}, 0.25f};
     const ShadowViews views = shadowViews(narrow, kBox, kBox, 512);
