@@ -11,15 +11,8 @@ layout(std140) uniform DepositBlock {
     float size; // of a splat, texels; of what bends light: width of a ray's cell [m], of a point's light a metre deep
     int padding0, padding1;
 } light;
-#include "views/shadow.glsl"
+#include "caustics/map_view.glsl"
 #include "caustics/behind.glsl"
-
-// Pixel coordinates in a face; z: depth.
-vec3 onMap(int number, vec3 place) {
-    View face = light.faces[number];
-    vec3 seen = inView(face, place - face.eye.xyz);
-    return vec3(pixelOf(face, seen), seen.z);
-}
 
 // Where the face that is drawn begins on the map.
 vec2 mapCorner(int layer) {
@@ -32,7 +25,11 @@ vec4 clipFromMap(vec2 pixel) { return vec4(2.0 * (pixel - light.frame.xy) / ligh
 // Whether a pixel of the map belongs to another face.
 bool isBesideFace(vec2 pixel, int layer) {
     pixel -= mapCorner(layer);
-    return any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, light.faces[light.face].size));
+    vec2 size = light.faces[light.face].size;
+#ifdef PARABOLOIDS
+    if (distance(pixel, 0.5 * size) > 0.5 * size.x) return true;
+#endif
+    return any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, size));
 }
 
 const vec4 kAway = vec4(2.0, 2.0, 0.0, 1.0); // outside of every face

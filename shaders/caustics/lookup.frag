@@ -23,7 +23,7 @@ uniform sampler2D uSolid;
 #else
 #include "views/surface_pixel.glsl"
 #endif
-#include "views/shadow.glsl"
+#include "caustics/map_view.glsl"
 uniform sampler2D uMap;
 #ifdef USE_BEHIND
 uniform sampler2D uBehind;
@@ -59,26 +59,23 @@ Shown shownHere() {
 // Where a place lies on the map, in texels.
 vec2 mapAt(vec3 place) {
     int number = faceOf(place);
-    View face = light.faces[number];
-    vec3 seen = inView(face, place - face.eye.xyz);
-    return pixelOf(face, seen) + float(number) * 1e6;
+    return onMap(number, place).xy + float(number) * 1e6;
 }
 
 vec3 fluxOnArea(vec3 place, vec3 normal) {
     int number = faceOf(place);
     View face = light.faces[number];
     vec3 v = place - face.eye.xyz;
-    vec3 seen = inView(face, v);
+    vec3 seen = onMap(number, place);
     bool perspective = face.eye.w > 0.5;
     if (perspective && seen.z <= 0.0) return vec3(0.0);
-    vec2 pixel = pixelOf(face, seen);
+    vec2 pixel = seen.xy;
     if (any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, face.size))) return vec3(0.0);
     vec3 along = perspective ? normalize(v) : face.forward.xyz;
     float cosine = -dot(normal, along);
     if (cosine <= 0.0) return vec3(0.0);
 
-    float width = max(length(face.right.xyz), length(face.up.xyz)) * (perspective ? seen.z : 1.0);
-    float margin = width * (kMargin + kSteepMargin * sqrt(1.0 - cosine * cosine) / max(cosine, 1e-6));
+    float margin = texelWidth(face, pixel, v) * (kMargin + kSteepMargin * sqrt(1.0 - cosine * cosine) / max(cosine, 1e-6));
     ivec2 corner = ivec2(number % 3, number / 3) * ivec2(face.size);
     vec2 low = floor(pixel - 0.5);
     vec2 f = pixel - 0.5 - low;
@@ -88,7 +85,7 @@ vec3 fluxOnArea(vec3 place, vec3 normal) {
         vec2 step_ = vec2(i & 1, i >> 1);
         vec2 at = clamp(low + step_, vec2(0.0), face.size - 1.0);
         ivec2 texel = corner + ivec2(at);
-        float depth = planeDepth(face, at + 0.5, v, normal);
+        float depth = depthOnPlane(face, at + 0.5, v, normal);
         if (abs(texelFetch(uShadow, texel, 0).r - depth) > margin) { // another surface
 #ifdef USE_BEHIND
             if (abs(texelFetch(uBehind, texel, 0).r - depth) > margin) continue;
@@ -102,9 +99,7 @@ vec3 fluxOnArea(vec3 place, vec3 normal) {
         sum += share.x * share.y * texelFetch(uMap, texel, 0).rgb;
     }
     if (weights == 0.0) return vec3(0.0);
-    float area = length(face.right.xyz) * length(face.up.xyz);
-    if (perspective) area *= seen.z * seen.z * dot(along, face.forward.xyz);
-    return sum / weights * light.unit * cosine / area;
+    return sum / weights * light.unit * cosine / texelArea(face, pixel, v);
 }
 
 // Point of the surface's tangent plane beside the middle of the pixel, in pixels.

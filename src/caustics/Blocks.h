@@ -139,6 +139,21 @@ struct LandBlock {
     }
 };
 
+struct RoundBlock {
+    Faces faces;
+    views::ViewBlock halves[2];
+    int faceCount;
+    int padding[3] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {{"faces[0].eye", offsetof(RoundBlock, faces)},
+                                                             {"halves[0].eye", offsetof(RoundBlock, halves)},
+                                                             {"faceCount", offsetof(RoundBlock, faceCount)}};
+        static const graph::BlockLayout layout{"RoundBlock", sizeof(RoundBlock), members};
+        return layout;
+    }
+};
+
 struct DepositBlock {
     Faces faces;
     vec4 frame;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::string_view kIntersects[] = {"hybrid", "fixed-point", "newton", "secant"};
 constexpr std::string_view kDeposits[] = {"beam", "splat", "lines"};
+constexpr std::string_view kPointMaps[] = {"cube", "paraboloids"};
 
 // A point of a light that looks at meshes no wider than their vertices ask for: their box may be too wide for
 // one view where they are not. Moving ones are looked at by their box.
@@ -66,6 +67,25 @@ views::Bounds seenWithMargin(const views::Eye& eye, const std::vector<views::Dra
     const vec3 size = seen.high - seen.low;
     const vec3 margin(std::max(kMargin * std::max({size.x, size.y, size.z}), kRays * ray));
     return {glm::max(seen.low - margin, all.low), glm::min(seen.high + margin, all.high)};
+}
+
+// All directions from a point as one paraboloid towards what receives, and one away from it if any of that
+// lies there.
+views::ShadowViews paraboloidsOf(const vec3& place, const views::Bounds& receivers, int size) {
+    const vec3 towards = receivers.center() - place;
+    views::Eye eye{.position = place,
+                   .forward = glm::length(towards) > 0 ? glm::normalize(towards) : vec3(0, -1, 0),
+                   .perspective = true,
+                   .halfExtent = vec2(float(size) / float(size - 4))}; // texels around what lies on the rim
+    eye.right = glm::normalize(
+        glm::cross(eye.forward, std::abs(eye.forward.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0)));
+    eye.up = glm::cross(eye.right, eye.forward);
+    views::Eye back = eye;
+    back.forward = -eye.forward;
+    back.right = -eye.right;
+    const vec3 nearest = glm::mix(receivers.low, receivers.high, glm::lessThan(eye.forward, vec3(0)));
+    const bool isAllBefore = glm::dot(nearest - place, eye.forward) > 0;
+    return {.faces = isAllBefore ? std::vector{eye} : std::vector{eye, back}, .size = size};
 }
 
 // Whether what light falls on cannot lie behind itself: one surface that bends nowhere away from any lamp.
@@ -171,6 +191,14 @@ const ParamTable& Caustics::params() {
                                      .logarithmic = true,
                                      .group = Group::Caustics,
                                      .doc = "Texels along a side of the image in which light adds up."}),
+        declare(&Settings::pointMap,
+                {.id = "pointMap",
+                 .label = "Map of a lamp all around",
+                 .group = Group::Caustics,
+                 .doc =
+                     "How the image in which light adds up lies about a lamp with receivers all around: as "
+                     "up to six faces of a cube; or as two paraboloids, coarser in a third of the memory.",
+                 .choices = kPointMaps}),
         declare(&Settings::steps, {.id = "steps",
                                    .label = "Steps",
                                    .min = 1,
@@ -249,6 +277,8 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
         Plan::Light light{.lamp = lamp,
                           .receivers = views::shadowViews(around, receivers, receivers, settings.mapSize)};
         if (light.receivers.faces.empty()) continue;
+        if (settings.pointMap == PointMap::Paraboloids && light.receivers.faces.size() > 1)
+            light.halves = paraboloidsOf(vec3(lamp.source.place), receivers, settings.mapSize);
         const int size = viewSizeOf(settings.grid).x;
         const auto viewsOf = [&](const std::vector<views::DrawnMesh>& bending, const views::Bounds& bounds) {
             return views::shadowViews(aimedAt(lamp.source, bending, bounds), everything, bounds, size).faces;

@@ -16,19 +16,21 @@ namespace lucent::caustics {
 
 enum class Intersect : int { Hybrid, FixedPoint, Newton, Secant };
 enum class Deposit : int { Beam, Splat, Lines };
+enum class PointMap : int { Cube, Paraboloids };
 std::string_view nameOf(Intersect intersect);
 std::string_view nameOf(Deposit deposit);
 
 struct Settings {
     Intersect intersect = Intersect::Hybrid;
     Deposit deposit = Deposit::Beam;
-    int grid = 128;         ///< rays a side
-    bool refine = true;     ///< beams: rays through single pixels where no beam carries light
-    int mapSize = 512;      ///< texels a side of the caustic map
-    int steps = 32;         ///< looks at the receivers' image for a ray, at most
-    int receiverLayers = 2; ///< receivers behind each other on which light is found
-    int lightSamples = 16;  ///< points that stand for a lamp with a size
-    int wavelengths = 3;    ///< of white light in glass that disperses
+    int grid = 128;                     ///< rays a side
+    bool refine = true;                 ///< beams: rays through single pixels where no beam carries light
+    int mapSize = 512;                  ///< texels a side of the caustic map, or of each of its faces
+    PointMap pointMap = PointMap::Cube; ///< how the map lies about a lamp that shines all around
+    int steps = 32;                     ///< looks at the receivers' image for a ray, at most
+    int receiverLayers = 2;             ///< receivers behind each other on which light is found
+    int lightSamples = 16;              ///< points that stand for a lamp with a size
+    int wavelengths = 3;                ///< of white light in glass that disperses
 };
 
 struct Inputs {
@@ -58,8 +60,10 @@ struct Plan {
         std::optional<Water> water{}; ///< instead of `glass`, where that is all that refracts
         std::vector<View> glass{};    ///< that show what refracts
         std::vector<View> mirrors{};  ///< that show what mirrors
-        views::ShadowViews receivers; ///< in which the caustic map lies
-        bool hasBehind = false;       ///< behind what receives light lies more that does
+        views::ShadowViews receivers; ///< that show what receives
+        views::ShadowViews
+            halves{};           ///< paraboloids in which the caustic map lies; none: it lies in `receivers`
+        bool hasBehind = false; ///< behind what receives light lies more that does
     };
     std::vector<Light> lights;
 };

@@ -8,25 +8,26 @@ using graph::Format;
 using graph::TextureId;
 
 float LightPasses::unit() const {
-    const views::Eye& face = light_.receivers.faces.front();
-    const vec2 texel = 2.0f * face.halfExtent / float(light_.receivers.size);
+    const views::Eye& face = mapViews().faces.front();
+    vec2 texel = 2.0f * face.halfExtent / float(mapViews().size);
+    if (!light_.halves.faces.empty()) texel *= 2.0f; // radians in the middle of a paraboloid
     const vec3 color = light_.lamp.color;
     return texel.x * texel.y * std::max({color.r, color.g, color.b});
 }
 
 // A splat covers three rays of a light that nothing bends, and at least three texels.
 float LightPasses::splatSize(const views::Eye& glass) const {
-    const views::Eye& face = light_.receivers.faces.front();
+    const views::Eye& face = mapViews().faces.front();
     const float ray = glass.halfExtent.x / float(settings_.grid);
-    const float texel = face.halfExtent.x / float(light_.receivers.size);
+    const float texel = face.halfExtent.x / float(mapViews().size);
     return std::clamp(3 * ray / texel, 3.0f, context_.caps().maxPointSize);
 }
 
 DepositBlock LightPasses::depositBlock(const Photons& photons, float size) const {
-    return {.faces = Faces(light_.receivers),
+    return {.faces = Faces(mapViews()),
             .frame = vec4(0),
             .grid = photons.count,
-            .faceCount = int(light_.receivers.faces.size()),
+            .faceCount = int(mapViews().faces.size()),
             .face = 0,
             .unit = unit(),
             .size = size};
@@ -42,13 +43,13 @@ Status LightPasses::deposit() {
     };
     std::vector<Kind> kinds;
     const auto add = [&](const char* stem, std::vector<std::string> defines, Kind kind) -> Status {
-        Result<const gl::Program*> found = program(stem, std::move(defines));
+        Result<const gl::Program*> found = programOnMap(stem, std::move(defines));
         if (!found) return found.error();
         kind.program = *found;
         kinds.push_back(kind);
         return Done{};
     };
-    const views::ShadowViews& views = light_.receivers;
+    const views::ShadowViews& views = mapViews();
     if (settings_.deposit == Deposit::Beam) {
         std::vector<std::string> ofBeams, ofPoints;
         if (views.faces.size() > 1) ofBeams.push_back("SEVERAL_VIEWS");
@@ -122,23 +123,23 @@ Status LightPasses::lookUp(TextureId& sum) {
     if (in_.solid) defines.push_back("FROM_SOLID");
     const char* const name = in_.solid ? "uSolid" : "uSurface";
     const TextureId pixels = in_.solid ? in_.solid : in_.surface;
-    Result<const gl::Program*> looking = program("caustics/lookup", defines);
+    Result<const gl::Program*> looking = programOnMap("caustics/lookup", defines);
     if (!looking) return looking.error();
     const TextureId before = sum;
     graph_.addPass("caustics.lookup", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("irradiance that one point of a light throws on each pixel by way of glass");
         pass.sample(pixels);
         pass.sample(map_);
-        pass.sample(depths_);
-        if (behind_) pass.sample(behind_);
+        pass.sample(mapDepths_);
+        if (behind_) pass.sample(mapBehind_);
         if (before) pass.sample(before);
         sum = pass.createColor("caustics.irradiance", {.size = in_.size, .format = Format::RGBA32F});
         const LookupBlock block{.view = views::viewBlock(in_.eye, in_.size),
-                                .faces = Faces(light_.receivers),
-                                .faceCount = int(light_.receivers.faces.size()),
+                                .faces = Faces(mapViews()),
+                                .faceCount = int(mapViews().faces.size()),
                                 .unit = unit()};
-        return [=, program = *looking, map = map_, depths = depths_,
-                behind = behind_](const graph::Resources& resources, graph::Commands& commands) {
+        return [=, program = *looking, map = map_, depths = mapDepths_,
+                behind = mapBehind_](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{
                 {name, resources[pixels]}, {"uMap", resources[map]}, {"uShadow", resources[depths]}};
             if (behind) textures.push_back({"uBehind", resources[behind]});

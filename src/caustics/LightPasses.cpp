@@ -262,7 +262,7 @@ Status LightPasses::land(Photons& photons, Part part, TextureId beams) {
 
 // @param cell  width of a ray's: m, or of a point's light m for each metre from it
 Result<TextureId> LightPasses::beamsOf(const Photons& photons, float cell) {
-    Result<const gl::Program*> choosing = program(
+    Result<const gl::Program*> choosing = programOnMap(
         "caustics/beams", refines() ? std::vector<std::string>{"REFINE"} : std::vector<std::string>{});
     if (!choosing) return choosing.error();
     TextureId beams;
@@ -335,6 +335,35 @@ Status LightPasses::recordBack() {
     return Done{};
 }
 
+// Depths in the map's paraboloids.
+Status LightPasses::recordRound() {
+    std::vector<std::string> defines{"PARABOLOIDS"};
+    if (behind_) defines.push_back("USE_BEHIND");
+    Result<const gl::Program*> rounding = program("caustics/round", defines);
+    if (!rounding) return rounding.error();
+    graph_.addPass("caustics.round", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("how far what the light sees lies behind each texel of the map's paraboloids");
+        std::vector<std::pair<const char*, TextureId>> samples{{"uShadow", depths_}};
+        if (behind_) samples.insert(samples.end(), {{"uBehind", behind_}, {"uBack", back_}});
+        for (const auto& [name, texture] : samples)
+            pass.sample(texture);
+        const TextureDesc desc{.size = mapViews().imageSize(), .format = Format::R32F};
+        mapDepths_ = pass.createColor("caustics.round", desc);
+        if (behind_) mapBehind_ = pass.createColor("caustics.roundBehind", desc);
+        RoundBlock block{
+            .faces = Faces(light_.receivers), .halves = {}, .faceCount = int(light_.receivers.faces.size())};
+        std::copy_n(Faces(light_.halves).list, 2, block.halves);
+        return [=, program = *rounding, samples = std::move(samples)](const graph::Resources& resources,
+                                                                      graph::Commands& commands) {
+            std::vector<graph::Binding> textures;
+            for (const auto& [name, texture] : samples)
+                textures.push_back({name, resources[texture]});
+            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+        };
+    });
+    return Done{};
+}
+
 // --- all of them
 
 Status LightPasses::record(TextureId& sum) {
@@ -350,6 +379,10 @@ Status LightPasses::record(TextureId& sum) {
         behind_ = *behind;
         if (Status s = recordBack(); !s) return s;
     }
+    mapDepths_ = depths_;
+    mapBehind_ = behind_;
+    if (!light_.halves.faces.empty())
+        if (Status s = recordRound(); !s) return s;
     const std::vector<Tint> light =
         views::disperses(in_.glass) ? tints(settings_.wavelengths) : std::vector<Tint>{{}};
     if (light_.water)

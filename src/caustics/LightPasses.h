@@ -64,7 +64,7 @@ public:
     Status record(graph::TextureId& sum);
     /// Flux on a texel of the map that the light meets undisturbed: a number that 16-bit floats hold well.
     float unit() const;
-    Map map() const { return {map_, depths_, light_.receivers.imageSize()}; }
+    Map map() const { return {map_, mapDepths_, mapViews().imageSize()}; }
 
 private:
     struct Photons {
@@ -111,6 +111,7 @@ private:
     graph::Draw drawOf(Part part) const;
     Status land(Photons& photons, Part part = Part::Cells, graph::TextureId beams = {});
     Status recordBack();
+    Status recordRound();
     Result<graph::TextureId> beamsOf(const Photons& photons, float cell);
     Status weigh(Sheet& sheet);
 
@@ -124,7 +125,15 @@ private:
 
     float splatSize(const views::Eye& glass) const;
     DepositBlock depositBlock(const Photons& photons, float size) const;
-    ivec2 mapSize() const { return light_.receivers.imageSize() * ivec2(1, light_.hasBehind ? 2 : 1); }
+    const views::ShadowViews& mapViews() const {
+        return light_.halves.faces.empty() ? light_.receivers : light_.halves;
+    }
+    ivec2 mapSize() const { return mapViews().imageSize() * ivec2(1, light_.hasBehind ? 2 : 1); }
+    // Of a program that knows where the map's texels lie.
+    Result<const gl::Program*> programOnMap(const char* stem, std::vector<std::string> defines = {}) {
+        if (!light_.halves.faces.empty()) defines.push_back("PARABOLOIDS");
+        return program(stem, std::move(defines));
+    }
     Status deposit();
     Status lookUp(graph::TextureId& sum);
 
@@ -150,7 +159,8 @@ private:
     std::vector<views::PosedMesh> receivers_;
     std::vector<Sheet> sheets_;
     graph::TextureId depths_, map_;
-    graph::TextureId behind_, back_; // none where no receiver lies behind another
+    graph::TextureId behind_, back_;         // none where no receiver lies behind another
+    graph::TextureId mapDepths_, mapBehind_; // `depths_` and `behind_` as the map's texels lie
 };
 
 } // namespace lucent::caustics

@@ -384,6 +384,39 @@ TEST_F(Caustics, AReceiverBehindTheLampChangesNothing) {
     const Shown both = show(scene, {60, 60}, {.mapSize = 1024});
     EXPECT_NEAR(sumOf(both.light) / sumOf(alone.light), 1, 0.005);
     EXPECT_LT(misplaced(both.light, alone.light), 0.01);
+    const Image round = lightOf(scene, {60, 60}, {.mapSize = 1024, .pointMap = PointMap::Paraboloids});
+    EXPECT_NEAR(sumOf(round) / sumOf(alone.light), 1, 0.005);
+    EXPECT_LT(misplaced(round, alone.light), 0.005); // texels twice as wide: measured 0.0022
+}
+
+TEST_F(Caustics, ASlabUnderALampAmidReceiversSpreadsItsLightInEveryMap) {
+    // A ray at angle a from the axis lands at r = (H - T) tan a + T tan b, so that E = I t² sin a da / (r
+    // dr).
+    constexpr double kLamp = 2, kThick = 0.4, kIor = 1.5;
+    scene::Scene scene = floorUnder(glass(scene::Box{{9, float(kThick), 9}}, float(kIor), {0, 0.6f, 0}), 3);
+    scene.lights = {scene::PointLight{
+        .position = {0, float(kLamp), 0}, .intensity = 1, .falloff = scene::LightFalloff::InverseSquare}};
+    scene.objects.push_back(matt(scene::Plane{{2, 2}}, {0, 4, 0}));
+    scene.objects.back().visible = false;
+    Image wanted(64, 64, 4);
+    const auto radiusOf = [](double a) {
+        return (kLamp - kThick) * std::tan(a) + kThick * std::tan(std::asin(std::sin(a) / kIor));
+    };
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const double r = std::hypot(x - 31.5, y - 31.5) * 3 / 64;
+            double low = 0, high = 1.5;
+            for (int i = 0; i < 50; ++i)
+                (radiusOf(0.5 * (low + high)) < r ? low : high) = 0.5 * (low + high);
+            const double step = 1e-4, slope = (radiusOf(low + step) - radiusOf(low - step)) / (2 * step);
+            const double left = std::pow(1 - test::fresnel(low, 1 / kIor), 2);
+            wanted.at(x, y)[1] = float(left * std::sin(low) / (r * slope));
+        }
+    for (const PointMap map : {PointMap::Cube, PointMap::Paraboloids}) {
+        const Image light = lightOf(scene, {64, 64}, {.grid = 64, .mapSize = 256, .pointMap = map});
+        EXPECT_NEAR(sumOf(light) / sumOf(wanted), 1, 0.002) << int(map); // measured 0.0007
+        EXPECT_LT(misplaced(light, wanted), 0.002) << int(map);          // 0.0004
+    }
 }
 
 TEST_F(Caustics, SixViewsOfALampMeetNoLightTwice) {
