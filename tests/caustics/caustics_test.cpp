@@ -672,7 +672,7 @@ TEST_F(Caustics, TheBracketFindsASlopeOnWhichTheFixedPointSwingsBetweenTwoPlaces
 
 // --- machines
 
-TEST_F(Caustics, WithoutBlendingOfFloatsAFocusLosesAPercentOfItsLight) {
+TEST_F(Caustics, WithoutBlendingOfFloatsAFocusLosesLessThanAPercentOfItsLight) {
     const scene::Scene scene = floorUnder(glass(scene::Sphere{1}, 1.5f, {0, 1.2f, 0}), 4);
     const Image full = lightOf(scene, {128, 128});
     const std::string_view missing[] = {"EXT_float_blend"};
@@ -682,10 +682,14 @@ TEST_F(Caustics, WithoutBlendingOfFloatsAFocusLosesAPercentOfItsLight) {
     const Image half = lightOf(scene, {128, 128});
     EXPECT_EQ(context->takeError(), "");
     context = before;
-    // Each addition to a bright texel cuts off what lies beyond its 11 binary digits: 1 % of all light is
-    // lost here, at the focus, where a thousand triangles lie on each other.
-    EXPECT_NEAR(sumOf(half) / sumOf(full), 1, 0.02);
-    EXPECT_LT(misplaced(half, full), 0.015);
+    // Each addition to a bright texel cuts off what lies beyond its 11 binary digits: 0.7 % of all light is
+    // lost here, at the focus, where a thousand triangles lie on each other. Against the closed form 0.40 %
+    // is misplaced with 32 bits and 0.69 % with 16, which the capability panel tells.
+    EXPECT_NEAR(sumOf(half) / sumOf(full), 1, 0.01);
+    EXPECT_LT(misplaced(half, full), 0.005);
+    const Image truth = ballOnFloor({128, 128}, 4, 1.5, 1.2);
+    EXPECT_LT(misplaced(full, truth), 0.005);
+    EXPECT_LT(misplaced(half, truth), 0.008);
 }
 
 // --- what is not drawn
