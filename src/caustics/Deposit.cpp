@@ -7,6 +7,11 @@ namespace lucent::caustics {
 using graph::Format;
 using graph::TextureId;
 
+// Texels a side, at most, of what the ray of a pixel is spread over. Rays that part widely are long thin
+// parallelograms in points whose squares they hardly fill: under a glass ball most of the time of adding up
+// went there. Narrower ones leave gaps in what is dim by then.
+constexpr float kWidestFootprint = 96;
+
 float LightPasses::unit() const {
     const views::Eye& face = mapViews().faces.front();
     vec2 texel = 2.0f * face.halfExtent / float(mapViews().size);
@@ -78,7 +83,8 @@ Status LightPasses::deposit() {
         for (const Sheet& sheet : sheets_)
             for (const Kind& kind : kinds) {
                 const Photons& photons = kind.rest ? sheet.rest : sheet.grid;
-                const float size = kind.rest ? context_.caps().maxPointSize : splatSize(sheet.eye);
+                const float size = kind.rest ? std::min(context_.caps().maxPointSize, kWidestFootprint)
+                                             : splatSize(sheet.eye);
                 const ivec2 squares = photons.count - 1;
                 Step step{.draw = {.program = kind.program,
                                    .vertices = kind.triangles ? 6 * squares.x * squares.y
