@@ -3,7 +3,7 @@
  * software drivers.
  *
  *   node scripts/peers/caustics.mjs [--site build/web/site] [--driver NAME] [--size 256] [--scene NAME]
- *                                   [--photons NUMBER] [--program build/native/lucent]
+ *                                   [--photons NUMBER] [--program build/native/lucent] [--picture FILE]
  *
  * A glass ball and sine water over a floor, lit and seen straight from above: the scenes of `lucent bench caustics`.
  * `lucent truth` traces the light. What counts is the light that comes by way of glass or water: of the ball's truth
@@ -17,8 +17,9 @@
  * misplaced. Times are those of whole frames on a canvas under a light that moves (draw, then read a pixel back), all
  * in turn.
  *
- * Prints each figure with its target, writes build/peers/caustics-DRIVER.json and, for the ball, caustics-DRIVER.png:
- * Lucent, the peer, the truth.
+ * Prints each figure with its target, writes build/peers/caustics-DRIVER.json and, there or where --picture says,
+ * caustics-DRIVER.png: a row for each scene with the truth, Lucent and what public pages do: on water they overwrite
+ * where light falls twice, and take the product of two sides for an area.
  */
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -160,22 +161,25 @@ if (process.argv[1] && import.meta.url === pathToFileURL(process.argv[1]).href) 
     photons: { type: 'string' },
     scene: { type: 'string', default: Object.keys(kScenes).join() },
     program: { type: 'string', default: 'build/native/lucent' },
+    picture: { type: 'string' },
   };
-  await runOnDrivers('caustics', options, async (page, { size, repeats, photons, scene, program }, say) => {
+  await runOnDrivers('caustics', options, async (page, { size, repeats, photons, scene, program, picture }, say) => {
     const truths = new Truths(program);
     const comparison = { size: Number(size), repeats: Number(repeats), photons };
     await bringIn(page, 'caustics_page.js');
     const all = { measurements: [], ratios: [] };
+    const rows = [];
     for (const name of scene.split(',')) {
       all.found = await compare(page, truths, name, comparison);
       print(say, name, all.found);
       all.measurements.push(...measurementsOf(name, comparison, all.found));
       all.ratios.push(...ratiosOf(name, all.found));
-      if (!all.found.png) continue;
-      const file = `caustics-${process.env.LUCENT_DRIVER}.png`;
-      writeFileSync(join(kOut, file), Buffer.from(all.found.png, 'base64'));
-      say(`wrote build/peers/${file}: Lucent, ${kScenes[name].peer}, the truth`);
+      rows.push(all.found.png);
     }
+    const file = picture ?? join(kOut, `caustics-${process.env.LUCENT_DRIVER}.png`);
+    const png = await page.evaluate((pngs) => window.stacked(pngs), rows);
+    writeFileSync(file, Buffer.from(png, 'base64'));
+    say(`wrote ${file}`);
     return all;
   });
 }

@@ -5,10 +5,11 @@
 import { Caustics } from '@pmndrs/vanilla';
 import * as THREE from 'three';
 import { FullScreenQuad } from 'three/examples/jsm/postprocessing/Pass.js';
-import { Lucent, fetchPfm, markBest, misplacedText, paint, sumOf, sweep, timeInTurn, waitFor } from './page.js';
+import { Lucent, fetchPfm, markBest, misplacedText, paint, stacked, sumOf, sweep, timeInTurn, waitFor } from './page.js';
 import { ThreeCanvas } from './three_canvas.js';
 
 const kCell = 5; // pixels a side, over which light may lie where it likes
+const kWhite = 4; // times the light without the object: white in pictures
 
 const kLight = {
   still: [0, -1, 0],
@@ -139,7 +140,10 @@ class Vanilla extends Three {
   }
 }
 
-/** Water whose light is added up by ratios of areas in a map over the picture's floor. */
+/**
+ * Water whose light is added up by ratios of areas in a map over the picture's floor; or, as public demos have it, where
+ * the last triangle overwrites what others brought and areas are products of two sides.
+ */
 class AreaRatios extends Three {
   constructor(scene) {
     super(scene);
@@ -163,7 +167,7 @@ class AreaRatios extends Three {
       }),
     );
   }
-  #material() {
+  #material(overwrites) {
     const { shape, material, depth, height } = this.water;
     const number = (value) => value.toFixed(9);
     return new THREE.ShaderMaterial({
@@ -171,7 +175,7 @@ class AreaRatios extends Three {
       side: THREE.DoubleSide,
       depthTest: false,
       depthWrite: false,
-      blending: THREE.CustomBlending,
+      blending: overwrites ? THREE.NoBlending : THREE.CustomBlending,
       blendSrc: THREE.OneFactor,
       blendDst: THREE.OneFactor,
       vertexShader: `
@@ -189,17 +193,19 @@ class AreaRatios extends Three {
         }`,
       fragmentShader: `
         varying vec3 vOld, vNew;
-        float area(vec3 place) { return length(cross(dFdx(place), dFdy(place))); }
+        float area(vec3 place) {
+          ${overwrites ? 'return length(dFdx(place)) * length(dFdy(place));' : 'return length(cross(dFdx(place), dFdy(place)));'}
+        }
         void main() { gl_FragColor = vec4(vec3(area(vOld) / area(vNew)), 1.0); }`,
     });
   }
-  set({ cells, map }) {
+  set({ cells, map, overwrites = false }) {
     const [width, depth] = this.water.shape.size;
     this.mesh?.geometry.dispose();
     this.mesh?.material.dispose();
     this.map?.dispose();
     const grid = new THREE.PlaneGeometry(width, depth, cells, cells).rotateX(-Math.PI / 2);
-    this.mesh = new THREE.Mesh(grid, this.#material());
+    this.mesh = new THREE.Mesh(grid, this.#material(overwrites));
     this.mesh.frustumCulled = false;
     this.scene.clear().add(this.mesh);
     const filters = { minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter };
@@ -257,11 +263,13 @@ class Ours {
 
 // --- the comparison
 
+window.stacked = stacked;
+
 /**
  * @param options  scene as a file has it, its second object bends the light; files, names of its truth and of the
  *                 truth's standard errors; knobs: {peer, lucent}, lists of settings; target, share; repeats of the race
- * @return         {driver, glVersion, swept: {lucent, peer: [{knobs, error, ms, isBest}]}, ms: {lucent, peer}, png of
- *                 the ball}
+ * @return         {driver, glVersion, swept: {lucent, peer: [{knobs, error, ms, isBest}]}, ms: {lucent, peer}, png: the
+ *                 truth, Lucent and what public pages do}
  */
 window.compare = async ({ scene, files, knobs, target, repeats }) => {
   const judge = await Judge.of({ scene, files });
@@ -280,22 +288,23 @@ window.compare = async ({ scene, files, knobs, target, repeats }) => {
   const frame = (one) => (i) => (one.aim(kLight.moving(i)), one.frame());
   const ms = timeInTurn({ lucent: frame(ours), peer: frame(peer) }, repeats);
   const { driver, glVersion } = lucent;
-  const found = { driver, glVersion, swept, ms };
-  if (isBall) {
-    const direct = directLight(scene);
-    const panel = (name, { error }, values, gain = 1) => ({
-      text: error ? `${name}, ${misplacedText(error.flux.misplaced)}` : name,
-      values: [...values].flatMap((value, i) => Array(3).fill(direct[i] + gain * value)),
-    });
-    ours.aim(kLight.still);
-    peer.aim(kLight.still);
-    const panels = [
-      panel('Lucent', bestOfOurs, ours.picture()),
-      panel('@pmndrs/vanilla', best, peer.picture(), best.gain),
-      panel('exact', {}, judge.exact),
-    ];
-    found.png = paint(panels, judge.size, 4); // white: four times the light past the ball
-  }
+  const direct = directLight(scene);
+  const panel = (text, values, gain = 1) => ({
+    text,
+    values: [...values].flatMap((value, i) => Array(3).fill(direct[i] + gain * value)),
+  });
+  const judged = (name, { error }) => `${name}, ${misplacedText(error.flux.misplaced)}`;
+  ours.aim(kLight.still);
+  peer.aim(kLight.still);
+  if (!isBall) peer.set({ ...best.knobs, overwrites: true });
+  const shown = peer.picture();
+  const fitted = judge.fit(shown);
+  const panels = [
+    panel('exact', judge.exact),
+    panel(judged('Lucent', bestOfOurs), ours.picture()),
+    panel(judged(isBall ? '@pmndrs/vanilla' : 'areas, overwritten', fitted), shown, fitted.gain),
+  ];
+  const found = { driver, glVersion, swept, ms, png: paint(panels, judge.size, kWhite) };
   peer.dispose();
   lucent.release();
   return found;

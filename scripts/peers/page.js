@@ -201,4 +201,20 @@ export function paint(panels, size, white) {
   return canvas.toDataURL('image/png').split(',')[1];
 }
 
+/** Pictures below each other. @param pngs  base64, all of one width. @return base64 of a PNG */
+export async function stacked(pngs) {
+  const bytesOf = (png) => Uint8Array.from(atob(png), (letter) => letter.charCodeAt(0));
+  const images = await Promise.all(pngs.map((png) => createImageBitmap(new Blob([bytesOf(png)]))));
+  const canvas = makeCanvas(
+    images[0].width,
+    images.reduce((sum, { height }) => sum + height, 0),
+  );
+  let top = 0;
+  for (const image of images) {
+    canvas.getContext('2d').drawImage(image, 0, top);
+    top += image.height;
+  }
+  return canvas.toDataURL('image/png').split(',')[1];
+}
+
 export const misplacedText = (share) => `${(100 * share).toPrecision(2)} % misplaced`;
