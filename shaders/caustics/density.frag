@@ -1,22 +1,38 @@
 // caustics/density.frag: what the triangles around a ray of the grid bring to where it lands.
 //
 // in    uBeams, uFlux  caustics/beams.frag, caustics/photon.frag
+//       uDensity       SHARPEN: what this pass has found before
 // out   oDensity.rgb   [light.unit] of a texel: flux of those that are drawn by their area, over that area. Between the
 //                      corners it is interpolated: each triangle's light then adds up to a third of its corners'
-//                      densities times its area, so that of all triangles nothing is lost, and sheets are smooth
+//                      densities times its area, so that of all triangles nothing is lost, and sheets are smooth.
+//                      SHARPEN: and what the triangles have beyond that, over their area. Where rays draw together, as
+//                      before a focus, the mean of six triangles lies outwards of a ray; this brings the light back
 //       oPoint.rgb     [light.unit] a third of the flux of those that are too small to be drawn: a point's
 #include "caustics/deposit_block.glsl"
 #include "caustics/grid.glsl"
 uniform sampler2D uFlux;
 uniform sampler2D uBeams;
 layout(location = 0) out vec4 oDensity;
+#ifdef SHARPEN
+uniform sampler2D uDensity;
+#else
 layout(location = 1) out vec4 oPoint;
+#endif
 
 struct Around {
     vec3 flux, point;
     float area; // texels
 };
 Around around = Around(vec3(0.0), vec3(0.0), 0.0);
+
+// Flux that interpolation gives a triangle.
+vec3 interpolated(ivec2 square, int triangle, float area) {
+    vec3 sum = vec3(0.0);
+#ifdef SHARPEN
+    for (int corner = 0; corner < 3; ++corner) sum += texelFetch(uDensity, cornerOf(square, triangle, corner), 0).rgb;
+#endif
+    return sum * area / 3.0;
+}
 
 void add(ivec2 square, int triangle) {
     if (any(lessThan(square, ivec2(0)))) return;
@@ -26,7 +42,7 @@ void add(ivec2 square, int triangle) {
     vec3 flux = triangleFlux(uFlux, square, triangle) / light.unit;
     around.point += spread.y * flux / 3.0;
     if (spread.x < 0.0) return;
-    around.flux += (1.0 - spread.y) * flux;
+    around.flux += (1.0 - spread.y) * (flux - interpolated(square, triangle, spread.x));
     around.area += (1.0 - spread.y) * spread.x;
 }
 
@@ -39,5 +55,9 @@ void main() {
     add(ray - ivec2(0, 1), 1);
     add(ray - 1, 1);
     oDensity = vec4(around.area > 0.0 ? around.flux / around.area : vec3(0.0), 0.0);
+#ifdef SHARPEN
+    oDensity.rgb += texelFetch(uDensity, ray, 0).rgb;
+#else
     oPoint = vec4(around.point, 0.0);
+#endif
 }

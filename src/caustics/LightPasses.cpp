@@ -287,20 +287,31 @@ Result<TextureId> LightPasses::beamsOf(const Photons& photons, float cell) {
 
 // What the triangles around each ray leave where it lands.
 Status LightPasses::weigh(Sheet& sheet) {
-    Result<const gl::Program*> weighing = program("caustics/density");
+    if (Status s = weighOnce(sheet, false); !s) return s;
+    return weighOnce(sheet, true);
+}
+
+// @param sharpen  what was found before
+Status LightPasses::weighOnce(Sheet& sheet, bool sharpen) {
+    Result<const gl::Program*> weighing = program(
+        "caustics/density", sharpen ? std::vector<std::string>{"SHARPEN"} : std::vector<std::string>{});
     if (!weighing) return weighing.error();
+    const TextureId before = sheet.density;
     graph_.addPass("caustics.density", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how densely the triangles around each ray light what they fall on");
         pass.sample(sheet.beams);
         pass.sample(sheet.grid.flux);
+        if (sharpen) pass.sample(before);
         const TextureDesc desc{.size = sheet.grid.count, .format = Format::RGBA32F};
         sheet.density = pass.createColor("caustics.density", desc);
-        sheet.points = pass.createColor("caustics.points", desc);
-        return [beams = sheet.beams, flux = sheet.grid.flux, block = depositBlock(sheet.grid, 0),
+        if (!sharpen) sheet.points = pass.createColor("caustics.points", desc);
+        return [=, beams = sheet.beams, flux = sheet.grid.flux, block = depositBlock(sheet.grid, 0),
                 program = *weighing](const graph::Resources& resources, graph::Commands& commands) {
-            commands.draw({.program = program,
-                           .block = block,
-                           .textures = {{"uBeams", resources[beams]}, {"uFlux", resources[flux]}}});
+            graph::Draw draw{.program = program,
+                             .block = block,
+                             .textures = {{"uBeams", resources[beams]}, {"uFlux", resources[flux]}}};
+            if (sharpen) draw.textures.push_back({"uDensity", resources[before]});
+            commands.draw(draw);
         };
     });
     return Done{};

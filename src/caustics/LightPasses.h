@@ -114,6 +114,7 @@ private:
     Status recordRound();
     Result<graph::TextureId> beamsOf(const Photons& photons, float cell);
     Status weigh(Sheet& sheet);
+    Status weighOnce(Sheet& sheet, bool sharpen);
 
     WaterRaysBlock waterBlock(const Tint& tint, ivec2 rays) const;
     Status beginOnWater(const Tint& tint, ivec2 rays, graph::TextureId shadow,
