@@ -98,7 +98,7 @@ function galleryCards() {
 function showMode(kind) {
   const mode = kind.toLowerCase();
   if (viewer.stats().modes?.includes(mode)) viewer.set('mode', mode);
-  else showScene(gallery.find((entry) => entry.kind === kind));
+  else showScene(gallery.find((entry) => entry.kind === kind), { mode });
 }
 
 function modeButtons() {

@@ -102,6 +102,8 @@ def kind_of(scene: dict) -> str:
         return "Caustics"
     if any(thing["shape"]["type"] == "water" for thing in scene["objects"]):
         return "Caustics"
+    if any("paint" in thing for thing in scene["objects"]):
+        return "Paint"
     if scatters(scene):
         return "Subsurface"
     return "Refraction" if any(material.get("transmission") for material in materials) else "Relief"

@@ -21,12 +21,12 @@ const kStrategies = { center: CENTER, sah: SAH };
 
 // --- what is seen
 
-/** Triangles of a scene's object, in the world. @param segments  around a sphere or a torus */
-async function geometryOf({ shape, transform }, segments) {
+/** Triangles of a scene's object, in the world. @param segments  around a sphere or a torus; @param model  a mesh's file */
+async function geometryOf({ shape, transform }, segments, model) {
   const geometry = await {
     sphere: () => new THREE.SphereGeometry(shape.radius, segments, segments / 2),
     torus: () => new THREE.TorusGeometry(shape.major, shape.minor, segments / 2, segments).rotateX(Math.PI / 2),
-    mesh: readBunny,
+    mesh: () => readModel(model),
   }[shape.type]();
   const { rotate = [0, 0, 0], scale = 1, translate = [0, 0, 0] } = transform;
   const turns = rotate.map((degrees) => THREE.MathUtils.degToRad(degrees));
@@ -39,8 +39,8 @@ async function geometryOf({ shape, transform }, segments) {
   );
 }
 
-async function readBunny() {
-  const bytes = await fetchBytes('bunny.glb');
+async function readModel(model) {
+  const bytes = await fetchBytes(model);
   const { scene } = await new GLTFLoader().parseAsync(bytes.buffer, '');
   let geometry;
   scene.traverse((node) => (geometry ??= node.geometry));
@@ -283,8 +283,8 @@ function eyeOf({ eye }, i) {
 }
 
 class Comparison {
-  constructor({ scene, size, knobs, targets, repeats }, judge, lucent) {
-    Object.assign(this, { scene, knobs, targets, repeats, judge, lucent });
+  constructor({ scene, files, size, knobs, targets, repeats }, judge, lucent) {
+    Object.assign(this, { scene, files, knobs, targets, repeats, judge, lucent });
     this.object = scene.objects[0];
     this.three = new Three(size, scene.camera);
     this.geometries = new Map();
@@ -292,7 +292,7 @@ class Comparison {
   }
   async geometry(segments) {
     const key = this.object.shape.type === 'mesh' ? 0 : segments;
-    if (!this.geometries.has(key)) this.geometries.set(key, await geometryOf(this.object, segments));
+    if (!this.geometries.has(key)) this.geometries.set(key, await geometryOf(this.object, segments, this.files.model));
     return this.geometries.get(key);
   }
   async tree(segments, knobs) {
@@ -380,7 +380,22 @@ class Comparison {
       frames[peer] = await this.frameOf(peer, chooseRacer(list, this.targets));
     const ms = timeInTurn(frames, this.repeats);
     this.lucent.set('camera.eye', this.scene.camera.eye);
-    return { trees, swept, ms, lucent: this.judge.angles(this.lucent.picture()) };
+    const lucent = this.judge.angles(this.lucent.picture());
+    const deforming = this.files.model && (await this.deform(swept.example.find(({ isBest }) => isBest).knobs));
+    return { trees, swept, ms, lucent, deforming };
+  }
+  // Lucent's frames of a body that a wave bends, and what building a tree anew takes.
+  async deform(knobs) {
+    const geometry = await this.geometry(knobs.segments);
+    const start = performance.now();
+    new Tree(geometry, knobs).dispose();
+    const rebuilt = performance.now() - start;
+    this.lucent.set(`objects.${this.object.name}.wave.amplitude`, [0.02, 0, 0]);
+    const frame = (i) => {
+      this.lucent.set('view.time', 0.05 * i);
+      this.lucent.frame();
+    };
+    return { rebuilt, ...timeInTurn({ ms: frame }, this.repeats) };
   }
   dispose() {
     this.trees.forEach((tree) => tree.dispose());
@@ -389,15 +404,16 @@ class Comparison {
 }
 
 /**
- * @param options  scene as a file has it, with one object of glass; files, names of its exact directions and layers;
+ * @param options  scene as a file has it, with one object of glass; files, names of its exact directions and layers and
+ *                 of a mesh's model;
  *                 size in pixels; knobs, lists of the peers' settings; targets in degrees; repeats of the race
  * @return         {driver, glVersion, trees, swept: {peer: [{knobs, error, ms, isBest}]}, ms of lucent and each peer,
- *                 lucent: error}
+ *                 lucent: error, deforming: {ms, rebuilt} of a mesh}
  */
 window.compare = async (options) => {
   const judge = await Judge.of(options.files);
   const lucent = await Lucent.start(options.size);
-  if (options.scene.objects[0].shape.type === 'mesh') lucent.put('bunny.mesh', await fetchBytes('bunny.mesh'));
+  if (options.files.model) lucent.put('body.mesh', await fetchBytes('body.mesh'));
   lucent.load(options.scene);
   const comparison = new Comparison(options, judge, lucent);
   const found = await comparison.run();

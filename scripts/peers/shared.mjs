@@ -67,8 +67,8 @@ export class Truths {
   }
 
   /** Turns a mesh file into the plain form that every module reads. @return its path */
-  mesh(file) {
-    const path = join(this.folder, `${basename(file).split('.')[0]}.mesh`);
+  mesh(file, name) {
+    const path = join(this.folder, name);
     this.#run('convert', resolve(kRoot, file), '-o', path);
     return path;
   }
