@@ -97,8 +97,10 @@ function galleryCards() {
 /** Shows a mode of the scene at hand, or else of the first scene that has it. */
 function showMode(kind) {
   const mode = kind.toLowerCase();
-  if (viewer.stats().modes?.includes(mode)) viewer.set('mode', mode);
-  else showScene(gallery.find((entry) => entry.kind === kind), { mode });
+  if (viewer.stats().modes?.includes(mode)) return viewer.set('mode', mode);
+  const entry = gallery.find((one) => one.kind === kind);
+  history.pushState(null, '', '#' + new URLSearchParams({ scene: entry.id, mode }));
+  showScene(entry, { mode });
 }
 
 function modeButtons() {

@@ -97,5 +97,6 @@ test('the page shows a mode of the scene, or the first scene that has it', async
   await page.getByRole('button', { name: 'Relief', exact: true }).click();
   await page.waitForFunction(() => document.querySelector('#title').textContent === 'A dome');
   assert.deepEqual(await pressed(), ['Relief']);
+  assert.match(page.url(), /#scene=dome/); // not of the scene before
   await page.leave();
 });
