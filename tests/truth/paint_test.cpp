@@ -133,7 +133,7 @@ TEST(Paint, OpaqueSurfacesAreMatt) {
     scene::Scene scene = painted(litSphere(), vec4(1), {1, 1, 1, 0});
     scene.objects[0].material.diffuse = {0.5f, 0.25f, 0.75f};
     scene.objects[0].material.roughness = 0; // mirrors no lamp
-    scene.camera.height = 0.001f; // its pole, where light comes from straight above
+    scene.camera.height = 0.001f;            // its pole, where light comes from straight above
     for (int by = 0; by < 2; ++by) {
         dvec3 value;
         if (by == 0) {
