@@ -96,12 +96,14 @@ void Viewer::State::frame() {
     ImGui::Render();
     settled = false;
     for (const Edit& edit : edits)
-        if (edit.kind == Edit::Kind::Reset)
+        if (edit.kind == Edit::Kind::Reset) {
             reset(edit.path);
-        else if (edit.kind == Edit::Kind::Act)
-            (void)act(edit.path);
-        else if (Status set = change(edit.path, edit.text, burst(edit.path)); !set)
-            message = set.error().message;
+        } else if (Status done = edit.kind == Edit::Kind::Act
+                                     ? act(edit.path)
+                                     : change(edit.path, edit.text, burst(edit.path));
+                   !done) {
+            message = done.error().message;
+        }
 }
 
 void Viewer::State::overlays() {
