@@ -127,7 +127,9 @@ Pixel GlassEstimator::solve(ivec2 pixel) const {
     if (aov_ == scene::Aov::Direction) {
         Random unused(0, 0, 0);
         const Arrival arrival = follow(*optics_, beam, 1, Branching::Chain, {}, unused);
-        return {arrival.direction, dvec3(0), arrival.at == Arrival::At::Lost ? 0.0 : 1.0};
+        // Of a ray that was given up neither, so that pictures without coverage tell it too.
+        if (arrival.at == Arrival::At::Lost) return {};
+        return {arrival.direction, dvec3(0), 1};
     }
     const auto hit = optics_->rays().intersect({beam.origin, beam.direction, kInfinity, beam.begin, false});
     if (!hit) return {};
