@@ -31,7 +31,9 @@ public:
     Result<const Program*> program(const std::string& stem, const std::vector<std::string>& defines = {});
 
     /// What the driver's debug output, GL's error flag and the device's own checks found:
-    /// the first thing that went wrong on the GPU since the last call, "" when nothing did.
+    /// the first thing that went wrong on the GPU since the last call, "" when nothing did. In a browser the
+    /// error flag is looked at now and then: what goes wrong on targets that were drawn into before is told
+    /// late.
     std::string takeError();
 
     /// GL calls fail from here on until a new Context is made; objects need not be deleted.
@@ -40,12 +42,14 @@ public:
 
 private:
     Context() = default;
+    bool asksGl();
     struct Window;
     std::unique_ptr<Window> window_;
     Caps caps_;
     std::unique_ptr<Device> device_;
     std::map<std::string, Program> programs_;
     bool lost_ = false;
+    int unasked_ = 0; // calls of takeError()
 };
 
 } // namespace lucent::gl

@@ -56,7 +56,7 @@ public:
     int queryDelay() const { return queryDelay_; }
 
     /// First error of any pass since the last call ("" if none): block layouts, incomplete targets, blending
-    /// that this GPU cannot do, GL errors.
+    /// that this GPU cannot do, GL errors. In a browser those only of passes on targets that are new.
     std::string takeError();
     int drawCount() const { return draws_; }
     std::size_t textureBytes() const { return textureBytes_; }
@@ -77,7 +77,11 @@ private:
     // Texture, layer and level of each colour, then of the depth.
     using FramebufferKey = std::vector<std::tuple<graph::TextureHandle, int, int>>;
     const Record& record(graph::TextureHandle texture) const;
-    unsigned framebufferFor(const graph::PassTarget& target);
+    struct Framebuffer {
+        unsigned id;
+        bool isNew; // nothing was drawn with these targets before
+    };
+    Framebuffer framebufferFor(const graph::PassTarget& target);
     void attach(unsigned point, const graph::Attachment& attachment) const;
     ivec2 sizeOf(const graph::PassTarget& target) const;
     void clear(const graph::PassTarget& target);
