@@ -7,8 +7,7 @@
 #include "views/mesh_block.glsl"
 #include "views/layer_texel.glsl"
 in float vDepth;
-flat in float vTriangle;
-flat in float vOutward;
+flat in vec2 vTriangle;
 #ifndef PEEL_FIRST
 uniform sampler2D uBefore;
 #endif
@@ -16,7 +15,7 @@ layout(location = 0) out vec4 oLayer;
 layout(location = 1) out vec2 oDone;
 
 void main() {
-    vec4 texel = vec4(vDepth, vTriangle, vOutward, float(2 * mesh.object + (gl_FrontFacing ? 1 : 2)));
+    vec4 texel = vec4(vDepth, vTriangle, float(2 * mesh.object + (gl_FrontFacing ? 1 : 2)));
 #ifndef PEEL_FIRST
     vec2 before = texelFetch(uBefore, ivec2(gl_FragCoord.xy), 0).xy;
     if (before.y == 0.0 || vDepth < before.x || (vDepth == before.x && texel.w <= before.y)) discard;

@@ -141,7 +141,7 @@ Status Compose::countLayers(const Inputs& in) {
         meshes.push_back(mesh.mesh);
     if (meshes != counted_) layerCounter_.reset();
     counted_ = std::move(meshes);
-    layerCounter_.poll(); // one more layer is drawn anyway
+    layerCounter_.poll();
     if (peels(in) ? layerCounter_.known() : layerCount_ > 0) return Done{};
     Result<int> count = views::countLayers(pool_, context_, closeEye(in), in.drawn.meshes.glass,
                                            in.scene.view.time, in.shown.desc().size);
@@ -151,7 +151,7 @@ Status Compose::countLayers(const Inputs& in) {
     return Done{};
 }
 
-// As many layers as there were, and one more, which should be empty. Those that are kept are asked about
+// As many layers as there were, and a question about what is behind them. Those that are kept are asked about
 // once.
 Result<views::Layers> Compose::recordPeeled(graph::FrameGraph& graph, const Inputs& in,
                                             const std::vector<views::PosedMesh>& glass, TextureId solid,

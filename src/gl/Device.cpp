@@ -48,6 +48,8 @@ GlFormat glFormat(Format format) {
         return {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
     case Format::Depth32F:
         return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
+    case Format::Depth32FStencil8:
+        return {GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV};
     }
     return {};
 }
@@ -92,6 +94,14 @@ void setDepth(graph::DepthTest test, bool write) {
     glDepthMask(write);
 }
 
+void setStencil(graph::Stencil stencil, int counted) {
+    setState(GL_STENCIL_TEST, stencil != graph::Stencil::None);
+    const bool counts = stencil == graph::Stencil::Count;
+    glStencilFunc(counts ? GL_ALWAYS : GL_LESS, counted, 0xff);
+    const GLenum then = counts ? GL_INCR : GL_KEEP;
+    glStencilOp(then, then, then);
+}
+
 void setBlend(graph::Blend blend) {
     constexpr GLenum kEquations[] = {GL_FUNC_ADD, GL_FUNC_ADD, GL_MAX, GL_MIN};
     setState(GL_BLEND, blend != graph::Blend::None);
@@ -123,6 +133,7 @@ public:
             return;
         setCull(draw.cull);
         setDepth(draw.depthTest, draw.depthWrite);
+        setStencil(draw.stencil, draw.counted);
         setBlend(draw.blend);
         const ivec4 region = draw.region.z > 0 ? draw.region : ivec4(0, 0, size_);
         glViewport(region.x, region.y, region.z, region.w);
@@ -323,6 +334,10 @@ ivec2 Device::sizeOf(const graph::PassTarget& target) const {
     return record(first.texture).desc.sizeOf(first.level);
 }
 
+bool Device::hasStencil(const graph::PassTarget& target) const {
+    return record(target.depth.texture).desc.format == Format::Depth32FStencil8;
+}
+
 void Device::attach(unsigned point, const graph::Attachment& attachment) const {
     const Record& texture = record(attachment.texture);
     if (texture.desc.layers > 1)
@@ -350,7 +365,8 @@ Device::Framebuffer Device::framebufferFor(const graph::PassTarget& target) {
         buffers.push_back(GLenum(GL_COLOR_ATTACHMENT0 + buffers.size()));
         attach(buffers.back(), color);
     }
-    if (hasDepth) attach(GL_DEPTH_ATTACHMENT, target.depth);
+    if (hasDepth)
+        attach(hasStencil(target) ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, target.depth);
     glDrawBuffers(GLsizei(buffers.size()), buffers.data());
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         fail("pass \"" + std::string(target.label) + "\": its targets make no complete framebuffer");
@@ -367,7 +383,11 @@ void Device::clear(const graph::PassTarget& target) {
     }
     if (!target.depth.clear) return;
     glDepthMask(GL_TRUE); // the mask holds for clearing too
-    glClearBufferfv(GL_DEPTH, 0, std::get_if<float>(&*target.depth.clear));
+    const float depth = std::get<float>(*target.depth.clear);
+    if (hasStencil(target))
+        glClearBufferfi(GL_DEPTH_STENCIL, 0, depth, 0);
+    else
+        glClearBufferfv(GL_DEPTH, 0, &depth);
 }
 
 void Device::runPass(const graph::PassTarget& target, const std::function<void(graph::Commands&)>& body) {
@@ -385,6 +405,7 @@ void Device::runPass(const graph::PassTarget& target, const std::function<void(g
     if (checksTargets_ && !isScreen(target)) findBroken(target, commands.drawn());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glBindVertexArray(0);
+    if (!kAnswersAtOnce && !framebuffer.isNew) return; // Context::takeError() asks now and then
     if (const GLenum error = glGetError())
         fail("pass \"" + std::string(target.label) + "\": " + errorName(error));
 }
@@ -405,7 +426,6 @@ void Device::findBroken(const graph::PassTarget& target, const std::vector<ivec4
                 glm::min(ivec2(region) + ivec2(region.z, region.w), ivec2(whole.z, whole.w)) - low;
             if (size.x <= 0 || size.y <= 0) continue;
             values.resize(std::size_t(size.x) * size.y * 4);
-    if (!kAnswersAtOnce && !framebuffer.isNew) return; // Context::takeError() asks now and then
             glReadPixels(low.x, low.y, size.x, size.y, GL_RGBA, GL_FLOAT, values.data());
             const auto broken =
                 std::find_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); });

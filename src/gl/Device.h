@@ -82,6 +82,7 @@ private:
         bool isNew; // nothing was drawn with these targets before
     };
     Framebuffer framebufferFor(const graph::PassTarget& target);
+    bool hasStencil(const graph::PassTarget& target) const;
     void attach(unsigned point, const graph::Attachment& attachment) const;
     ivec2 sizeOf(const graph::PassTarget& target) const;
     void clear(const graph::PassTarget& target);

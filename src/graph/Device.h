@@ -49,6 +49,10 @@ enum class Topology : std::uint8_t { Triangles, Lines, Points }; ///< points: th
 enum class Cull : std::uint8_t { None, Front, Back };            ///< front faces run counterclockwise
 enum class DepthTest : std::uint8_t { None, Less, LessEqual, Equal, Greater };
 
+/// A target with stencil (Format::Depth32FStencil8) counts: with Count every fragment, nearest or not, up to
+/// 255; More draws only where there were more than Draw::counted.
+enum class Stencil : std::uint8_t { None, Count, More };
+
 /// How what is drawn meets what the target holds, in all colour targets alike. Integer targets are
 /// overwritten. 16-bit floats blend wherever they can be drawn into; 32-bit floats need Caps::floatBlend, and
 /// the device refuses the draw without it.
@@ -65,6 +69,8 @@ struct Draw {
     Cull cull = Cull::None;
     DepthTest depthTest = DepthTest::None; ///< with None the depth target keeps what it holds
     bool depthWrite = true;
+    Stencil stencil = Stencil::None;
+    int counted = 0; ///< of Stencil::More
     Blend blend = Blend::None;
     Block block{};
     std::vector<Binding> textures{};
@@ -84,7 +90,8 @@ public:
     virtual std::optional<bool> poll() = 0;
 };
 
-/// What a target is filled with: one float for depths, a uvec4 for integers, a vec4 for every other colour.
+/// What a target is filled with: one float for depths, beside which a stencil becomes 0, a uvec4 for
+/// integers, a vec4 for every other colour.
 using Clear = std::variant<vec4, uvec4, float>;
 
 /// One layer and mip level of a texture that a pass draws into.

@@ -27,6 +27,7 @@ enum class Format : std::uint8_t {
     RGBA32UI,
     Depth24,
     Depth32F,
+    Depth32FStencil8, ///< counts fragments beside (Stencil)
 };
 
 /// What a texel holds: it decides how a format is cleared, blended and read back.

@@ -49,6 +49,11 @@ constexpr const char kImagesLabel[] = "views.layers", kBlocksLabel[] = "views.bl
 constexpr int kBlockLevels = 3;
 constexpr vec4 kEmptyRanges{1e30f, -1e30f, 1e30f, -1e30f};
 
+// The first layer's counts all surfaces in its stencil.
+TextureDesc depthDesc(ivec2 size, bool first) {
+    return {.size = size, .format = first ? Format::Depth32FStencil8 : Format::Depth32F};
+}
+
 // An array of one layer would be a plain image to shaders.
 int arrayLayers(int count) { return std::max(2, count); }
 
@@ -60,7 +65,7 @@ void samplePosed(graph::PassBuilder& pass, const std::vector<PosedMesh>& meshes)
 }
 
 Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                  const std::vector<PosedMesh>& meshes, ivec2 size, Layers& layers, int layer,
+                  const std::vector<PosedMesh>& meshes, ivec2 size, const Layers& layers, int layer,
                   TextureId& done, graph::Query* query) {
     const bool first = layer == 0;
     Result<const gl::Program*> program = context.program(
@@ -77,20 +82,34 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye
         if (query) pass.query(*query);
         done = pass.createColor("views.peeled", {.size = size, .format = Format::RG32F});
         pass.clear(done, vec4(0));
-        TextureId depth = first ? layers.depth : TextureId{};
-        if (depth)
-            pass.write(depth);
-        else
-            depth = pass.createDepth(kDepthLabel, size, Format::Depth32F);
+        const TextureId depth = first ? layers.depth : graph.create(kDepthLabel, depthDesc(size, first));
+        pass.write(depth);
         pass.clear(depth, 1.0f);
-        if (first) layers.depth = depth;
         return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
             for (std::size_t i = 0; i < meshes.size(); ++i) {
                 graph::Draw draw{.depthTest = graph::DepthTest::Less};
+                if (first) draw.stencil = graph::Stencil::Count;
                 if (!first) draw.textures.push_back({"uBefore", resources[before]});
                 drawTriangles(commands, *program, resources, meshes[i], eye, size, int(i), std::move(draw));
             }
         };
+    });
+    return Done{};
+}
+
+// Asks whether any pixel has more surfaces than are drawn: the first layer's pass counted them.
+Status recordBehind(graph::FrameGraph& graph, gl::Context& context, const Layers& layers,
+                    graph::Query& query) {
+    Result<const gl::Program*> program = context.program("views/behind");
+    if (!program) return program.error();
+    graph.addPass("views.behind", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("whether surfaces lie behind the last one that is drawn");
+        pass.write(layers.depth);
+        pass.query(query);
+        return
+            [program = *program, count = layers.count](const graph::Resources&, graph::Commands& commands) {
+                commands.draw({.program = program, .stencil = graph::Stencil::More, .counted = count});
+            };
     });
     return Done{};
 }
@@ -190,7 +209,7 @@ void importKept(graph::FrameGraph& graph, gl::Context& context, KeptLayers& kept
     };
     layers.images = import(kept.images, imagesDesc(size, layers.count), kImagesLabel);
     layers.blocks = import(kept.blocks, blocksDesc(size, pairsOf(layers.count, withSolid)), kBlocksLabel);
-    layers.depth = import(kept.depth, {.size = size, .format = Format::Depth32F}, kDepthLabel);
+    layers.depth = import(kept.depth, depthDesc(size, true), kDepthLabel);
 }
 
 } // namespace
@@ -234,18 +253,18 @@ Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Ey
 LayerQueries LayerCount::ask() {
     if (waits()) return {};
     asked_ = drawn();
-    return {&last_, &before_};
+    return {&last_, &behind_};
 }
 
 bool LayerCount::poll() {
     if (!waits()) return false;
-    const std::optional<bool> last = last_.poll(), before = before_.poll();
-    if (!last || !before) return false;
+    const std::optional<bool> last = last_.poll(), behind = behind_.poll();
+    if (!last || !behind) return false;
     const bool current = asked_ == drawn(); // else another scene was asked about
-    const bool more = *last && current && asked_ < kMostLayers;
+    const bool more = *behind && current && asked_ < kMostLayers;
     if (more)
-        known_ = asked_;
-    else if (current && !*before)
+        known_ = asked_ + 1;
+    else if (current && !*last)
         known_ = std::max(1, known_ - 1);
     asked_ = 0;
     return more;
@@ -264,17 +283,19 @@ Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, cons
             graph.keep(image);
     } else {
         layers.images = graph.create(kImagesLabel, imagesDesc(size, count));
-        if (count > 0)
+        if (count > 0) {
             layers.blocks = graph.create(kBlocksLabel, blocksDesc(size, pairsOf(count, bool(solid))));
+            layers.depth = graph.create(kDepthLabel, depthDesc(size, true));
+        }
     }
     TextureId done;
     for (int layer = 0; layer < count; ++layer) {
-        graph::Query* query = layer == count - 1   ? queries.last
-                              : layer == count - 2 ? queries.before
-                                                   : nullptr;
+        graph::Query* query = layer == count - 1 ? queries.last : nullptr;
         if (Status s = recordPeel(graph, context, eye, meshes, size, layers, layer, done, query); !s)
             return s.error();
     }
+    if (count > 0 && queries.behind)
+        if (Status s = recordBehind(graph, context, layers, *queries.behind); !s) return s.error();
     if (count > 0)
         if (Status s = recordSkipping(graph, context, viewBlock(eye, size), layers, solid, size); !s)
             return s.error();

@@ -32,17 +32,18 @@ struct KeptLayers {
 Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
                         const std::vector<DrawnMesh>& meshes, float time, ivec2 size);
 
-/// Asks whether layers hold anything; null: nobody asks.
+/// Asks what the layers of a frame leave out; null: nobody asks.
 struct LayerQueries {
-    graph::Query* last = nullptr;
-    graph::Query* before = nullptr; ///< the layer in front of the last one
+    graph::Query* last = nullptr;   ///< whether the last layer holds anything
+    graph::Query* behind = nullptr; ///< whether there are surfaces behind it
 };
 
-/// How many layers to draw, frame after frame, without waiting for the GPU: one more than there were, and
-/// queries on the last two, whose answers come in later frames. A layer that appears is drawn a frame late.
+/// How many layers to draw, frame after frame, without waiting for the GPU: as many as there were, and
+/// queries on the last one and on what is behind it, whose answers come in later frames. A layer that appears
+/// is drawn a frame late.
 class LayerCount {
 public:
-    explicit LayerCount(const gl::Device& device) : last_(device), before_(device) {}
+    explicit LayerCount(const gl::Device& device) : last_(device), behind_(device) {}
 
     /// Forgets the scene and what was asked; what countLayers() finds is known next.
     void reset() { known_ = asked_ = 0; }
@@ -52,20 +53,21 @@ public:
         asked_ = 0;
     }
 
-    /// Layers to draw, the spare one included.
-    int drawn() const { return std::min(known_ + 1, kMostLayers); }
+    /// Layers to draw.
+    int drawn() const { return std::max(1, known_); }
     /// For the frame that draws drawn() layers; empty while an answer is still on its way, so that frames
     /// faster than answers do not put them off for ever.
     LayerQueries ask();
     /// Takes the answers that have come.
     ///
-    /// @return  whether the last layer held something: the picture lacks surfaces and is to be drawn again
+    /// @return  whether there was something behind the last layer: the picture lacks surfaces and is to be
+    /// drawn again
     bool poll();
     /// Whether answers are still on their way: poll() again after the next frame, drawn or not.
     bool waits() const { return asked_ > 0; }
 
 private:
-    gl::Query last_, before_;
+    gl::Query last_, behind_;
     int known_ = 0; // surfaces behind each other
     int asked_ = 0; // layers of the frame that was asked about; 0: none
 };

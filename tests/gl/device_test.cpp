@@ -407,8 +407,40 @@ TEST_F(DeviceTest, DepthTestsCompareWithTheClearValueAndWriteOnlyWhenAsked) {
     EXPECT_FALSE(passes(DepthTest::Less, -0.5f, false, 0.25f)); // the next clear is not masked
 }
 
+TEST_F(DeviceTest, AStencilCountsFragmentsThatDepthHidesToo) {
+    const Program* plane = program(kPlane, kValue);
+    const Texture out = texture({.size = {1, 1}}),
+                  depth = texture({.size = {1, 1}, .format = Format::Depth32FStencil8});
+    const auto count = [&](float z, std::optional<graph::Clear> start) {
+        draw({{.texture = out.handle()}},
+             {.program = plane,
+              .depthTest = graph::DepthTest::Less,
+              .stencil = graph::Stencil::Count,
+              .block = TestBlock{.place = vec4(0, 0, z, 0)}},
+             {.texture = depth.handle(), .clear = start});
+    };
+    const auto areMoreThan = [&](int counted) {
+        draw({{.texture = out.handle(), .clear = vec4(0)}},
+             {.program = plane,
+              .stencil = graph::Stencil::More,
+              .counted = counted,
+              .block = TestBlock{.value = vec4(1)}},
+             {.texture = depth.handle()});
+        return device().read(out.handle()).pixels[0] == 1;
+    };
+    count(0.0f, 1.0f);
+    count(0.5f, {}); // behind
+    count(-0.5f, {});
+    EXPECT_TRUE(areMoreThan(2));
+    EXPECT_TRUE(areMoreThan(2)) << "asking counts nothing";
+    EXPECT_FALSE(areMoreThan(3));
+    count(0.0f, 1.0f);
+    EXPECT_TRUE(areMoreThan(0));
+    EXPECT_FALSE(areMoreThan(1)) << "clearing begins anew";
+}
+
 TEST_F(DeviceTest, ADepthTextureWithoutColoursIsDrawnAndSampled) {
-    for (Format format : {Format::Depth24, Format::Depth32F}) {
+    for (Format format : {Format::Depth24, Format::Depth32F, Format::Depth32FStencil8}) {
         const Texture depth = texture({.size = {2, 2}, .format = format, .layers = 2});
         draw({},
              {.program = program(kPlane, kValue),

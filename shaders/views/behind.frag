@@ -1,0 +1,2 @@
+// views/behind.frag: nothing; where it is drawn at all, the stencil says.
+void main() {}
