@@ -11,6 +11,7 @@ function(lucent_library name)
       target_link_libraries(lucent_${name} PUBLIC ${link})
     endif()
   endforeach()
+  lucent_precompile(lucent_${name})
 endfunction()
 
 # Language, warnings and floating-point rules that all our targets share. No fast-math: numbers must travel.
@@ -32,5 +33,19 @@ function(lucent_target target)
   endif()
   if(EMSCRIPTEN)
     target_compile_options(${target} PRIVATE -Oz -flto $<$<COMPILE_LANGUAGE:CXX>:-fno-rtti>)
+  endif()
+endfunction()
+
+# For the web, what nearly every file includes is read once, by lucent_base, and taken from there by all others: half of
+# what Clang does. GCC gains a quarter only, and then warns of code in the library's headers.
+function(lucent_precompile target)
+  if(NOT EMSCRIPTEN)
+    return()
+  elseif(${target} STREQUAL lucent_base)
+    target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <cstdio> <functional> <limits> <map>
+      <memory> <numbers> <optional> <span> <string> <string_view> <variant> <vector> <glm/glm.hpp>
+      <glm/gtc/matrix_transform.hpp>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM lucent_base)
   endif()
 endfunction()
