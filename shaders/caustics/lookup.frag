@@ -6,8 +6,8 @@
 //       uSolid   FROM_SOLID: what each pixel shows, height fields too (views/geometry.frag)
 //       uBefore  USE_BEFORE: the sum so far
 // out   oSum.rgb [W/m²]
-// model flux of the texels around over the area that a texel covers on the surface; as a mean over the pixel, of at
-//       least as many places as texels lie in it, since a focus may be smaller than a pixel
+// model mean flux of the texels that the pixel covers, each by how much of it, over the area that a texel covers on the
+//       surface: a focus may be smaller than a pixel. Where a pixel is smaller than a texel that is bilinear
 // not   light on the side that is turned away from the lamp
 #include "views/view.glsl"
 layout(std140) uniform LookupBlock {
@@ -56,52 +56,6 @@ Shown shownHere() {
 #endif
 }
 
-// Where a place lies on the map, in texels.
-vec2 mapAt(vec3 place) {
-    int number = faceOf(place);
-    return onMap(number, place).xy + float(number) * 1e6;
-}
-
-vec3 fluxOnArea(vec3 place, vec3 normal) {
-    int number = faceOf(place);
-    View face = light.faces[number];
-    vec3 v = place - face.eye.xyz;
-    vec3 seen = onMap(number, place);
-    bool perspective = face.eye.w > 0.5;
-    if (perspective && seen.z <= 0.0) return vec3(0.0);
-    vec2 pixel = seen.xy;
-    if (any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, face.size))) return vec3(0.0);
-    vec3 along = perspective ? normalize(v) : face.forward.xyz;
-    float cosine = -dot(normal, along);
-    if (cosine <= 0.0) return vec3(0.0);
-
-    float margin = texelWidth(face, pixel, v) * (kMargin + kSteepMargin * sqrt(1.0 - cosine * cosine) / max(cosine, 1e-6));
-    ivec2 corner = ivec2(number % 3, number / 3) * ivec2(face.size);
-    vec2 low = floor(pixel - 0.5);
-    vec2 f = pixel - 0.5 - low;
-    vec3 sum = vec3(0.0);
-    float weights = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        vec2 step_ = vec2(i & 1, i >> 1);
-        vec2 at = clamp(low + step_, vec2(0.0), face.size - 1.0);
-        ivec2 texel = corner + ivec2(at);
-        float depth = depthOnPlane(face, at + 0.5, v, normal);
-        if (abs(texelFetch(uShadow, texel, 0).r - depth) > margin) { // another surface
-#ifdef USE_BEHIND
-            if (abs(texelFetch(uBehind, texel, 0).r - depth) > margin) continue;
-            texel.y += textureSize(uBehind, 0).y;
-#else
-            continue;
-#endif
-        }
-        vec2 share = mix(1.0 - f, f, step_);
-        weights += share.x * share.y;
-        sum += share.x * share.y * texelFetch(uMap, texel, 0).rgb;
-    }
-    if (weights == 0.0) return vec3(0.0);
-    return sum / weights * light.unit * cosine / texelArea(face, pixel, v);
-}
-
 // Point of the surface's tangent plane beside the middle of the pixel, in pixels.
 vec3 besides(vec3 place, vec3 normal, vec2 offset) {
     View view = light.view;
@@ -114,7 +68,79 @@ vec3 besides(vec3 place, vec3 normal, vec2 offset) {
     return view.eye.xyz + origin + dot(normal, place - view.eye.xyz - origin) / slope * ray;
 }
 
-const float kMostTaps = 16.0; // along a side of a pixel
+// How far a step to both sides of the pixel's middle leads on the map, in texels.
+vec2 acrossMap(int number, vec3 place, vec3 normal, vec2 step_) {
+    vec3 low = onMap(number, besides(place, normal, -step_));
+    vec3 high = onMap(number, besides(place, normal, step_));
+    bool perspective = light.faces[number].eye.w > 0.5;
+    return perspective && min(low.z, high.z) <= 0.0 ? vec2(0.0) : high.xy - low.xy;
+}
+
+// The rectangle that a pixel covers on the map.
+struct Patch {
+    vec2 along;  // unit: of its sides of length size.x
+    vec2 size;   // texels
+};
+
+const float kMostTexels = 16.0; // along a side
+
+// Around the parallelogram of a pixel; at least a texel wide, so that between texels light is interpolated.
+Patch patchOf(vec2 u, vec2 v) {
+    vec2 longer = dot(u, u) >= dot(v, v) ? u : v;
+    vec2 other = dot(u, u) >= dot(v, v) ? v : u;
+    float reach = length(longer);
+    if (reach <= 1.0) return Patch(vec2(1.0, 0.0), vec2(1.0));
+    vec2 along = longer / reach;
+    vec2 size = vec2(reach + abs(dot(other, along)), abs(along.x * other.y - along.y * other.x));
+    return Patch(along, clamp(size, 1.0, kMostTexels));
+}
+
+// Flux on a texel of the surface that a plane through v touches; a: 1. Zeros where the map shows another surface there.
+vec4 fluxOn(View face, ivec2 corner, vec2 at, vec3 v, vec3 normal, float margin) {
+    ivec2 texel = corner + ivec2(at);
+    float depth = depthOnPlane(face, at + 0.5, v, normal);
+    if (abs(texelFetch(uShadow, texel, 0).r - depth) > margin) {
+#ifdef USE_BEHIND
+        if (abs(texelFetch(uBehind, texel, 0).r - depth) > margin) return vec4(0.0);
+        texel.y += textureSize(uBehind, 0).y;
+#else
+        return vec4(0.0);
+#endif
+    }
+    return vec4(texelFetch(uMap, texel, 0).rgb, 1.0);
+}
+
+vec3 irradianceAt(vec3 place, vec3 normal) {
+    int number = faceOf(place);
+    View face = light.faces[number];
+    vec3 v = place - face.eye.xyz;
+    vec3 seen = onMap(number, place);
+    bool perspective = face.eye.w > 0.5;
+    if (perspective && seen.z <= 0.0) return vec3(0.0);
+    vec2 middle = seen.xy;
+    if (any(lessThan(middle, vec2(0.0))) || any(greaterThan(middle, face.size))) return vec3(0.0);
+    vec3 along = perspective ? normalize(v) : face.forward.xyz;
+    float cosine = -dot(normal, along);
+    if (cosine <= 0.0) return vec3(0.0);
+
+    float margin = texelWidth(face, middle, v) * (kMargin + kSteepMargin * sqrt(1.0 - cosine * cosine) / max(cosine, 1e-6));
+    ivec2 corner = ivec2(number % 3, number / 3) * ivec2(face.size);
+    Patch patch_ = patchOf(acrossMap(number, place, normal, vec2(0.5, 0.0)), acrossMap(number, place, normal, vec2(0.0, 0.5)));
+    vec2 across = vec2(-patch_.along.y, patch_.along.x);
+    vec2 most = 0.5 * (patch_.size + 1.0); // from the middle of a texel that it touches
+    vec2 reach = most.x * abs(patch_.along) + most.y * abs(across);
+    vec2 low = max(ceil(middle - reach - 0.5), 0.0);
+    vec2 high = min(floor(middle + reach - 0.5), face.size - 1.0);
+    vec4 sum = vec4(0.0); // a: weights
+    for (float y = low.y; y <= high.y; ++y)
+        for (float x = low.x; x <= high.x; ++x) {
+            vec2 beside = vec2(x, y) + 0.5 - middle;
+            vec2 share = clamp(most - abs(vec2(dot(beside, patch_.along), dot(beside, across))), 0.0, 1.0);
+            sum += share.x * share.y * fluxOn(face, corner, vec2(x, y), v, normal, margin);
+        }
+    if (sum.a == 0.0) return vec3(0.0);
+    return sum.rgb / sum.a * light.unit * cosine / texelArea(face, middle, v);
+}
 
 void main() {
 #ifdef USE_BEFORE
@@ -124,14 +150,6 @@ void main() {
 #endif
     Shown shown = shownHere();
     if (shown.depth == 1e30) return;
-    vec3 normal = shown.normal;
     vec3 place = light.view.eye.xyz + placeFrom(light.view, gl_FragCoord.xy, shown.depth);
-    vec2 u = mapAt(besides(place, normal, vec2(0.5, 0.0))) - mapAt(besides(place, normal, vec2(-0.5, 0.0)));
-    vec2 v = mapAt(besides(place, normal, vec2(0.0, 0.5))) - mapAt(besides(place, normal, vec2(0.0, -0.5)));
-    vec2 taps = clamp(ceil(vec2(length(u), length(v)) - 0.01), 1.0, kMostTaps);
-    vec3 sum = vec3(0.0);
-    for (float y = 0.5; y < taps.y; ++y)
-        for (float x = 0.5; x < taps.x; ++x)
-            sum += fluxOnArea(besides(place, normal, vec2(x, y) / taps - 0.5), normal);
-    oSum.rgb += sum / (taps.x * taps.y);
+    oSum.rgb += irradianceAt(place, shown.normal);
 }
