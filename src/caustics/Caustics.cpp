@@ -140,6 +140,47 @@ Result<bool> liesBehind(graph::TexturePool& pool, gl::Context& context, views::S
     return false;
 }
 
+// How many surfaces lie behind each other in a view of a lamp. Of one convex thing that is known without a
+// look; pictures are read back for all others.
+Result<int> surfacesIn(graph::TexturePool& pool, gl::Context& context, const views::Eye& face,
+                       const std::vector<views::DrawnMesh>& glass, float time, int size) {
+    if (glass.size() == 1 && isConvex(*glass.front().object)) return 2;
+    return views::countLayers(pool, context, face, glass, time, ivec2(size));
+}
+
+// Around all ways from a box to a lamp.
+views::Bounds waysTo(const views::LampPoint& lamp, views::Bounds box) {
+    const vec3 place(lamp.place);
+    if (lamp.place.w != 0) {
+        box.add(place);
+        return box;
+    }
+    constexpr float kFar = 1e30f;
+    box.low = glm::mix(box.low, vec3(-kFar), glm::lessThan(place, vec3(0)));
+    box.high = glm::mix(box.high, vec3(kFar), glm::greaterThan(place, vec3(0)));
+    return box;
+}
+
+// Around what may stand between a lamp and what lies in a box; empty where nothing does.
+views::Bounds hidingFrom(const views::LampPoint& lamp, const views::Bounds& box,
+                         const std::vector<views::DrawnMesh>& meshes,
+                         const std::vector<views::DrawnObject>& fields) {
+    const views::Bounds ways = waysTo(lamp, box);
+    views::Bounds hiding;
+    const auto add = [&](const scene::Object& object) {
+        const views::Bounds one = views::boundsOf(object);
+        if (glm::any(glm::lessThan(one.high, ways.low)) || glm::any(glm::greaterThan(one.low, ways.high)))
+            return;
+        hiding.add(one.low);
+        hiding.add(one.high);
+    };
+    for (const views::DrawnMesh& mesh : meshes)
+        add(*mesh.object);
+    for (const views::DrawnObject& field : fields)
+        add(*field.object);
+    return hiding;
+}
+
 } // namespace
 
 std::string_view nameOf(Intersect intersect) { return kIntersects[std::size_t(intersect)]; }
@@ -285,13 +326,12 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
         };
         const bool isOnWater = beginsOnWater(settings, lamp, meshes);
         if (isOnWater)
-            light.water = {
-                views::shadowViews(lamp.source, boundsOfAll(meshes.solid, fields), glass, settings.mapSize)};
+            light.water = {views::shadowViews(lamp.source, hidingFrom(lamp, glass, meshes.solid, fields),
+                                              glass, settings.mapSize)};
         const std::vector<views::Eye> faces =
             isOnWater ? std::vector<views::Eye>{} : viewsOf(meshes.glass, glass);
         for (const views::Eye& face : faces) {
-            Result<int> count =
-                views::countLayers(pool, context_, face, meshes.glass, scene.view.time, ivec2(size));
+            const Result<int> count = surfacesIn(pool, context_, face, meshes.glass, scene.view.time, size);
             if (!count) return count.error();
             if (*count > 0) light.glass.push_back({face, *count, borderOf(faces, size)});
         }
