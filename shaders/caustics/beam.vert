@@ -18,7 +18,7 @@ bool reachesBehind(ivec2 square, int triangle) {
     bool reaches = false;
 #ifdef SEVERAL_VIEWS
     for (int corner = 0; corner < 3; ++corner)
-        reaches = reaches || onMap(light.face, texelFetch(uLanding, cornerOf(square, triangle, corner), 0).xyz).z <= 0.0;
+        reaches = reaches || onMap(drawnFace(), texelFetch(uLanding, cornerOf(square, triangle, corner), 0).xyz).z <= 0.0;
 #endif
     return reaches;
 }
@@ -39,5 +39,5 @@ void main() {
     vLayer = layerOf(landing.w);
     vFlux = (1.0 - spread.y) * texelFetch(uDensity, ray, 0).rgb;
     if (spread.x < 0.0) vFlux = triangleFlux(uFlux, square, triangle) / (light.unit * -spread.x);
-    gl_Position = clipFromMap(mapCorner(vLayer) + onMap(light.face, landing.xyz).xy);
+    gl_Position = clipFromMap(mapCorner(vLayer) + onMap(drawnFace(), landing.xyz).xy);
 }

@@ -9,15 +9,22 @@ layout(std140) uniform DepositBlock {
     int face;   // that is drawn
     float unit; // [W] that the map counts as 1
     float size; // of a splat, texels; of what bends light: width of a ray's cell [m], of a point's light a metre deep
-    int padding0, padding1;
+    int first;  // ray that is drawn
+    int padding;
 } light;
 #include "caustics/map_view.glsl"
 #include "caustics/behind.glsl"
 
+#ifdef ONE_VIEW
+int drawnFace() { return 0; }
+#else
+int drawnFace() { return light.face; }
+#endif
+
 // Where the face that is drawn begins on the map.
 vec2 mapCorner(int layer) {
     int rows = (light.faceCount + 2) / 3;
-    return vec2(light.face % 3, light.face / 3 + layer * rows) * light.faces[light.face].size;
+    return vec2(drawnFace() % 3, drawnFace() / 3 + layer * rows) * light.faces[drawnFace()].size;
 }
 
 vec4 clipFromMap(vec2 pixel) { return vec4(2.0 * (pixel - light.frame.xy) / light.frame.zw - 1.0, 0.0, 1.0); }
@@ -25,11 +32,11 @@ vec4 clipFromMap(vec2 pixel) { return vec4(2.0 * (pixel - light.frame.xy) / ligh
 // Whether a pixel of the map belongs to another face.
 bool isBesideFace(vec2 pixel, int layer) {
     pixel -= mapCorner(layer);
-    vec2 size = light.faces[light.face].size;
+    vec2 size = light.faces[drawnFace()].size;
 #ifdef PARABOLOIDS
     if (distance(pixel, 0.5 * size) > 0.5 * size.x) return true;
 #endif
     return any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, size));
 }
 
-const vec4 kAway = vec4(2.0, 2.0, 0.0, 1.0); // outside of every face
+const vec4 kAway = vec4(0.0, 0.0, 2.0, 1.0); // beyond everything: what is beside a picture costs llvmpipe ten times as much

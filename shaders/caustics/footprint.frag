@@ -1,5 +1,6 @@
 // caustics/footprint.frag: light of one ray on a texel of its parallelogram, or of the four around it.
 #include "caustics/deposit_block.glsl"
+#include "caustics/spread.glsl"
 #include "caustics/tent.glsl"
 flat in vec3 vFlux;
 flat in vec2 vMiddle;
@@ -12,6 +13,6 @@ void main() {
     vec2 beside = gl_FragCoord.xy - vMiddle;
     float weight = 1.0;
     if (vInverse == vec4(0.0)) weight = tentWeight(beside);
-    else if (max(abs(dot(vInverse.xy, beside)), abs(dot(vInverse.zw, beside))) > 0.5) discard;
+    else if (!isOnParallelogram(vInverse, beside)) discard;
     oFlux = vec4(weight * vFlux, 1.0);
 }

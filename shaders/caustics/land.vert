@@ -1,8 +1,6 @@
-// caustics/land.vert: everywhere; PIXELS: where no beam carries light.
+// caustics/land.vert: everywhere; PIXELS: over what is packed of cells in which no beam carries all light.
 #ifdef PIXELS
-#include "caustics/lone_cells.glsl"
-uniform sampler2D uPlace;
-void main() { drawLoneCell(textureSize(uPlace, 0).x); }
+#include "caustics/lone_cells.vert"
 #else
 #include "lib/screen.vert"
 #endif

@@ -1,16 +1,17 @@
-// caustics/lone_cells.glsl: a point as large as a cell of the grid of rays for each of them with triangles that are no
-// beams, of the light's view of what bends light: rays through its pixels are begun there alone.
-#include "caustics/beams.glsl"
+// caustics/lone_cells.glsl: the cells of the grid of rays with triangles that are no beams, packed: through their pixels
+// alone rays of their own are begun.
+//
+// Images of these rays are as large as the light's view. Cell number n of them fills column n % grid.x and row
+// n / grid.x with its pixels, so that what is drawn of them is dense: from the lowest row up to the last one that any is
+// in.
+uniform sampler2D uIndex; // rg: the cell packed here; b: number of the cell that is here unpacked, -1: of none; a: of all
 
-// @param view  pixels a side
-void drawLoneCell(int view) {
-    ivec2 grid = textureSize(uBeams, 0);
-    ivec2 cell = ivec2(gl_VertexID % grid.x, gl_VertexID / grid.x);
-    float alone = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 square = cell - ivec2(i & 1, i >> 1);
-        alone += isAlone(square, 0, grid) + isAlone(square, 1, grid);
-    }
-    gl_PointSize = float(view / grid.x);
-    gl_Position = alone > 0.0 ? vec4(2.0 * (vec2(cell) + 0.5) / vec2(grid) - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 0.0, 1.0);
+int loneCells() { return int(texelFetch(uIndex, ivec2(0), 0).a); }
+
+// The cell that is packed at a place; only of places before loneCells().
+ivec2 packedAt(ivec2 place) { return ivec2(texelFetch(uIndex, place, 0).rg); }
+
+int numberOf(ivec2 cell) {
+    bool isThere = all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, textureSize(uIndex, 0)));
+    return isThere ? int(texelFetch(uIndex, cell, 0).b) : -1;
 }

@@ -29,8 +29,8 @@ bool isMet(ivec2 pixel) {
 #include "caustics/photon.glsl"
 
 void main() {
-    clearOutputs();
     Start start = startOf(light.view, light.lamp.grid);
+    leave(start);
     if (start.coverage == 0.0) return;
     vec2 at = vec2(start.pixel) + 0.5;
     vec4 texel = texelFetch(uSurface, start.pixel, 0);

@@ -1,8 +1,6 @@
-// caustics/mirror.vert: everywhere; PIXELS: where no beam carries light.
+// caustics/mirror.vert: everywhere; PIXELS: over what is packed of cells in which no beam carries all light.
 #ifdef PIXELS
-#include "caustics/lone_cells.glsl"
-uniform sampler2D uSurface;
-void main() { drawLoneCell(textureSize(uSurface, 0).x); }
+#include "caustics/lone_cells.vert"
 #else
 #include "lib/screen.vert"
 #endif

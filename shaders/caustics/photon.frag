@@ -65,8 +65,8 @@ int after(int way, Crossing crossing, bool mirrored) {
 }
 
 void main() {
-    clearOutputs();
     Start start = startOf(layers.view, layers.lamp.grid);
+    leave(start);
     if (start.coverage == 0.0) return;
     vec2 at = vec2(start.pixel) + 0.5;
     vec3 eye = eyeRay(layers.view, at);

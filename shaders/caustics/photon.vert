@@ -1,8 +1,6 @@
-// caustics/photon.vert: everywhere; PIXELS: where no beam carries light.
+// caustics/photon.vert: everywhere; PIXELS: over what is packed of cells in which no beam carries all light.
 #ifdef PIXELS
-#include "caustics/lone_cells.glsl"
-uniform highp sampler2DArray uLayers;
-void main() { drawLoneCell(textureSize(uLayers, 0).x); }
+#include "caustics/lone_cells.vert"
 #else
 #include "lib/screen.vert"
 #endif

@@ -21,7 +21,7 @@ void main() {
     vLayer = layerOf(landing.w);
     gl_PointSize = kTentSize;
     gl_Position = kAway;
-    if (landing.w == 0.0 || vFlux == vec3(0.0) || faceOf(landing.xyz) != light.face) return;
-    vMiddle = mapCorner(vLayer) + onMap(light.face, landing.xyz).xy;
+    if (landing.w == 0.0 || vFlux == vec3(0.0) || faceOf(landing.xyz) != drawnFace()) return;
+    vMiddle = mapCorner(vLayer) + onMap(drawnFace(), landing.xyz).xy;
     gl_Position = clipFromMap(tentMiddle(vMiddle));
 }

@@ -17,6 +17,6 @@ void main() {
     vLayer = layerOf(landing.w);
     gl_PointSize = light.size;
     gl_Position = kAway;
-    if (landing.w == 0.0 || faceOf(landing.xyz) != light.face) return;
-    gl_Position = clipFromMap(mapCorner(vLayer) + onMap(light.face, landing.xyz).xy);
+    if (landing.w == 0.0 || faceOf(landing.xyz) != drawnFace()) return;
+    gl_Position = clipFromMap(mapCorner(vLayer) + onMap(drawnFace(), landing.xyz).xy);
 }

@@ -26,6 +26,11 @@ float planeDepth(View face, vec2 pixel, vec3 v, vec3 normal) {
 }
 
 // The view that a place lies in.
+//
+// ONE_VIEW  there is no other: some drivers read blocks at places that a shader computes value by value
+#ifdef ONE_VIEW
+int faceOf(vec3 place) { return 0; }
+#else
 int faceOf(vec3 place) {
     int best = 0;
     float most = -1e30;
@@ -37,6 +42,7 @@ int faceOf(vec3 place) {
     }
     return best;
 }
+#endif
 
 // @param place   world
 // @param normal  unit, of the surface; faces the light

@@ -160,14 +160,14 @@ struct DepositBlock {
     ivec2 grid;
     int faceCount, face;
     float unit, size;
-    int padding[2] = {};
+    int first = 0, padding = 0;
 
     static const graph::BlockLayout& layout() {
         static const graph::BlockLayout::Member members[] = {
             {"faces[0].eye", offsetof(DepositBlock, faces)}, {"frame", offsetof(DepositBlock, frame)},
             {"grid", offsetof(DepositBlock, grid)},          {"faceCount", offsetof(DepositBlock, faceCount)},
             {"face", offsetof(DepositBlock, face)},          {"unit", offsetof(DepositBlock, unit)},
-            {"size", offsetof(DepositBlock, size)}};
+            {"size", offsetof(DepositBlock, size)},          {"first", offsetof(DepositBlock, first)}};
         static const graph::BlockLayout layout{"DepositBlock", sizeof(DepositBlock), members};
         return layout;
     }

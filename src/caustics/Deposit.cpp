@@ -5,6 +5,7 @@
 namespace lucent::caustics {
 
 using graph::Format;
+using graph::TextureDesc;
 using graph::TextureId;
 
 // Texels a side, at most, of what the ray of a pixel is spread over. Rays that part widely are long thin
@@ -38,36 +39,119 @@ DepositBlock LightPasses::depositBlock(const Photons& photons, float size) const
             .size = size};
 }
 
+// Over what the light of the rays that carry the rest is spread.
+Status LightPasses::spread(Sheet& sheet) {
+    const bool packed = refines();
+    Result<const gl::Program*> spreading =
+        programOnMap("caustics/spread",
+                     packed ? std::vector<std::string>{"PIXELS"} : std::vector<std::string>{"OF_RESTS"});
+    if (!spreading) return spreading.error();
+    std::vector<std::pair<const char*, TextureId>> samples{{"uLanding", sheet.rest.landing},
+                                                           {"uFlux", sheet.rest.flux}};
+    if (packed)
+        samples.push_back({"uIndex", sheet.cells.index});
+    else
+        samples.push_back({"uGridLanding", sheet.grid.landing});
+    graph_.addPass("caustics.spread", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("over what rays spread their light where no beam carries it");
+        for (const auto& [name, texture] : samples)
+            pass.sample(texture);
+        const TextureDesc desc{.size = sheet.rest.count, .format = Format::RGBA32F};
+        sheet.sides = pass.createColor("caustics.sides", desc);
+        sheet.shares = pass.createColor("caustics.shares", desc);
+        if (packed) pass.clear(sheet.sides, vec4(0));
+        if (packed) pass.clear(sheet.shares, vec4(0));
+        const float widest = std::min(context_.caps().maxPointSize, kWidestFootprint);
+        return [=, draw = drawOf(packed ? Part::Pixels : Part::Rests), program = *spreading,
+                block = depositBlock(sheet.rest, widest)](const graph::Resources& resources,
+                                                          graph::Commands& commands) {
+            graph::Draw filled = draw;
+            filled.program = program;
+            filled.block = block;
+            for (const auto& [name, texture] : samples)
+                filled.textures.push_back({name, resources[texture]});
+            commands.draw(filled);
+        };
+    });
+    return Done{};
+}
+
+namespace {
+// Rays whose rectangles are drawn of `count` packed ones: as many as lie at outlines and folds as a rule.
+// What comes after them is drawn as square points, which have a sixth of the vertices, and many times the
+// pixels.
+int rectanglesOf(ivec2 count) { return count.x * ((count.y + 7) / 8); }
+} // namespace
+
 Status LightPasses::deposit() {
+    using Samples = std::vector<std::pair<const char*, TextureId>>;
     // One kind of what is drawn of the rays of a sheet.
     struct Kind {
         const gl::Program* program = nullptr;
-        std::vector<std::pair<const char*, TextureId Sheet::*>> samples{}; // beside the rays themselves
-        bool rest = false;                                                 // of what no beam carries
-        bool triangles = false;                                            // between rays; else points
+        graph::Topology topology = graph::Topology::Points;
+        std::function<ivec2(const Sheet&)> vertices; // the first ray, and how many vertices
+        std::function<Samples(const Sheet&)> samples;
+        bool rest = false; // of what no beam carries
     };
     std::vector<Kind> kinds;
     const auto add = [&](const char* stem, std::vector<std::string> defines, Kind kind) -> Status {
         Result<const gl::Program*> found = programOnMap(stem, std::move(defines));
         if (!found) return found.error();
         kind.program = *found;
-        kinds.push_back(kind);
+        kinds.push_back(std::move(kind));
         return Done{};
     };
+    const auto areaOf = [](ivec2 size) { return size.x * size.y; };
+    const auto all = [&](const Sheet& sheet) { return ivec2(0, areaOf(sheet.grid.count)); };
     const views::ShadowViews& views = mapViews();
     if (settings_.deposit == Deposit::Beam) {
         std::vector<std::string> ofBeams, ofPoints;
         if (views.faces.size() > 1) ofBeams.push_back("SEVERAL_VIEWS");
         if (!context_.caps().floatBlend) ofPoints.push_back("ON_ONE_TEXEL");
-        std::vector<std::string> ofRests = ofPoints;
-        if (!refines()) ofRests.push_back("OF_RESTS");
-        Status s =
-            add("caustics/beam", ofBeams,
-                {.samples = {{"uBeams", &Sheet::beams}, {"uDensity", &Sheet::density}}, .triangles = true});
-        if (s) s = add("caustics/point", ofPoints, {.samples = {{"uPoint", &Sheet::points}}});
-        if (s) s = add("caustics/footprint", ofRests, {.rest = true});
+        std::vector<std::string> ofQuads = ofPoints;
+        ofQuads.push_back("AS_QUADS");
+        const auto rests = [](const Sheet& sheet) -> Samples {
+            return {{"uLanding", sheet.rest.landing}, {"uSides", sheet.sides}, {"uShare", sheet.shares}};
+        };
+        const auto quads = [this, areaOf](const Sheet& sheet) {
+            return refines() ? rectanglesOf(sheet.rest.count) : areaOf(sheet.rest.count);
+        };
+        Status s = add(
+            "caustics/beam", ofBeams,
+            {.topology = graph::Topology::Triangles,
+             .vertices = [areaOf](const Sheet& sheet) { return ivec2(0, 6 * areaOf(sheet.grid.count - 1)); },
+             .samples = [](const Sheet& sheet) -> Samples {
+                 return {{"uLanding", sheet.grid.landing},
+                         {"uFlux", sheet.grid.flux},
+                         {"uBeams", sheet.cells.beams},
+                         {"uDensity", sheet.density}};
+             }});
+        if (s)
+            s = add("caustics/point", ofPoints,
+                    {.vertices = all, .samples = [](const Sheet& sheet) -> Samples {
+                         return {{"uLanding", sheet.grid.landing}, {"uPoint", sheet.points}};
+                     }});
+        if (s)
+            s = add("caustics/footprint", ofQuads,
+                    {.topology = graph::Topology::Triangles,
+                     .vertices = [quads](const Sheet& sheet) { return ivec2(0, 6 * quads(sheet)); },
+                     .samples = rests,
+                     .rest = true});
+        if (s && refines())
+            s = add("caustics/footprint", ofPoints,
+                    {.vertices =
+                         [=](const Sheet& sheet) {
+                             return ivec2(quads(sheet), areaOf(sheet.rest.count) - quads(sheet));
+                         },
+                     .samples = rests,
+                     .rest = true});
         if (!s) return s;
-    } else if (Status s = add("caustics/splat", {}, {}); !s) {
+    } else if (Status s = add("caustics/splat", {},
+                              {.vertices = all,
+                               .samples = [](const Sheet& sheet) -> Samples {
+                                   return {{"uLanding", sheet.grid.landing}, {"uFlux", sheet.grid.flux}};
+                               }});
+               !s) {
         return s;
     }
     map_ = targets_.make("caustics.map", {.size = mapSize(), .format = sumFormat()});
@@ -77,38 +161,31 @@ Status LightPasses::deposit() {
         struct Step {
             graph::Draw draw;
             DepositBlock block;
-            std::vector<std::pair<const char*, TextureId>> samples;
+            Samples samples;
         };
         std::vector<Step> steps;
         for (const Sheet& sheet : sheets_)
             for (const Kind& kind : kinds) {
-                const Photons& photons = kind.rest ? sheet.rest : sheet.grid;
-                const float size = kind.rest ? std::min(context_.caps().maxPointSize, kWidestFootprint)
-                                             : splatSize(sheet.eye);
-                const ivec2 squares = photons.count - 1;
+                const ivec2 vertices = kind.vertices(sheet);
                 Step step{.draw = {.program = kind.program,
-                                   .vertices = kind.triangles ? 6 * squares.x * squares.y
-                                                              : photons.count.x * photons.count.y,
-                                   .topology =
-                                       kind.triangles ? graph::Topology::Triangles : graph::Topology::Points,
+                                   .vertices = vertices.y,
+                                   .topology = kind.topology,
                                    .blend = graph::Blend::Add},
-                          .block = depositBlock(photons, size),
-                          .samples = {{"uLanding", photons.landing}, {"uFlux", photons.flux}}};
-                for (const auto& [name, texture] : kind.samples)
-                    step.samples.push_back({name, sheet.*texture});
-                if (kind.rest && !refines()) step.samples.push_back({"uGridLanding", sheet.grid.landing});
+                          .block = depositBlock(kind.rest ? sheet.rest : sheet.grid, splatSize(sheet.eye)),
+                          .samples = kind.samples(sheet)};
+                step.block.first = vertices.x;
                 for (const auto& [name, texture] : step.samples)
                     pass.sample(texture);
                 steps.push_back(std::move(step));
             }
         pass.write(map_);
         pass.clear(map_, vec4(0));
-        return [steps = std::move(steps), views, all = ivec4(0, 0, mapSize()),
+        return [steps = std::move(steps), views, whole = ivec4(0, 0, mapSize()),
                 hasBehind = light_.hasBehind](const graph::Resources& resources, graph::Commands& commands) {
             for (int face = 0; face < int(views.faces.size()); ++face)
                 for (const Step& step : steps) {
                     graph::Draw draw = step.draw;
-                    draw.region = hasBehind ? all : ivec4(views.corner(face), views.size, views.size);
+                    draw.region = hasBehind ? whole : ivec4(views.corner(face), views.size, views.size);
                     DepositBlock block = step.block;
                     block.face = face;
                     block.frame = vec4(draw.region);

@@ -68,10 +68,16 @@ graph::Draw filled(graph::Draw draw, const gl::Program& program, const graph::Bl
 }
 } // namespace
 
-// Rays through single pixels are begun in cells that no beam carries alone: a point is drawn for each.
-graph::Draw LightPasses::drawOf(Part part) const {
-    if (part != Part::Pixels) return {};
-    return {.vertices = settings_.grid * settings_.grid, .topology = graph::Topology::Points};
+// Rays through single pixels are packed into the lowest rows of their images: a rectangle over these.
+graph::Draw LightPasses::drawOf(Part part) {
+    return part == Part::Pixels ? graph::Draw{.vertices = 6} : graph::Draw{};
+}
+
+std::vector<std::pair<const char*, TextureId>> LightPasses::Start::samples() const {
+    std::vector<std::pair<const char*, TextureId>> list;
+    if (isRest() || (part == Part::Vertices && book)) list.push_back({"uBeams", cells.beams});
+    if (part == Part::Pixels) list.push_back({"uIndex", cells.index});
+    return list;
 }
 
 std::vector<std::string> LightPasses::Start::defines() const {
@@ -95,7 +101,8 @@ Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views:
                                      : "rays of one point of a light through refractive objects");
         views::sampleLayers(pass, layers);
         if (solid) pass.sample(solid);
-        if (start.usesBeams()) pass.sample(start.beams);
+        for (const auto& [name, texture] : start.samples())
+            pass.sample(texture);
         for (const TextureId target : start.targets) {
             pass.write(target);
             if (start.part == Part::Pixels) pass.clear(target, vec4(0));
@@ -104,7 +111,8 @@ Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views:
                    const graph::Resources& resources, graph::Commands& commands) {
             auto textures = views::layerBindings(resources, layers);
             if (solid) textures.push_back({"uSolid", resources[solid]});
-            if (start.usesBeams()) textures.push_back({"uBeams", resources[start.beams]});
+            for (const auto& [name, texture] : start.samples())
+                textures.push_back({name, resources[texture]});
             commands.draw(filled(draw, *program, block, std::move(textures)));
         };
     });
@@ -140,7 +148,8 @@ Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Sta
                     : start.isRest() ? "rays of one point of a light where no beam carries it"
                                      : "rays of one point of a light off mirrors");
         pass.sample(surface);
-        if (start.usesBeams()) pass.sample(start.beams);
+        for (const auto& [name, texture] : start.samples())
+            pass.sample(texture);
         for (const TextureId target : start.targets) {
             pass.write(target);
             if (start.part == Part::Pixels) pass.clear(target, vec4(0));
@@ -148,7 +157,8 @@ Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Sta
         return [=, draw = drawOf(start.part), program = *reflecting,
                 block = mirrorBlock(view)](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
-            if (start.usesBeams()) textures.push_back({"uBeams", resources[start.beams]});
+            for (const auto& [name, texture] : start.samples())
+                textures.push_back({name, resources[texture]});
             commands.draw(filled(draw, *program, block, std::move(textures)));
         };
     });
@@ -158,27 +168,27 @@ Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Sta
 // --- rays
 
 // Begins rays and follows them to where they land.
-Result<LightPasses::Photons> LightPasses::send(Part part, TextureId beams, const Trace& trace) {
+Result<LightPasses::Photons> LightPasses::send(Part part, const Cells& cells, const Trace& trace) {
     Photons photons{.count = part == Part::Pixels ? viewSize() : ivec2(settings_.grid)};
     const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
     photons.place = targets_.make("caustics.place", desc);
     photons.direction = targets_.make("caustics.direction", desc);
     photons.flux = targets_.make("caustics.flux", desc);
-    if (Status s = trace({part, beams, {photons.place, photons.direction, photons.flux}}); !s)
+    if (Status s = trace({part, cells, {photons.place, photons.direction, photons.flux}}); !s)
         return s.error();
     if (isInPicture()) return photons; // they land there
-    if (Status s = land(photons, part, beams); !s) return s.error();
+    if (Status s = land(photons, part, cells); !s) return s.error();
     return photons;
 }
 
 // Where somebody reads it, what became of their light.
-Status LightPasses::keepBook(Part part, TextureId beams, const Photons& photons, const Trace& trace) {
+Status LightPasses::keepBook(Part part, const Cells& cells, const Photons& photons, const Trace& trace) {
     if (!targets_.keeps()) return Done{};
     const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
     std::vector<TextureId> book;
     for (const char* label : {"caustics.met", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
         book.push_back(targets_.make(label, desc));
-    return trace({part, beams, std::move(book), true});
+    return trace({part, cells, std::move(book), true});
 }
 
 Status LightPasses::carry(const views::Eye& eye, const Trace& trace) {
@@ -191,16 +201,19 @@ Status LightPasses::carry(const views::Eye& eye, const Trace& trace) {
     if (beams) {
         Result<TextureId> mask = beamsOf(*grid, 2 * eye.halfExtent.x / float(grid->count.x));
         if (!mask) return mask.error();
-        sheet.beams = *mask;
+        sheet.cells.beams = *mask;
         if (Status s = weigh(sheet); !s) return s;
     }
-    if (Status s = keepBook(part, sheet.beams, *grid, trace); !s) return s;
+    if (Status s = keepBook(part, sheet.cells, *grid, trace); !s) return s;
     if (beams) {
         const Part rests = refines() ? Part::Pixels : Part::Rests;
-        Result<Photons> rest = send(rests, sheet.beams, trace);
+        if (refines())
+            if (Status s = pack(sheet); !s) return s;
+        Result<Photons> rest = send(rests, sheet.cells, trace);
         if (!rest) return rest.error();
         sheet.rest = *rest;
-        if (Status s = keepBook(rests, sheet.beams, *rest, trace); !s) return s;
+        if (Status s = keepBook(rests, sheet.cells, *rest, trace); !s) return s;
+        if (Status s = spread(sheet); !s) return s;
     }
     sheets_.push_back(std::move(sheet));
     return Done{};
@@ -213,12 +226,13 @@ views::Bounds LightPasses::boxOfReceivers() const {
     return {box.low - margin, box.high + margin};
 }
 
-Status LightPasses::land(Photons& photons, Part part, TextureId beams) {
+Status LightPasses::land(Photons& photons, Part part, const Cells& cells) {
     static const char* const kVariants[] = {nullptr, "FIXED_POINT", "NEWTON", "SECANT"};
     std::vector<std::string> defines;
     if (const char* variant = kVariants[std::size_t(settings_.intersect)]) defines.push_back(variant);
     if (behind_) defines.push_back("USE_BEHIND");
     if (part == Part::Pixels) defines.push_back("PIXELS");
+    if (light_.receivers.faces.size() == 1) defines.push_back("ONE_VIEW");
     Result<const gl::Program*> landing = program("caustics/land", defines);
     if (!landing) return landing.error();
     const views::Bounds box = boxOfReceivers();
@@ -238,7 +252,7 @@ Status LightPasses::land(Photons& photons, Part part, TextureId beams) {
             pass.write(target);
             if (part == Part::Pixels) pass.clear(target, vec4(0));
         }
-        if (part == Part::Pixels) pass.sample(beams);
+        if (part == Part::Pixels) pass.sample(cells.index);
         const LandBlock block{.faces = Faces(light_.receivers),
                               .low = vec4(box.low, 0),
                               .high = vec4(box.high, 0),
@@ -253,7 +267,7 @@ Status LightPasses::land(Photons& photons, Part part, TextureId beams) {
                 textures.push_back({"uBehind", resources[behind]});
                 textures.push_back({"uBack", resources[back]});
             }
-            if (part == Part::Pixels) textures.push_back({"uBeams", resources[beams]});
+            if (part == Part::Pixels) textures.push_back({"uIndex", resources[cells.index]});
             commands.draw(filled(draw, *program, block, std::move(textures)));
         };
     });
@@ -285,6 +299,50 @@ Result<TextureId> LightPasses::beamsOf(const Photons& photons, float cell) {
     return beams;
 }
 
+// What is known of the cells of a grid of rays.
+Result<TextureId> LightPasses::recordCells(const char* stem, const char* reason, const TextureDesc& desc,
+                                           const std::vector<std::pair<const char*, TextureId>>& samples) {
+    Result<const gl::Program*> found = program(stem);
+    if (!found) return found.error();
+    TextureId cells;
+    graph_.addPass("caustics.cells", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(reason);
+        for (const auto& [name, texture] : samples)
+            pass.sample(texture);
+        cells = pass.createColor("caustics.cells", desc);
+        return [=, program = *found](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{.program = program};
+            for (const auto& [name, texture] : samples)
+                draw.textures.push_back({name, resources[texture]});
+            commands.draw(draw);
+        };
+    });
+    return cells;
+}
+
+// Finds the cells in which rays of their own begin, and a place for each.
+Status LightPasses::pack(Sheet& sheet) {
+    const ivec2 grid = sheet.grid.count;
+    const TextureDesc number{.size = grid, .format = Format::R32F};
+    const TextureDesc row{.size = {1, grid.y}, .format = Format::R32F};
+    Result<TextureId> lone =
+        recordCells("caustics/lone", "in which cells of the grid beams carry not all light", number,
+                    {{"uBeams", sheet.cells.beams}, {"uFlux", sheet.grid.flux}});
+    if (!lone) return lone.error();
+    Result<TextureId> ranks =
+        recordCells("caustics/ranks", "how many of them a row has up to each", number, {{"uLone", *lone}});
+    if (!ranks) return ranks.error();
+    Result<TextureId> rows =
+        recordCells("caustics/rows", "how many there are up to each row", row, {{"uRanks", *ranks}});
+    if (!rows) return rows.error();
+    Result<TextureId> index =
+        recordCells("caustics/index", "where each of them is packed",
+                    {.size = grid, .format = Format::RGBA32F}, {{"uRanks", *ranks}, {"uRows", *rows}});
+    if (!index) return index.error();
+    sheet.cells.index = *index;
+    return Done{};
+}
+
 // What the triangles around each ray leave where it lands.
 Status LightPasses::weigh(Sheet& sheet) {
     if (Status s = weighOnce(sheet, false); !s) return s;
@@ -299,13 +357,13 @@ Status LightPasses::weighOnce(Sheet& sheet, bool sharpen) {
     const TextureId before = sheet.density;
     graph_.addPass("caustics.density", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how densely the triangles around each ray light what they fall on");
-        pass.sample(sheet.beams);
+        pass.sample(sheet.cells.beams);
         pass.sample(sheet.grid.flux);
         if (sharpen) pass.sample(before);
         const TextureDesc desc{.size = sheet.grid.count, .format = Format::RGBA32F};
         sheet.density = pass.createColor("caustics.density", desc);
         if (!sharpen) sheet.points = pass.createColor("caustics.points", desc);
-        return [=, beams = sheet.beams, flux = sheet.grid.flux, block = depositBlock(sheet.grid, 0),
+        return [=, beams = sheet.cells.beams, flux = sheet.grid.flux, block = depositBlock(sheet.grid, 0),
                 program = *weighing](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{.program = program,
                              .block = block,

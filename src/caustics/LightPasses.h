@@ -71,23 +71,30 @@ private:
         ivec2 count{0}; // of rays
         graph::TextureId place{}, direction{}, flux{}, landing{};
     };
+    // Which triangles between the rays of a grid are beams, and in which cells rays of their own begin for
+    // the rest (shaders/caustics/lone_cells.glsl).
+    struct Cells {
+        graph::TextureId beams{}, index{};
+    };
     // The rays of one view: those of a grid, the triangles between them that carry light, and rays of their
     // own for the rest. Splats and lines are drawn of the grid's alone.
     struct Sheet {
         views::Eye eye; // of the light
         Photons grid{}, rest{};
-        graph::TextureId beams{}, density{}, points{};
+        Cells cells{};
+        graph::TextureId density{}, points{};
+        graph::TextureId sides{}, shares{}; // of the rest: shaders/caustics/spread.frag
     };
     // Which rays a pass begins (shaders/caustics/photon.glsl).
     enum class Part { Cells, Vertices, Rests, Pixels };
     struct Start {
         Part part = Part::Cells;
-        graph::TextureId beams{};
+        Cells cells{};
         std::vector<graph::TextureId> targets{};
         bool book = false; // else the rays themselves
         std::vector<std::string> defines() const;
         bool isRest() const { return part == Part::Rests || part == Part::Pixels; }
-        bool usesBeams() const { return isRest() || (part == Part::Vertices && book); }
+        std::vector<std::pair<const char*, graph::TextureId>> samples() const;
     };
     using Trace = std::function<Status(const Start&)>;
 
@@ -106,13 +113,17 @@ private:
     Status reflect(const Plan::View& view, graph::TextureId surface, const Start& start);
 
     Status carry(const views::Eye& eye, const Trace& trace);
-    Result<Photons> send(Part part, graph::TextureId beams, const Trace& trace);
-    Status keepBook(Part part, graph::TextureId beams, const Photons& photons, const Trace& trace);
-    graph::Draw drawOf(Part part) const;
-    Status land(Photons& photons, Part part = Part::Cells, graph::TextureId beams = {});
+    Result<Photons> send(Part part, const Cells& cells, const Trace& trace);
+    Status keepBook(Part part, const Cells& cells, const Photons& photons, const Trace& trace);
+    static graph::Draw drawOf(Part part);
+    Status land(Photons& photons, Part part, const Cells& cells);
     Status recordBack();
     Status recordRound();
     Result<graph::TextureId> beamsOf(const Photons& photons, float cell);
+    Result<graph::TextureId>
+    recordCells(const char* stem, const char* reason, const graph::TextureDesc& desc,
+                const std::vector<std::pair<const char*, graph::TextureId>>& samples);
+    Status pack(Sheet& sheet);
     Status weigh(Sheet& sheet);
     Status weighOnce(Sheet& sheet, bool sharpen);
 
@@ -126,6 +137,7 @@ private:
 
     float splatSize(const views::Eye& glass) const;
     DepositBlock depositBlock(const Photons& photons, float size) const;
+    Status spread(Sheet& sheet);
     const views::ShadowViews& mapViews() const {
         return light_.halves.faces.empty() ? light_.receivers : light_.halves;
     }
@@ -133,6 +145,7 @@ private:
     // Of a program that knows where the map's texels lie.
     Result<const gl::Program*> programOnMap(const char* stem, std::vector<std::string> defines = {}) {
         if (!light_.halves.faces.empty()) defines.push_back("PARABOLOIDS");
+        if (mapViews().faces.size() == 1) defines.push_back("ONE_VIEW");
         return program(stem, std::move(defines));
     }
     Status deposit();

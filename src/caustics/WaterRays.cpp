@@ -117,11 +117,11 @@ Status LightPasses::leaveAlone(Sheet& sheet) {
     graph_.addPass("caustics.alone", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("light between rays of which no beam is made");
         pass.sample(sheet.grid.flux);
-        pass.sample(sheet.beams);
+        pass.sample(sheet.cells.beams);
         sheet.rest.flux =
             pass.createColor("caustics.alone", {.size = sheet.grid.count, .format = Format::RGBA32F});
         return [program = *leaving, flux = sheet.grid.flux,
-                beams = sheet.beams](const graph::Resources& resources, graph::Commands& commands) {
+                beams = sheet.cells.beams](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw(
                 {.program = program, .textures = {{"uFlux", resources[flux]}, {"uBeams", resources[beams]}}});
         };
@@ -147,7 +147,7 @@ Status LightPasses::carryFromWater(const Tint& tint) {
     const TextureId entering = graph_.create("caustics.entering", desc);
     Status s =
         beginOnWater(tint, desc.size, shadow, {sheet.grid.place, sheet.grid.direction, entering}, false);
-    if (s) s = land(sheet.grid);
+    if (s) s = land(sheet.grid, Part::Cells, {});
     if (!s) return s;
     sheet.grid.flux = targets_.make("caustics.flux", desc);
     if (s = soak(sheet.grid, entering, {}, sheet.grid.flux); !s) return s;
@@ -165,9 +165,10 @@ Status LightPasses::carryFromWater(const Tint& tint) {
     const float cell = std::max(water.size.x, water.size.y) / float(settings_.grid);
     Result<TextureId> mask = beamsOf(sheet.grid, objectOf(in_.glass.front()).transform.scale * cell / reach);
     if (!mask) return mask.error();
-    sheet.beams = *mask;
+    sheet.cells.beams = *mask;
     s = weigh(sheet);
     if (s) s = leaveAlone(sheet);
+    if (s) s = spread(sheet);
     if (!s) return s;
     sheets_.push_back(std::move(sheet));
     return Done{};
