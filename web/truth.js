@@ -6,9 +6,9 @@ import { fetchPicture } from './files.js';
 import { LucentError } from './runtime.js';
 
 // Longer side of a computed truth in pixels, so that it is there within half a minute or so: a lamp is one question
-// a pixel, soft lamps and light from all around are hundreds.
+// a pixel, soft lamps and light from all around on matt things are hundreds.
 const kSide = { hard: 256, soft: 128 };
-const kDirections = 128;
+const kSamples = 128;
 
 const kAddress = new URL('lucent-truth.js', import.meta.url).href;
 
@@ -46,15 +46,20 @@ async function computeOnPage(request, report, signal) {
   return truth;
 }
 
-const isSoft = (light) => light.radius > 0 || light.angle > 0;
+const isSoft = (light) => light.radius > 0 || light.angle > 0 || light.type === 'area';
+
+// What is refractive or a mirror shows one ray a pixel, whatever lights it.
+const isMatt = ({ shape, material = {} }) =>
+  shape.type === 'heightfield' || ![material.transmission, material.reflectance].flat().some((share) => share > 0);
 
 /** What to compute for the files of a scene. */
 function requestFor(files) {
   const scene = JSON.parse(new TextDecoder().decode(files.get('scene.json')));
   const shines = scene.environment && scene.environment.enabled !== false;
-  const side = shines || scene.lights.some(isSoft) ? kSide.soft : kSide.hard;
+  const isSampled = (shines || scene.lights.some(isSoft)) && scene.objects.some(isMatt);
+  const side = isSampled ? kSide.soft : kSide.hard;
   const [width, height] = scene.size.map((length) => Math.max(1, Math.round((length * side) / Math.max(...scene.size))));
-  return { files, width, height, directions: kDirections };
+  return { files, width, height, samples: kSamples };
 }
 
 export class TruthBar {

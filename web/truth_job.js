@@ -8,14 +8,14 @@ import { callWasm } from './wasm.js';
 const kSlice = { worker: 100, page: 8 }; // ms
 
 /**
- * @param request  files: Map of name to bytes with "scene.json", width, height, directions
+ * @param request  files: Map of name to bytes with "scene.json", width, height, samples
  * @param report   called with the finished share, [0,1]; the work ends when it returns false
  * @return {Promise<{pixels: Float32Array, noise: number} | null>}  4 floats a pixel; null when it was ended
  */
-export async function computeTruth({ files, width, height, directions }, report, slice = kSlice.page) {
+export async function computeTruth({ files, width, height, samples }, report, slice = kSlice.page) {
   const wasm = await createTruth({ locateFile: (name) => new URL(name, import.meta.url).href });
   for (const [name, bytes] of files) callWasm(wasm, 'truth_file_put', name, bytes);
-  const message = wasm.UTF8ToString(callWasm(wasm, 'truth_start', width, height, directions));
+  const message = wasm.UTF8ToString(callWasm(wasm, 'truth_start', width, height, samples));
   if (message) throw new Error(message);
   for (let share = 0; share < 1; ) {
     share = callWasm(wasm, 'truth_step', slice);

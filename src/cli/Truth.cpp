@@ -5,8 +5,8 @@
 #include "cli/TruthOutput.h"
 
 #include "base/Text.h"
-#include "frame/Renderer.h"
 #include "measure/SubsurfaceTruth.h"
+#include "measure/TruthModel.h"
 #include "relief/Relief.h"
 #include "truth/Dipole.h"
 #include "truth/Glass.h"
@@ -28,7 +28,7 @@ namespace {
 struct TruthOptions {
     SceneOptions scene;
     TruthOutput output;
-    std::string estimator; ///< empty: by the scene; see chosenEstimator()
+    std::string estimator; ///< empty: by the scene; see measure::usualTruth()
     std::string tile;      ///< "I/N"; empty: the whole picture
     std::int64_t photons = truth::LightOptions{}.photons;
     const CLI::Option* photonsGiven = nullptr;
@@ -59,19 +59,10 @@ truth::Branching branchingOf(const TruthOptions& options) {
     return tree ? truth::Branching::Tree : truth::Branching::Chain;
 }
 
-/// What a scene is solved by unless it is said: radiosity, and colours of what scatters light inside, by the
-/// dipole; irradiance, and colours where caustics belong to what is drawn, by light; height fields alone by
-/// the relief model; all else by what is seen through glass.
+/// The name of what a scene is solved by unless it is said.
 std::string chosenEstimator(const scene::Scene& scene) {
-    const bool scatters = std::any_of(scene.objects.begin(), scene.objects.end(),
-                                      [](const auto& object) { return object.material.isScattering(); });
-    if (scene.view.show == scene::Aov::Radiosity) return "dipole";
-    if (scene.view.show == scene::Aov::Color && scatters) return "dipole";
-    if (scene.view.show == scene::Aov::Irradiance) return "light";
-    if (scene.view.show == scene::Aov::Color && frame::need(scene, "caustics")) return "light";
-    const bool fields = std::all_of(scene.objects.begin(), scene.objects.end(),
-                                    [](const scene::Object& object) { return object.isField(); });
-    return fields ? "relief" : "glass";
+    constexpr const char* kNames[] = {"relief", "glass", "light", "dipole"}; // as measure::TruthModel
+    return kNames[std::size_t(measure::usualTruth(scene))];
 }
 
 /// Irradiance is of light alone, radiosity of what scatters inside; the estimators of height fields leave out

@@ -4,10 +4,13 @@
 
 #include "base/Text.h"
 #include "frame/Renderer.h"
+#include "measure/TruthModel.h"
 #include "relief/Relief.h"
 #include "scene/Load.h"
+#include "truth/Glass.h"
 #include "truth/RenderRelief.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -22,7 +25,7 @@ namespace {
 struct Job {
     std::map<std::string, Bytes> files;
     scene::Scene scene;
-    std::unique_ptr<truth::ReliefEstimator> estimator;
+    std::unique_ptr<truth::Estimator> estimator;
     Image image;
     int done = 0;       // pixels
     double squares = 0; // of the standard errors, over all colours
@@ -54,14 +57,34 @@ truth::ReliefOptions optionsOf(const scene::Scene& scene, int directions) {
             .threads = 1};
 }
 
-// What follows rays through whole scenes needs Embree, which exists natively only.
-Status checkScene(const scene::Scene& scene) {
-    for (const scene::Object& object : scene.objects)
-        if (!object.isField())
-            return Error{
-                "truth: object " + inQuotes(object.name) +
-                " is no height field; must be one, or the scene be solved by the program (lucent truth)"};
-    return truth::checkAov(scene.view.show);
+/// What takes too long for a page, by name.
+Error leftToProgram(const std::string& what) {
+    return Error{"truth: " + what +
+                 ", which the page does not solve; must be solved by the program (lucent truth)"};
+}
+
+Error leftToProgram(const scene::Scene& scene, measure::TruthModel model) {
+    const scene::Aov aov = scene.view.show;
+    if (aov != scene::Aov::Color)
+        return leftToProgram("shown is the AOV " + std::string(scene::aovNames()[std::size_t(aov)]));
+    if (model == measure::TruthModel::Light) return leftToProgram(*frame::need(scene, "caustics"));
+    const auto scattering = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                         [](const auto& object) { return object.material.isScattering(); });
+    return leftToProgram("object " + inQuotes(scattering->name) + " scatters light inside");
+}
+
+Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scene, ivec2 size, int samples) {
+    const scene::Aov aov = scene.view.show;
+    const measure::TruthModel model = measure::usualTruth(scene);
+    if (model == measure::TruthModel::Relief) {
+        if (Status known = truth::checkAov(aov); !known) return known.error();
+        return std::unique_ptr<truth::Estimator>(
+            new truth::ReliefEstimator(scene, size, aov, optionsOf(scene, samples)));
+    }
+    if (model != measure::TruthModel::Glass) return leftToProgram(scene, model);
+    auto glass = truth::GlassEstimator::create(scene, size, aov, {.samples = samples});
+    if (!glass) return glass.error();
+    return std::unique_ptr<truth::Estimator>(new truth::GlassEstimator(std::move(*glass)));
 }
 
 void solveNext() {
@@ -89,16 +112,18 @@ void truth_file_put(const char* name, const std::uint8_t* bytes, int size) {
 
 /// Begins the picture of "scene.json" and forgets the files. "" or the message.
 ///
-/// @param directions  that stand for an environment
-const char* truth_start(int width, int height, int directions) {
+/// @param samples  of a relief directions that stand for an environment, else of each pixel in which
+/// something
+///                 is left to chance
+const char* truth_start(int width, int height, int samples) {
     Job& j = job();
     Result<scene::Scene> scene = scene::load("scene.json", readPut, frame::techniques());
     j.files.clear();
     if (!scene) return answer(scene.error().message);
     j.scene = std::move(*scene);
-    if (Status known = checkScene(j.scene); !known) return answer(known.error().message);
-    j.estimator = std::make_unique<truth::ReliefEstimator>(j.scene, ivec2(width, height), j.scene.view.show,
-                                                           optionsOf(j.scene, directions));
+    auto estimator = makeEstimator(j.scene, ivec2(width, height), samples);
+    if (!estimator) return answer(estimator.error().message);
+    j.estimator = std::move(*estimator);
     j.image = Image(width, height, 4);
     j.done = 0;
     j.squares = 0;

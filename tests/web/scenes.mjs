@@ -68,6 +68,23 @@ const marble = {
 };
 /** The same where texels count, not how they are drawn. */
 const ball = { ...marble, title: 'A ball', technique: { subsurface: { method: 'lambert', epsilon: 0.3 } } };
+/** A ball of glass under a sky, partly in front of a board that shines by itself. */
+const bead = {
+  lucent: 1,
+  title: 'A bead',
+  size: [64, 64],
+  camera: { type: 'orthographic', eye: [0, 0, 3], height: 4.8 },
+  environment: { source: 'sky' },
+  objects: [
+    {
+      name: 'board',
+      shape: { type: 'box', size: [0.6, 2, 0.1] },
+      transform: { translate: [1, 0, -1.5] },
+      material: { base: [0.5, 0.3, 0.1], diffuse: [0, 0, 0] },
+    },
+    { name: 'bead', shape: { type: 'sphere', radius: 1 }, material: { transmission: 1, ior: 1.5 } },
+  ],
+};
 const broken = structuredClone(dome);
 broken.objects[0].shape.heightScale = 'tall';
 
@@ -79,6 +96,7 @@ export const kScenes = {
   'pond.json': JSON.stringify(pond),
   'marble.json': JSON.stringify(marble),
   'ball.json': JSON.stringify(ball),
+  'bead.json': JSON.stringify(bead),
   'ridge.json': JSON.stringify(scene('A ridge', 'ridge.pfm')),
   'ridge.pfm': pfm((x) => 1 - Math.abs(x)),
   'sky.json': JSON.stringify(

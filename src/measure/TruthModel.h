@@ -1,0 +1,21 @@
+#pragma once
+/// Which of the exact solutions belongs to what a scene shows.
+
+#include "scene/Scene.h"
+
+namespace lucent::measure {
+
+/// The models that pictures are drawn by, as `src/truth` solves them.
+enum class TruthModel {
+    Relief, ///< height fields alone
+    Glass,  ///< what is seen past interfaces and mirrors, and matt things by light that comes straight
+    Light,  ///< light of lamps by way of interfaces and mirrors
+    Dipole  ///< light inside of what scatters it
+};
+
+/// What a scene is solved by unless somebody says otherwise: radiosity, and colours of what scatters light
+/// inside, by the dipole; irradiance, and colours where caustics belong to what is drawn, by light; height
+/// fields alone by the relief model; all else by what is seen through glass.
+TruthModel usualTruth(const scene::Scene& scene);
+
+} // namespace lucent::measure
