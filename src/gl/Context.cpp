@@ -133,7 +133,8 @@ Result<std::unique_ptr<Context>> Context::create(std::span<const std::string_vie
     context->caps_ = Caps::probe(without);
     if (!context->caps_.colorBufferFloat)
         return Error{"caps: cannot draw into floating-point textures (EXT_color_buffer_float missing) on " +
-                         context->caps_.renderer + "; light is summed in them",
+                         context->caps_.renderer +
+                         "; visible points, layers of glass and sums of light are drawn into them",
                      Fault::Machine};
     context->device_ = std::make_unique<Device>(context->caps_);
     return context;

@@ -150,7 +150,7 @@ Capability drawFloats(gl::Context& context) {
             "EXT_color_buffer_float",
             context.caps().colorBufferFloat,
             "",
-            "visible points and sums of light",
+            "visible points, layers of glass, caustic maps and other sums of light",
             "none: without it Lucent says so and does not start",
             storeError(context, Format::RGBA32F),
             "largest relative error of a value drawn and read back"};
@@ -161,7 +161,7 @@ Capability drawHalves(gl::Context& context) {
             "EXT_color_buffer_float",
             context.caps().colorBufferFloat,
             "",
-            "coefficients of relief's transfer method",
+            "layers of glass are counted in them; coefficients of relief's transfer method",
             "not needed: it comes with 32-bit floats",
             storeError(context, Format::RGBA16F),
             "largest relative error of a value drawn and read back: what half the memory costs, each pass"};
@@ -192,14 +192,17 @@ Capability filterFloats(gl::Context& context) {
 
 Capability blendFloats(gl::Context& context) {
     const bool present = context.caps().floatBlend;
-    return {"Blend 32-bit floats",
-            "EXT_float_blend",
-            present,
-            "",
-            "light adds up in caustic maps",
-            "caustic maps of 16-bit floats: a glass ball's caustic loses 0.7 % of its light",
-            present ? blendDifference(context) : kUnknown,
-            "largest relative difference between both sums of 64 terms"};
+    return {
+        "Blend 32-bit floats",
+        "EXT_float_blend",
+        present,
+        "",
+        "light adds up in caustic maps and, from inside of things, in the picture; where glass begins and "
+        "ends, for voxels",
+        "caustic maps of 16-bit floats: a glass ball's caustic loses 0.7 % of its light; light inside is "
+        "gathered; voxels of glass take a pass more; layers of glass by peeling are the same",
+        present ? blendDifference(context) : kUnknown,
+        "largest relative difference between both sums of 64 terms"};
 }
 
 Capability drawBuffers(gl::Context& context) {
@@ -207,8 +210,9 @@ Capability drawBuffers(gl::Context& context) {
             "",
             true,
             std::to_string(context.caps().maxDrawBuffers),
-            "layers and moved vertices are drawn into two or three targets at once",
-            "not needed",
+            "layers of glass and moved vertices are drawn into two or three targets at once, voxels into up "
+            "to eight",
+            "with fewer than eight voxels of glass take more passes to the same picture",
             kUnknown,
             ""};
 }

@@ -197,6 +197,15 @@ TEST_P(Without, AnExtensionAllFormsHoldAndItsLineSaysNo) {
     }
 }
 
+TEST_F(Checks, BlendingTellsOfEachTechniqueThatAddsLightUp) {
+    const Capability row = capabilities().at("Blend 32-bit floats");
+    // caustics/LightPasses.h, views/Voxels.cpp, subsurface/Splatting.cpp: all that ask for floatBlend.
+    for (const char* word : {"caustic maps", "voxels", "inside"}) {
+        EXPECT_NE(row.use.find(word), std::string_view::npos) << word;
+        EXPECT_NE(row.fallback.find(word), std::string_view::npos) << word;
+    }
+}
+
 TEST(WithoutFloatTargets, ThereIsAMessageAndNoContext) {
     const std::string_view without[] = {"EXT_color_buffer_float"};
     const auto poor = gl::Context::create(without);
@@ -205,6 +214,7 @@ TEST(WithoutFloatTargets, ThereIsAMessageAndNoContext) {
     // Without any GL the message is another one; whether that may be is for the other tests here to say.
     if (poor.error().message.starts_with("gl:")) GTEST_SKIP() << poor.error().message;
     EXPECT_NE(poor.error().message.find("EXT_color_buffer_float missing"), std::string::npos);
+    EXPECT_NE(poor.error().message.find("layers of glass"), std::string::npos);
 }
 
 } // namespace

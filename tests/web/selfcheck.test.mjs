@@ -47,15 +47,17 @@ test('every closed form holds in this browser, capabilities are measured, and th
   await page.leave();
 });
 
+/** A script that takes extensions from a page. */
+const without = (...names) => `{
+  const getExtension = WebGL2RenderingContext.prototype.getExtension;
+  WebGL2RenderingContext.prototype.getExtension = function (name) {
+    return ${JSON.stringify(names)}.includes(name) ? null : getExtension.call(this, name);
+  };
+}`;
+
 for (const mask of kMasks)
   test(`without ${Object.keys(mask).join(' and ')} every closed form holds and the table says so`, async () => {
-    const init = `{
-      const getExtension = WebGL2RenderingContext.prototype.getExtension;
-      WebGL2RenderingContext.prototype.getExtension = function (name) {
-        return name in ${JSON.stringify(mask)} ? null : getExtension.call(this, name);
-      };
-    }`;
-    const page = await open({ init });
+    const page = await open({ init: without(...Object.keys(mask)) });
     const report = await check(page);
     assert.deepEqual(report.checks.filter(({ passed }) => !passed), []);
     for (const name of Object.values(mask)) {
@@ -65,6 +67,40 @@ for (const mask of kMasks)
     assert.deepEqual(page.problems, []);
     await page.leave();
   });
+
+test('the table says what glass and caustics lose without blending of floats, and glass is as it says', onOneDriver, async () => {
+  const pictures = [];
+  for (const init of [undefined, without('EXT_float_blend')]) {
+    const page = await openViewers(stage, kViewer.replace('dome', 'bead'), { viewport: { width: 320, height: 240 }, init });
+    await complete(page);
+    pictures.push(await pictureOf(page));
+    if (init) {
+      const { present, use, fallback } = named(await check(page), 'Blend 32-bit floats');
+      assert.equal(present, false);
+      assert.match(use, /caustic maps.*glass/);
+      assert.match(fallback, /caustic maps of 16-bit floats.*loses 0\.7 % of its light/);
+      assert.match(fallback, /layers of glass by peeling are the same/);
+    }
+    await page.leave();
+  }
+  assert.deepEqual(difference(...pictures, 0), { max: 0, mean: 0, share: 0 });
+});
+
+test('without floating-point targets the page says what they hold', onOneDriver, async () => {
+  const page = await openViewers(stage, '', { init: without('EXT_color_buffer_float') });
+  const { code, message } = await page.evaluate(async () => {
+    const viewer = document.createElement('lucent-viewer');
+    const failed = new Promise((done) => viewer.addEventListener('error', ({ detail }) => done(detail)));
+    viewer.src = 'made/bead.json';
+    document.body.append(viewer);
+    const { code, message } = await failed;
+    return { code, message };
+  });
+  assert.equal(code, 'gpu');
+  assert.match(message, /^caps: cannot draw into floating-point textures \(EXT_color_buffer_float missing\) on .*llvmpipe/);
+  assert.match(message, /; visible points, layers of glass and sums of light are drawn into them$/);
+  await page.leave();
+});
 
 test('two checks at once both come to an end', onOneDriver, async () => {
   const page = await open();
