@@ -187,14 +187,16 @@ ivec2 pixelsOfGrazed(ivec2 size, const views::Eye& eye, const views::Bounds& obj
 
 } // namespace
 
-ivec2 pixelsOf(const views::Eye& eye, const views::Bounds& object, const Grid& grid) {
-    const float farthest = glm::dot(object.center() - eye.position, eye.forward) + object.radius();
+ivec2 pixelsOf(const views::Eye& eye, const scene::Object& object, const Grid& grid) {
+    const views::Bounds bounds = views::boundsOf(object);
+    const float farthest = glm::dot(bounds.center() - eye.position, eye.forward) + bounds.radius();
     const vec2 extent = 2.0f * eye.halfExtent * (eye.perspective ? farthest : 1.0f);
     const vec2 wanted = glm::ceil(extent / grid.pixel);
     const float most = std::max(wanted.x, wanted.y);
-    if (most > float(grid.most))
-        warnOnce("subsurface: a light's view asks for " + std::to_string(std::int64_t(most)) +
-                 " pixels a side; " + std::to_string(grid.most) + " are drawn, and its light is patchy");
+    if (most > grid.spare * float(grid.most))
+        warnOnce("subsurface: a light's view of object \"" + object.name + "\" asks for " +
+                 std::to_string(std::int64_t(most)) + " pixels a side; " + std::to_string(grid.most) +
+                 " are drawn, and its light is patchy");
     return glm::clamp(ivec2(glm::min(wanted, vec2(float(grid.most)))), ivec2(1), ivec2(grid.most));
 }
 
@@ -202,7 +204,7 @@ Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const v
                          const views::Eye& face, const views::PosedMesh& object,
                          const std::vector<views::PosedMesh>& casters, const Grid& grid) {
     const views::Bounds bounds = views::boundsOf(*object.drawn.object);
-    const ivec2 size = pixelsOfGrazed(pixelsOf(face, bounds, grid), face, bounds, grid);
+    const ivec2 size = pixelsOfGrazed(pixelsOf(face, *object.drawn.object, grid), face, bounds, grid);
     const TextureId surface = graph.create("subsurface.lit", {.size = size, .format = Format::RGBA32F});
     if (Status s = views::recordSurface(graph, context, face, {}, casters, surface, size); !s)
         return s.error();
@@ -223,7 +225,7 @@ Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const v
 Result<std::vector<Points>> recordSky(graph::FrameGraph& graph, gl::Context& context, const views::Eye& axis,
                                       const views::PosedMesh& object, int layers,
                                       const std::array<vec3, 9>& sky, const Grid& grid) {
-    const ivec2 size = pixelsOf(axis, views::boundsOf(*object.drawn.object), grid);
+    const ivec2 size = pixelsOf(axis, *object.drawn.object, grid);
     FluxBlock block = blockOf(axis, size, object, grid.sharpness);
     std::transform(sky.begin(), sky.end(), block.sky, [](vec3 one) { return vec4(one, 0); });
     std::vector<Points> list;

@@ -33,10 +33,12 @@ struct Grid {
     float pixel = 0; ///< m on a surface that faces the view: width of a block of the finest level
     int levels = 1;  ///< at most; fewer where a level has one block
     int most = 0;    ///< pixels a side
+    float spare = 1; ///< blocks up to so many times as wide still do, but where the view grazes the surface
     Sharpness sharpness{};
 };
-/// Pixels of the finest level, for an object in this view; more than grid.most are named in a warning.
-ivec2 pixelsOf(const views::Eye& eye, const views::Bounds& object, const Grid& grid);
+/// Pixels of the finest level, for an object in this view. Where they are wider than what does, a warning
+/// names the object.
+ivec2 pixelsOf(const views::Eye& eye, const scene::Object& object, const Grid& grid);
 
 /// Points of an object that a lamp sees.
 ///

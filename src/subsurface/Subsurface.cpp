@@ -510,14 +510,13 @@ Result<std::array<int, 3>> Subsurface::countLayers(graph::TexturePool& pool, con
                                                    float time, const Settings& settings, const Grid& grid) {
     // Cells lie along the world's axes, points along the object's own.
     const bool inCells = settings.method == Method::Diffusion;
-    const views::Bounds bounds = views::boundsOf(*mesh.object);
     const std::array<views::Eye, 3> axes =
-        inCells ? axesOf(bounds, grid.most) : axesOf(*mesh.object, grid.most);
+        inCells ? axesOf(views::boundsOf(*mesh.object), grid.most) : axesOf(*mesh.object, grid.most);
     Counted now{.key = views::objectKey(inCells ? *mesh.object : unmoved(*mesh.object), time),
                 .sizes = {},
                 .layers = {}};
     for (std::size_t i = 0; i < axes.size(); ++i)
-        now.sizes[i] = pixelsOf(axes[i], bounds, grid);
+        now.sizes[i] = pixelsOf(axes[i], *mesh.object, grid);
     Counted& known = counted_[mesh.index];
     if (!mesh.water && known.key == now.key && known.sizes == now.sizes) return known.layers;
     for (std::size_t i = 0; i < axes.size(); ++i) {

@@ -172,6 +172,5 @@ TEST_F(SubsurfaceTest, DiffusionUnderAnEvenEnvironmentIsEvenOnASphere) {
         EXPECT_NEAR(image.at(x, 24)[1] / middle, 1, 0.05) << x;
 }
 
-// The last one: no context stays behind.
 } // namespace
 } // namespace lucent::subsurface

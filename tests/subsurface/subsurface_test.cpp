@@ -377,6 +377,27 @@ TEST_F(SubsurfaceTest, WhatLeavesIsSeenFromSomewhere) {
     EXPECT_NEAR(atMiddle(draw(scene, {8, 8}, papers, false)), radiosity * entering(1) / kPi64, 1e-5);
 }
 
+TEST_F(SubsurfaceTest, ANearLampIsNamedWhereNoFinerLevelsMakeUpForIt) {
+    // Three radii away the far side of a ball is narrower in perspective than its middle. The
+    // dissertation's splats have one level.
+    scene::Scene scene = seen({bodyOf(scene::Sphere{0.01f}, marble())}, 0.022f);
+    scene.lights = {scene::PointLight{.position = {0.02f, 0.01f, 0.02f}}};
+    Settings paper = with(Method::Splat);
+    paper.splats = Splats::Paper;
+    paper.mostSplats = 64;
+    testing::internal::CaptureStderr();
+    draw(scene, {8, 8});
+    const std::string bound = testing::internal::GetCapturedStderr();
+    testing::internal::CaptureStderr();
+    draw(scene, {8, 8}, paper);
+    const std::string papers = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(bound.find("patchy"), std::string::npos) << bound;
+    for (const char* part : {"subsurface: a light's view of object \"body\" asks for ",
+                             " pixels a side; 64 are drawn, and its light is patchy"})
+        EXPECT_NE(papers.find(part), std::string::npos) << papers;
+}
+
+// The last one: no context stays behind.
 TEST_F(SubsurfaceTest, WithoutFloatBlendingLightIsGatheredToThreeDigits) {
     const scene::Scene ball = sphereFromTheSide(0.01, marble()), plane = sheet(dense(), 0.01f, 0.001f);
     const Settings bands = with(Method::Multires, DipoleGeometry::Planar, 0.05f);
@@ -406,5 +427,6 @@ TEST_F(SubsurfaceTest, WithoutFloatBlendingLightIsGatheredToThreeDigits) {
     EXPECT_NEAR(double(atMiddle(dots)) / expected, 1, 0.02);
     EXPECT_NEAR(atMiddle(gatheredDots) / atMiddle(dots), 1, 0.005f);
 }
+
 } // namespace
 } // namespace lucent::subsurface
