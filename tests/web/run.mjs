@@ -1,5 +1,5 @@
 /**
- * Runs the tests of the page on both software drivers and counts them.
+ * Runs the tests of the page on both software drivers, two files at a time, and counts them.
  *
  *   node tests/web/run.mjs --site build/web/site [--native DIR] [--driver NAME] [FILE...]
  *
@@ -18,6 +18,10 @@ const kFolder = dirname(fileURLToPath(import.meta.url));
 const kDrivers = ['swiftshader', 'llvmpipe'];
 // What hands and attributes do does not hang on who draws: the quicker driver.
 const kOnOneDriver = { 'controls.test.mjs': 'llvmpipe', 'element.test.mjs': 'llvmpipe', 'gestures.test.mjs': 'llvmpipe' };
+// Much of a test is waiting, compiling and JavaScript, which take one core.
+const kWorkers = 2;
+// These begin, so that the last worker does not end long after the others.
+const kLongest = ['page.test.mjs', 'selfcheck.test.mjs', 'pictures.test.mjs', 'paint.test.mjs', 'compare.test.mjs'];
 
 const { values: options, positionals } = parseArgs({
   options: { site: { type: 'string' }, native: { type: 'string' }, driver: { type: 'string' } },
@@ -58,14 +62,22 @@ function runFile(file, driver) {
   });
 }
 
+const rank = ({ file }) => (kLongest.includes(file) ? kLongest.indexOf(file) : kLongest.length);
+const drivers = options.driver ? [options.driver] : kDrivers;
+const waiting = drivers
+  .flatMap((driver) => files.map((file) => ({ file, driver })))
+  .filter(({ file, driver }) => (kOnOneDriver[file] ?? driver) === driver)
+  .sort((one, other) => rank(one) - rank(other));
+
 let passed = 0;
 let failed = 0;
-for (const driver of options.driver ? [options.driver] : kDrivers)
-  for (const file of files) {
-    if ((kOnOneDriver[file] ?? driver) !== driver) continue;
-    const count = await runFile(file, driver);
+async function work() {
+  for (let next = waiting.shift(); next; next = waiting.shift()) {
+    const count = await runFile(next.file, next.driver);
     passed += count.passed;
     failed += count.failed;
   }
+}
+await Promise.all(Array.from({ length: kWorkers }, work));
 console.log(`web tests: ${passed} passed, ${failed} failed`);
 process.exit(failed || !passed ? 1 : 0);
