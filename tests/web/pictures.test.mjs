@@ -12,7 +12,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { kHardScenes } from './hard_scenes.mjs';
-import { complete, decodePng, difference, eventOf, kDriver, openStage, openViewers, pictureOf } from './support.mjs';
+import { complete, decodePng, difference, eventOf, kDriver, openStage, openViewers, pictureOf, spread } from './support.mjs';
 
 const kFolder = process.env.LUCENT_NATIVE;
 const kShare = 0.001;
@@ -35,7 +35,7 @@ for (const file of readdirSync(kFolder)
   test(`${id} looks in the browser as it does natively`, async () => {
     const png = readFileSync(join(kFolder, file));
     const size = [png.readUInt32BE(16), png.readUInt32BE(20)]; // of the chunk IHDR
-    const source = `${`${id}.json` in kHardScenes ? 'made' : 'gallery'}/${id}.json`;
+    const folder = `${id}.json` in kHardScenes ? 'made' : 'gallery';
     await eventOf(page, 'load', () =>
       page.evaluate(
         ([src, [width, height]]) => {
@@ -43,16 +43,18 @@ for (const file of readdirSync(kFolder)
           Object.assign(viewer.style, { width: `${width}px`, height: `${height}px` });
           viewer.src = src;
         },
-        [source, size],
+        [`${folder}/${id}.json`, size],
       ),
     );
     await complete(page);
-    const { max, mean, share } = difference(await decodePng(page, png), await pictureOf(page));
+    const picture = await pictureOf(page);
+    const { max, mean, share } = difference(await decodePng(page, png), picture);
     const over = (100 * share).toFixed(3);
     const found = `${kDriver}: ${id}: max ${max}/255, mean ${mean.toFixed(4)}/255, ${over} % above 1/255`;
     console.log(found);
     const allowed = kDriver === 'swiftshader' ? (kRoundedShare[id] ?? kShare) : kShare;
     assert.ok(share <= allowed, found);
+    if (folder === 'gallery') assert.ok(spread(picture) > 40, `values spread over ${spread(picture)} of 255`);
     assert.deepEqual(page.problems.splice(0), []);
   });
 }

@@ -180,6 +180,17 @@ export function brightness({ width, height, pixels }, [left, top, right, bottom]
   return sum / count;
 }
 
+/** Distance between the darkest and the brightest green of a picture, [0, 255]: an empty one has none. */
+export function spread({ pixels }) {
+  let low = 255;
+  let high = 0;
+  for (let at = 0; at < pixels.length; at += 4) {
+    low = Math.min(low, pixels[at + 1]);
+    high = Math.max(high, pixels[at + 1]);
+  }
+  return high - low;
+}
+
 /**
  * How far two pictures of the same size are apart in what reaches the eye: colours times their coverage, [0, 255].
  * @return {{max: number, mean: number, share: number}}  share of the pixels that differ by more than `limit`
