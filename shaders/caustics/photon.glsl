@@ -3,13 +3,12 @@
 // The file that includes this has said whether a pixel of the light's view shows what bends light: isMet().
 // out   a ray that leaves what bends it; WITH_BOOK: where its light stays
 // model VERTICES: the rays through the middles of cells, for beams (caustics/beams.frag); RESTS: a ray for each cell,
-//       of what no beam carries: where what bends light ends, or its rays part; PIXELS: for each pixel of that, packed
-//       (caustics/lone_cells.glsl).
-//       VERTICES and one of the two together carry all light. Else a ray for each cell, full or not
-#if defined(PIXELS) || defined(RESTS) || (defined(VERTICES) && defined(WITH_BOOK))
+//       of what no beam carries: where what bends light ends, or its rays part; PIXELS: for each pixel of that; both
+//       packed (caustics/lone_cells.glsl). VERTICES and one of the two together carry all light. Else a ray for each cell, full or not
+#if defined(PACKED) || (defined(VERTICES) && defined(WITH_BOOK))
 #include "caustics/beams.glsl"
 #endif
-#ifdef PIXELS
+#ifdef PACKED
 #include "caustics/lone_cells.glsl"
 #endif
 #ifdef WITH_BOOK
@@ -81,18 +80,23 @@ Start startOf(View view, vec2 grid) {
 #else
 #ifdef RESTS
 float shareOf(ivec2 pixel, int side, vec2 grid) { return isMet(pixel) ? loneShare(pixel, side, ivec2(grid)) : 0.0; }
-bool isCarried(ivec2 middle, int side, vec2 grid) { return loneShare(middle, side, ivec2(grid)) == 0.0; }
+ivec2 cellAt(ivec2 place) { return packedAt(place); }
+bool isCarried(ivec2 place, int side, vec2 grid) {
+    return place.y * int(grid.x) + place.x >= loneCells() || loneShare(side * packedAt(place) + side / 2, side, ivec2(grid)) == 0.0;
+}
 #else
 float shareOf(ivec2 pixel, int side, vec2 grid) { return isMet(pixel) ? 1.0 : 0.0; }
-bool isCarried(ivec2 middle, int side, vec2 grid) { return false; }
+ivec2 cellAt(ivec2 place) { return place; }
+bool isCarried(ivec2 place, int side, vec2 grid) { return false; }
 #endif
 
 // Through the pixel nearest to the middle of those of the cell that count.
 Start startOf(View view, vec2 grid) {
     int side = int(view.size.x / grid.x);
-    ivec2 corner = side * ivec2(gl_FragCoord.xy);
+    ivec2 place = ivec2(gl_FragCoord.xy);
+    ivec2 corner = side * cellAt(place);
     Start start = Start(corner, 0.0, 1.0, 0, false);
-    if (isCarried(corner + side / 2, side, grid)) return start;
+    if (isCarried(place, side, grid)) return start;
     vec2 middle = vec2(0.0);
     float count = 0.0;
     for (int i = 0; i < side * side; ++i) {

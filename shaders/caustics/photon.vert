@@ -1,5 +1,5 @@
-// caustics/photon.vert: everywhere; PIXELS: over what is packed of cells in which no beam carries all light.
-#ifdef PIXELS
+// caustics/photon.vert: everywhere; PACKED: over what is packed of cells in which beams carry not all light.
+#ifdef PACKED
 #include "caustics/lone_cells.vert"
 #else
 #include "lib/screen.vert"

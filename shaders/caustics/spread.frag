@@ -1,6 +1,6 @@
 // caustics/spread.frag: over what the light of each ray of what no beam carries is spread on the map.
 //
-// in    uFlux [W]      caustics/photon.glsl, PIXELS (packed: caustics/lone_cells.glsl) or RESTS
+// in    uFlux [W]      caustics/photon.glsl, PIXELS or RESTS, packed (caustics/lone_cells.glsl)
 //       uGridLanding   OF_RESTS: where the rays through the middles of cells land
 // out   oSides   [texels] two sides of a parallelogram around the place where the ray lands
 //       oShare   [light.unit] of a texel; a: kParallelogram; kPoint: of the whole (caustics/tent.glsl); 0: there is none
@@ -13,22 +13,13 @@
 uniform sampler2D uFlux;
 layout(location = 0) out vec4 oSides;
 layout(location = 1) out vec4 oShare;
+#include "caustics/lone_cells.glsl"
 #ifdef OF_RESTS
 uniform sampler2D uGridLanding;
-#else
-#include "caustics/lone_cells.glsl"
 #endif
 
 const float kSmall = 2.0; // texels, of what is a point
 
-#ifdef OF_RESTS
-vec4 landingBeside(ivec2 ray, ivec2 step_) {
-    ivec2 next = ray + step_;
-    if (any(lessThan(next, ivec2(0))) || any(greaterThanEqual(next, light.grid))) return vec4(0.0);
-    vec4 landing = texelFetch(uLanding, next, 0);
-    return landing.w == 0.0 ? texelFetch(uGridLanding, next, 0) : landing;
-}
-#else
 ivec2 cell = ivec2(0); // of the ray
 
 vec4 landingBeside(ivec2 ray, ivec2 step_) {
@@ -37,11 +28,14 @@ vec4 landingBeside(ivec2 ray, ivec2 step_) {
     ivec2 within = ray - side * (ray / side) + step_;
     if (all(greaterThanEqual(within, ivec2(0))) && all(lessThan(within, ivec2(side)))) return texelFetch(uLanding, ray + step_, 0);
     int number = numberOf(cell + step_);
-    if (number < 0) return vec4(0.0);
-    ivec2 place = ivec2(number % grid.x, number / grid.x);
-    return texelFetch(uLanding, side * (place - step_) + within, 0);
-}
+    vec4 landing = vec4(0.0);
+    if (number >= 0) landing = texelFetch(uLanding, side * (ivec2(number % grid.x, number / grid.x) - step_) + within, 0);
+#ifdef OF_RESTS
+    bool isThere = all(greaterThanEqual(cell + step_, ivec2(0))) && all(lessThan(cell + step_, grid));
+    if (isThere && landing.w == 0.0) landing = texelFetch(uGridLanding, cell + step_, 0);
 #endif
+    return landing;
+}
 
 vec4 neighbour(ivec2 ray, ivec2 step_, vec4 landing, vec3 along) {
     vec4 other = landingBeside(ray, step_);
@@ -75,19 +69,17 @@ float covered(vec2 place, vec4 inverse_, float side) {
 void main() {
     ivec2 ray = ivec2(gl_FragCoord.xy);
     vec4 landing = texelFetch(uLanding, ray, 0);
+    vec4 flux = texelFetch(uFlux, ray, 0);
     oSides = vec4(0.0);
     oShare = vec4(0.0);
-    if (landing.w == 0.0) return;
+    if (landing.w == 0.0 || flux.a == 0.0) return;
     int number = faceOf(landing.xyz);
     View face = light.faces[number];
     vec3 along = face.eye.w > 0.5 ? normalize(landing.xyz - face.eye.xyz) : face.forward.xyz;
     vec2 place = onMap(number, landing.xyz).xy;
-#ifndef OF_RESTS
     cell = packedAt(ray / (light.grid.x / textureSize(uIndex, 0).x));
-#endif
     vec2 u = across(number, ray, ivec2(1, 0), landing, along);
     vec2 v = across(number, ray, ivec2(0, 1), landing, along);
-    vec4 flux = texelFetch(uFlux, ray, 0);
 #ifdef OF_RESTS
     u *= sqrt(flux.a); // the part of a cell, along each side
     v *= sqrt(flux.a);

@@ -41,17 +41,15 @@ DepositBlock LightPasses::depositBlock(const Photons& photons, float size) const
 
 // Over what the light of the rays that carry the rest is spread.
 Status LightPasses::spread(Sheet& sheet) {
-    const bool packed = refines();
-    Result<const gl::Program*> spreading =
-        programOnMap("caustics/spread",
-                     packed ? std::vector<std::string>{"PIXELS"} : std::vector<std::string>{"OF_RESTS"});
-    if (!spreading) return spreading.error();
-    std::vector<std::pair<const char*, TextureId>> samples{{"uLanding", sheet.rest.landing},
-                                                           {"uFlux", sheet.rest.flux}};
-    if (packed)
-        samples.push_back({"uIndex", sheet.cells.index});
-    else
+    std::vector<std::string> defines;
+    std::vector<std::pair<const char*, TextureId>> samples{
+        {"uLanding", sheet.rest.landing}, {"uFlux", sheet.rest.flux}, {"uIndex", sheet.cells.index}};
+    if (!refines()) {
+        defines.push_back("OF_RESTS");
         samples.push_back({"uGridLanding", sheet.grid.landing});
+    }
+    Result<const gl::Program*> spreading = programOnMap("caustics/spread", std::move(defines));
+    if (!spreading) return spreading.error();
     graph_.addPass("caustics.spread", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("over what rays spread their light where no beam carries it");
         for (const auto& [name, texture] : samples)
@@ -59,10 +57,10 @@ Status LightPasses::spread(Sheet& sheet) {
         const TextureDesc desc{.size = sheet.rest.count, .format = Format::RGBA32F};
         sheet.sides = pass.createColor("caustics.sides", desc);
         sheet.shares = pass.createColor("caustics.shares", desc);
-        if (packed) pass.clear(sheet.sides, vec4(0));
-        if (packed) pass.clear(sheet.shares, vec4(0));
+        pass.clear(sheet.sides, vec4(0));
+        pass.clear(sheet.shares, vec4(0));
         const float widest = std::min(context_.caps().maxPointSize, kWidestFootprint);
-        return [=, draw = drawOf(packed ? Part::Pixels : Part::Rests), program = *spreading,
+        return [=, draw = drawOf(Part::Rests), program = *spreading,
                 block = depositBlock(sheet.rest, widest)](const graph::Resources& resources,
                                                           graph::Commands& commands) {
             graph::Draw filled = draw;
@@ -113,9 +111,7 @@ Status LightPasses::deposit() {
         const auto rests = [](const Sheet& sheet) -> Samples {
             return {{"uLanding", sheet.rest.landing}, {"uSides", sheet.sides}, {"uShare", sheet.shares}};
         };
-        const auto quads = [this, areaOf](const Sheet& sheet) {
-            return refines() ? rectanglesOf(sheet.rest.count) : areaOf(sheet.rest.count);
-        };
+        const auto quads = [](const Sheet& sheet) { return rectanglesOf(sheet.rest.count); };
         Status s = add(
             "caustics/beam", ofBeams,
             {.topology = graph::Topology::Triangles,
@@ -137,7 +133,7 @@ Status LightPasses::deposit() {
                      .vertices = [quads](const Sheet& sheet) { return ivec2(0, 6 * quads(sheet)); },
                      .samples = rests,
                      .rest = true});
-        if (s && refines())
+        if (s)
             s = add("caustics/footprint", ofPoints,
                     {.vertices =
                          [=](const Sheet& sheet) {

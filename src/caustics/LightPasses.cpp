@@ -68,15 +68,15 @@ graph::Draw filled(graph::Draw draw, const gl::Program& program, const graph::Bl
 }
 } // namespace
 
-// Rays through single pixels are packed into the lowest rows of their images: a rectangle over these.
+// Rays of the rest are packed into the lowest rows of their images: a rectangle over these.
 graph::Draw LightPasses::drawOf(Part part) {
-    return part == Part::Pixels ? graph::Draw{.vertices = 6} : graph::Draw{};
+    return isRest(part) ? graph::Draw{.vertices = 6} : graph::Draw{};
 }
 
 std::vector<std::pair<const char*, TextureId>> LightPasses::Start::samples() const {
     std::vector<std::pair<const char*, TextureId>> list;
     if (isRest() || (part == Part::Vertices && book)) list.push_back({"uBeams", cells.beams});
-    if (part == Part::Pixels) list.push_back({"uIndex", cells.index});
+    if (isRest()) list.push_back({"uIndex", cells.index});
     return list;
 }
 
@@ -85,6 +85,7 @@ std::vector<std::string> LightPasses::Start::defines() const {
     if (part == Part::Vertices) list.push_back("VERTICES");
     if (part == Part::Rests) list.push_back("RESTS");
     if (part == Part::Pixels) list.push_back("PIXELS");
+    if (isRest()) list.push_back("PACKED");
     if (book) list.push_back("WITH_BOOK");
     return list;
 }
@@ -105,7 +106,7 @@ Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views:
             pass.sample(texture);
         for (const TextureId target : start.targets) {
             pass.write(target);
-            if (start.part == Part::Pixels) pass.clear(target, vec4(0));
+            if (start.isRest()) pass.clear(target, vec4(0));
         }
         return [=, draw = drawOf(start.part), program = *traced, block = photonBlock(view, tint)](
                    const graph::Resources& resources, graph::Commands& commands) {
@@ -152,7 +153,7 @@ Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Sta
             pass.sample(texture);
         for (const TextureId target : start.targets) {
             pass.write(target);
-            if (start.part == Part::Pixels) pass.clear(target, vec4(0));
+            if (start.isRest()) pass.clear(target, vec4(0));
         }
         return [=, draw = drawOf(start.part), program = *reflecting,
                 block = mirrorBlock(view)](const graph::Resources& resources, graph::Commands& commands) {
@@ -207,8 +208,7 @@ Status LightPasses::carry(const views::Eye& eye, const Trace& trace) {
     if (Status s = keepBook(part, sheet.cells, *grid, trace); !s) return s;
     if (beams) {
         const Part rests = refines() ? Part::Pixels : Part::Rests;
-        if (refines())
-            if (Status s = pack(sheet); !s) return s;
+        if (Status s = pack(sheet); !s) return s;
         Result<Photons> rest = send(rests, sheet.cells, trace);
         if (!rest) return rest.error();
         sheet.rest = *rest;
@@ -231,7 +231,7 @@ Status LightPasses::land(Photons& photons, Part part, const Cells& cells) {
     std::vector<std::string> defines;
     if (const char* variant = kVariants[std::size_t(settings_.intersect)]) defines.push_back(variant);
     if (behind_) defines.push_back("USE_BEHIND");
-    if (part == Part::Pixels) defines.push_back("PIXELS");
+    if (isRest(part)) defines.push_back("PACKED");
     if (light_.receivers.faces.size() == 1) defines.push_back("ONE_VIEW");
     Result<const gl::Program*> landing = program("caustics/land", defines);
     if (!landing) return landing.error();
@@ -250,9 +250,9 @@ Status LightPasses::land(Photons& photons, Part part, const Cells& cells) {
         }
         for (const TextureId target : {photons.landing, effort}) {
             pass.write(target);
-            if (part == Part::Pixels) pass.clear(target, vec4(0));
+            if (isRest(part)) pass.clear(target, vec4(0));
         }
-        if (part == Part::Pixels) pass.sample(cells.index);
+        if (isRest(part)) pass.sample(cells.index);
         const LandBlock block{.faces = Faces(light_.receivers),
                               .low = vec4(box.low, 0),
                               .high = vec4(box.high, 0),
@@ -267,7 +267,7 @@ Status LightPasses::land(Photons& photons, Part part, const Cells& cells) {
                 textures.push_back({"uBehind", resources[behind]});
                 textures.push_back({"uBack", resources[back]});
             }
-            if (part == Part::Pixels) textures.push_back({"uIndex", resources[cells.index]});
+            if (isRest(part)) textures.push_back({"uIndex", resources[cells.index]});
             commands.draw(filled(draw, *program, block, std::move(textures)));
         };
     });

@@ -87,13 +87,14 @@ private:
     };
     // Which rays a pass begins (shaders/caustics/photon.glsl).
     enum class Part { Cells, Vertices, Rests, Pixels };
+    static bool isRest(Part part) { return part == Part::Rests || part == Part::Pixels; }
     struct Start {
         Part part = Part::Cells;
         Cells cells{};
         std::vector<graph::TextureId> targets{};
         bool book = false; // else the rays themselves
         std::vector<std::string> defines() const;
-        bool isRest() const { return part == Part::Rests || part == Part::Pixels; }
+        bool isRest() const { return LightPasses::isRest(part); }
         std::vector<std::pair<const char*, graph::TextureId>> samples() const;
     };
     using Trace = std::function<Status(const Start&)>;

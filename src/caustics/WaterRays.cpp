@@ -113,17 +113,27 @@ Status LightPasses::soak(const Photons& photons, TextureId before, TextureId met
 Status LightPasses::leaveAlone(Sheet& sheet) {
     Result<const gl::Program*> leaving = program("caustics/alone");
     if (!leaving) return leaving.error();
-    sheet.rest = sheet.grid;
+    sheet.rest.count = sheet.grid.count;
+    const std::vector<std::pair<const char*, TextureId>> samples{{"uFlux", sheet.grid.flux},
+                                                                 {"uLanding", sheet.grid.landing},
+                                                                 {"uBeams", sheet.cells.beams},
+                                                                 {"uIndex", sheet.cells.index}};
     graph_.addPass("caustics.alone", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("light between rays of which no beam is made");
-        pass.sample(sheet.grid.flux);
-        pass.sample(sheet.cells.beams);
-        sheet.rest.flux =
-            pass.createColor("caustics.alone", {.size = sheet.grid.count, .format = Format::RGBA32F});
-        return [program = *leaving, flux = sheet.grid.flux,
-                beams = sheet.cells.beams](const graph::Resources& resources, graph::Commands& commands) {
-            commands.draw(
-                {.program = program, .textures = {{"uFlux", resources[flux]}, {"uBeams", resources[beams]}}});
+        for (const auto& [name, texture] : samples)
+            pass.sample(texture);
+        const TextureDesc desc{.size = sheet.grid.count, .format = Format::RGBA32F};
+        sheet.rest.flux = pass.createColor("caustics.alone", desc);
+        sheet.rest.landing = pass.createColor("caustics.aloneLanding", desc);
+        pass.clear(sheet.rest.flux, vec4(0));
+        pass.clear(sheet.rest.landing, vec4(0));
+        return [=, draw = drawOf(Part::Rests), program = *leaving](const graph::Resources& resources,
+                                                                   graph::Commands& commands) {
+            graph::Draw filled = draw;
+            filled.program = program;
+            for (const auto& [name, texture] : samples)
+                filled.textures.push_back({name, resources[texture]});
+            commands.draw(filled);
         };
     });
     return Done{};
@@ -167,6 +177,7 @@ Status LightPasses::carryFromWater(const Tint& tint) {
     if (!mask) return mask.error();
     sheet.cells.beams = *mask;
     s = weigh(sheet);
+    if (s) s = pack(sheet);
     if (s) s = leaveAlone(sheet);
     if (s) s = spread(sheet);
     if (!s) return s;

@@ -1,0 +1,2 @@
+// caustics/spread.vert: over what is packed of cells in which beams carry not all light.
+#include "caustics/lone_cells.vert"
