@@ -61,7 +61,7 @@ const kScenes = {
         ior: [1.1, 1.5],
         backsideIOR: [0, 1.1], // 0: back faces are left out
       },
-      lucent: { grid: [64, 128, 256], mapSize: [512, 1024] },
+      lucent: { grid: [64, 96, 128, 144], mapSize: [512, 640, 1024], refine: [false, true] },
     },
   },
   water: {
