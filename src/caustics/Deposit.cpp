@@ -42,7 +42,7 @@ DepositBlock LightPasses::depositBlock(const Photons& photons, float size) const
 // Over what the light of the rays that carry the rest is spread.
 Status LightPasses::spread(Sheet& sheet) {
     std::vector<std::string> defines;
-    std::vector<std::pair<const char*, TextureId>> samples{
+    Samples samples{
         {"uLanding", sheet.rest.landing}, {"uFlux", sheet.rest.flux}, {"uIndex", sheet.cells.index}};
     if (!refines()) {
         defines.push_back("OF_RESTS");
@@ -79,77 +79,65 @@ namespace {
 // What comes after them is drawn as square points, which have a sixth of the vertices, and many times the
 // pixels.
 int rectanglesOf(ivec2 count) { return count.x * ((count.y + 7) / 8); }
+int areaOf(ivec2 size) { return size.x * size.y; }
 } // namespace
 
+LightPasses::Range LightPasses::allOf(const Sheet& sheet) { return {0, areaOf(sheet.grid.count)}; }
+
+Status LightPasses::addKind(const char* stem, std::vector<std::string> defines, Kind kind,
+                            std::vector<Kind>& kinds) {
+    Result<const gl::Program*> found = programOnMap(stem, std::move(defines));
+    if (!found) return found.error();
+    kind.program = *found;
+    kinds.push_back(std::move(kind));
+    return Done{};
+}
+
+// Triangles between the rays of the grid, points for those too small to be drawn, and the rest.
+Status LightPasses::addBeams(std::vector<Kind>& kinds) {
+    std::vector<std::string> ofBeams, ofPoints;
+    if (mapViews().faces.size() > 1) ofBeams.push_back("SEVERAL_VIEWS");
+    if (!context_.caps().floatBlend) ofPoints.push_back("ON_ONE_TEXEL");
+    std::vector<std::string> ofQuads = ofPoints;
+    ofQuads.push_back("AS_QUADS");
+    const auto squares = [](const Sheet& sheet) { return Range{0, 6 * areaOf(sheet.grid.count - 1)}; };
+    const auto beams = [](const Sheet& sheet) -> Samples {
+        return {{"uLanding", sheet.grid.landing},
+                {"uFlux", sheet.grid.flux},
+                {"uBeams", sheet.cells.beams},
+                {"uDensity", sheet.density}};
+    };
+    const auto points = [](const Sheet& sheet) -> Samples {
+        return {{"uLanding", sheet.grid.landing}, {"uPoint", sheet.points}};
+    };
+    const auto first = [](const Sheet& sheet) { return Range{0, 6 * rectanglesOf(sheet.rest.count)}; };
+    const auto others = [](const Sheet& sheet) {
+        const int drawn = rectanglesOf(sheet.rest.count);
+        return Range{drawn, areaOf(sheet.rest.count) - drawn};
+    };
+    const auto rests = [](const Sheet& sheet) -> Samples {
+        return {{"uLanding", sheet.rest.landing}, {"uSides", sheet.sides}, {"uShare", sheet.shares}};
+    };
+    Status s = addKind("caustics/beam", ofBeams, {graph::Topology::Triangles, squares, beams}, kinds);
+    if (s) s = addKind("caustics/point", ofPoints, {graph::Topology::Points, allOf, points}, kinds);
+    if (s)
+        s = addKind("caustics/footprint", ofQuads, {graph::Topology::Triangles, first, rests, true}, kinds);
+    if (s) s = addKind("caustics/footprint", ofPoints, {graph::Topology::Points, others, rests, true}, kinds);
+    return s;
+}
+
+Status LightPasses::addSplats(std::vector<Kind>& kinds) {
+    const auto samples = [](const Sheet& sheet) -> Samples {
+        return {{"uLanding", sheet.grid.landing}, {"uFlux", sheet.grid.flux}};
+    };
+    return addKind("caustics/splat", {}, {graph::Topology::Points, allOf, samples}, kinds);
+}
+
 Status LightPasses::deposit() {
-    using Samples = std::vector<std::pair<const char*, TextureId>>;
-    // One kind of what is drawn of the rays of a sheet.
-    struct Kind {
-        const gl::Program* program = nullptr;
-        graph::Topology topology = graph::Topology::Points;
-        std::function<ivec2(const Sheet&)> vertices; // the first ray, and how many vertices
-        std::function<Samples(const Sheet&)> samples;
-        bool rest = false; // of what no beam carries
-    };
     std::vector<Kind> kinds;
-    const auto add = [&](const char* stem, std::vector<std::string> defines, Kind kind) -> Status {
-        Result<const gl::Program*> found = programOnMap(stem, std::move(defines));
-        if (!found) return found.error();
-        kind.program = *found;
-        kinds.push_back(std::move(kind));
-        return Done{};
-    };
-    const auto areaOf = [](ivec2 size) { return size.x * size.y; };
-    const auto all = [&](const Sheet& sheet) { return ivec2(0, areaOf(sheet.grid.count)); };
+    const bool beams = settings_.deposit == Deposit::Beam;
+    if (Status s = beams ? addBeams(kinds) : addSplats(kinds); !s) return s;
     const views::ShadowViews& views = mapViews();
-    if (settings_.deposit == Deposit::Beam) {
-        std::vector<std::string> ofBeams, ofPoints;
-        if (views.faces.size() > 1) ofBeams.push_back("SEVERAL_VIEWS");
-        if (!context_.caps().floatBlend) ofPoints.push_back("ON_ONE_TEXEL");
-        std::vector<std::string> ofQuads = ofPoints;
-        ofQuads.push_back("AS_QUADS");
-        const auto rests = [](const Sheet& sheet) -> Samples {
-            return {{"uLanding", sheet.rest.landing}, {"uSides", sheet.sides}, {"uShare", sheet.shares}};
-        };
-        const auto quads = [](const Sheet& sheet) { return rectanglesOf(sheet.rest.count); };
-        Status s = add(
-            "caustics/beam", ofBeams,
-            {.topology = graph::Topology::Triangles,
-             .vertices = [areaOf](const Sheet& sheet) { return ivec2(0, 6 * areaOf(sheet.grid.count - 1)); },
-             .samples = [](const Sheet& sheet) -> Samples {
-                 return {{"uLanding", sheet.grid.landing},
-                         {"uFlux", sheet.grid.flux},
-                         {"uBeams", sheet.cells.beams},
-                         {"uDensity", sheet.density}};
-             }});
-        if (s)
-            s = add("caustics/point", ofPoints,
-                    {.vertices = all, .samples = [](const Sheet& sheet) -> Samples {
-                         return {{"uLanding", sheet.grid.landing}, {"uPoint", sheet.points}};
-                     }});
-        if (s)
-            s = add("caustics/footprint", ofQuads,
-                    {.topology = graph::Topology::Triangles,
-                     .vertices = [quads](const Sheet& sheet) { return ivec2(0, 6 * quads(sheet)); },
-                     .samples = rests,
-                     .rest = true});
-        if (s)
-            s = add("caustics/footprint", ofPoints,
-                    {.vertices =
-                         [=](const Sheet& sheet) {
-                             return ivec2(quads(sheet), areaOf(sheet.rest.count) - quads(sheet));
-                         },
-                     .samples = rests,
-                     .rest = true});
-        if (!s) return s;
-    } else if (Status s = add("caustics/splat", {},
-                              {.vertices = all,
-                               .samples = [](const Sheet& sheet) -> Samples {
-                                   return {{"uLanding", sheet.grid.landing}, {"uFlux", sheet.grid.flux}};
-                               }});
-               !s) {
-        return s;
-    }
     map_ = targets_.make("caustics.map", {.size = mapSize(), .format = sumFormat()});
     graph_.addPass("caustics.deposit", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("light on the receivers, by " + std::string(nameOf(settings_.deposit)) +
@@ -162,14 +150,14 @@ Status LightPasses::deposit() {
         std::vector<Step> steps;
         for (const Sheet& sheet : sheets_)
             for (const Kind& kind : kinds) {
-                const ivec2 vertices = kind.vertices(sheet);
+                const Range range = kind.range(sheet);
                 Step step{.draw = {.program = kind.program,
-                                   .vertices = vertices.y,
+                                   .vertices = range.vertices,
                                    .topology = kind.topology,
                                    .blend = graph::Blend::Add},
                           .block = depositBlock(kind.rest ? sheet.rest : sheet.grid, splatSize(sheet.eye)),
                           .samples = kind.samples(sheet)};
-                step.block.first = vertices.x;
+                step.block.first = range.first;
                 for (const auto& [name, texture] : step.samples)
                     pass.sample(texture);
                 steps.push_back(std::move(step));

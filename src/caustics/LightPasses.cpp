@@ -73,8 +73,8 @@ graph::Draw LightPasses::drawOf(Part part) {
     return isRest(part) ? graph::Draw{.vertices = 6} : graph::Draw{};
 }
 
-std::vector<std::pair<const char*, TextureId>> LightPasses::Start::samples() const {
-    std::vector<std::pair<const char*, TextureId>> list;
+LightPasses::Samples LightPasses::Start::samples() const {
+    Samples list;
     if (isRest() || (part == Part::Vertices && book)) list.push_back({"uBeams", cells.beams});
     if (isRest()) list.push_back({"uIndex", cells.index});
     return list;
@@ -301,7 +301,7 @@ Result<TextureId> LightPasses::beamsOf(const Photons& photons, float cell) {
 
 // What is known of the cells of a grid of rays.
 Result<TextureId> LightPasses::recordCells(const char* stem, const char* reason, const TextureDesc& desc,
-                                           const std::vector<std::pair<const char*, TextureId>>& samples) {
+                                           const Samples& samples) {
     Result<const gl::Program*> found = program(stem);
     if (!found) return found.error();
     TextureId cells;
@@ -412,7 +412,7 @@ Status LightPasses::recordRound() {
     if (!rounding) return rounding.error();
     graph_.addPass("caustics.round", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how far what the light sees lies behind each texel of the map's paraboloids");
-        std::vector<std::pair<const char*, TextureId>> samples{{"uShadow", depths_}};
+        Samples samples{{"uShadow", depths_}};
         if (behind_) samples.insert(samples.end(), {{"uBehind", behind_}, {"uBack", back_}});
         for (const auto& [name, texture] : samples)
             pass.sample(texture);

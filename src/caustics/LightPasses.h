@@ -85,6 +85,19 @@ private:
         graph::TextureId density{}, points{};
         graph::TextureId sides{}, shares{}; // of the rest: shaders/caustics/spread.frag
     };
+    using Samples = std::vector<std::pair<const char*, graph::TextureId>>;
+    // What is drawn of the rays of a sheet: the first ray, and how many vertices.
+    struct Range {
+        int first = 0, vertices = 0;
+    };
+    static Range allOf(const Sheet& sheet);
+    struct Kind {
+        graph::Topology topology = graph::Topology::Points;
+        std::function<Range(const Sheet&)> range;
+        std::function<Samples(const Sheet&)> samples;
+        bool rest = false; // of what no beam carries
+        const gl::Program* program = nullptr;
+    };
     // Which rays a pass begins (shaders/caustics/photon.glsl).
     enum class Part { Cells, Vertices, Rests, Pixels };
     static bool isRest(Part part) { return part == Part::Rests || part == Part::Pixels; }
@@ -95,7 +108,7 @@ private:
         bool book = false; // else the rays themselves
         std::vector<std::string> defines() const;
         bool isRest() const { return LightPasses::isRest(part); }
-        std::vector<std::pair<const char*, graph::TextureId>> samples() const;
+        Samples samples() const;
     };
     using Trace = std::function<Status(const Start&)>;
 
@@ -121,9 +134,8 @@ private:
     Status recordBack();
     Status recordRound();
     Result<graph::TextureId> beamsOf(const Photons& photons, float cell);
-    Result<graph::TextureId>
-    recordCells(const char* stem, const char* reason, const graph::TextureDesc& desc,
-                const std::vector<std::pair<const char*, graph::TextureId>>& samples);
+    Result<graph::TextureId> recordCells(const char* stem, const char* reason, const graph::TextureDesc& desc,
+                                         const Samples& samples);
     Status pack(Sheet& sheet);
     Status weigh(Sheet& sheet);
     Status weighOnce(Sheet& sheet, bool sharpen);
@@ -149,6 +161,9 @@ private:
         if (mapViews().faces.size() == 1) defines.push_back("ONE_VIEW");
         return program(stem, std::move(defines));
     }
+    Status addKind(const char* stem, std::vector<std::string> defines, Kind kind, std::vector<Kind>& kinds);
+    Status addBeams(std::vector<Kind>& kinds);
+    Status addSplats(std::vector<Kind>& kinds);
     Status deposit();
     Status lookUp(graph::TextureId& sum);
 

@@ -114,10 +114,10 @@ Status LightPasses::leaveAlone(Sheet& sheet) {
     Result<const gl::Program*> leaving = program("caustics/alone");
     if (!leaving) return leaving.error();
     sheet.rest.count = sheet.grid.count;
-    const std::vector<std::pair<const char*, TextureId>> samples{{"uFlux", sheet.grid.flux},
-                                                                 {"uLanding", sheet.grid.landing},
-                                                                 {"uBeams", sheet.cells.beams},
-                                                                 {"uIndex", sheet.cells.index}};
+    const Samples samples{{"uFlux", sheet.grid.flux},
+                          {"uLanding", sheet.grid.landing},
+                          {"uBeams", sheet.cells.beams},
+                          {"uIndex", sheet.cells.index}};
     graph_.addPass("caustics.alone", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("light between rays of which no beam is made");
         for (const auto& [name, texture] : samples)
