@@ -82,17 +82,18 @@ struct Patch {
     vec2 size;   // texels
 };
 
-const float kMostTexels = 16.0; // along a side
+const float kMostTexels = 32.0; // that are looked at along a side: of more every second, third ...
 
-// Around the parallelogram of a pixel; at least a texel wide, so that between texels light is interpolated.
+// Around the parallelogram of a pixel; at least a texel wide, so that between texels light is interpolated. Of one that is
+// so long that looks would miss it, the middle.
 Patch patchOf(vec2 u, vec2 v) {
     vec2 longer = dot(u, u) >= dot(v, v) ? u : v;
     vec2 other = dot(u, u) >= dot(v, v) ? v : u;
     float reach = length(longer);
     if (reach <= 1.0) return Patch(vec2(1.0, 0.0), vec2(1.0));
     vec2 along = longer / reach;
-    vec2 size = vec2(reach + abs(dot(other, along)), abs(along.x * other.y - along.y * other.x));
-    return Patch(along, clamp(size, 1.0, kMostTexels));
+    float width = max(abs(along.x * other.y - along.y * other.x), 1.0);
+    return Patch(along, vec2(min(reach + abs(dot(other, along)), kMostTexels * floor(width)), width));
 }
 
 // Flux on a texel of the surface that a plane through v touches; a: 1. Zeros where the map shows another surface there.
@@ -131,9 +132,10 @@ vec3 irradianceAt(vec3 place, vec3 normal) {
     vec2 reach = most.x * abs(patch_.along) + most.y * abs(across);
     vec2 low = max(ceil(middle - reach - 0.5), 0.0);
     vec2 high = min(floor(middle + reach - 0.5), face.size - 1.0);
+    float stride = ceil(max(patch_.size.x, patch_.size.y) / kMostTexels);
     vec4 sum = vec4(0.0); // a: weights
-    for (float y = low.y; y <= high.y; ++y)
-        for (float x = low.x; x <= high.x; ++x) {
+    for (float y = low.y; y <= high.y; y += stride)
+        for (float x = low.x; x <= high.x; x += stride) {
             vec2 beside = vec2(x, y) + 0.5 - middle;
             vec2 share = clamp(most - abs(vec2(dot(beside, patch_.along), dot(beside, across))), 0.0, 1.0);
             sum += share.x * share.y * fluxOn(face, corner, vec2(x, y), v, normal, margin);
