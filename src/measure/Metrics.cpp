@@ -40,9 +40,9 @@ void forEachValue(const Image& image, const Image& reference, const Image* cover
     }
 }
 
-/// A share of a sum; NaN when there is nothing to be a share of.
+/// A share of a sum; NaN when there is nothing to be a share of, as where directions cancel or turn below 0.
 double shareOf(double part, double whole) {
-    return whole == 0 ? std::numeric_limits<double>::quiet_NaN() : part / whole;
+    return whole > 0 ? part / whole : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Degrees between two directions, exact for small angles too.

@@ -38,7 +38,7 @@ struct FluxErrors {
 /// Differences picture minus reference over every pixel and colour channel; alpha is not looked at.
 struct Metrics {
     double rmse = 0;
-    double relRmse = 0;   ///< RMSE over the reference's mean: what error budgets mean; NaN when that is 0
+    double relRmse = 0;   ///< RMSE over the reference's mean: what error budgets mean; NaN unless > 0
     double relMse = 0;    ///< mean of (a - b)^2 / (b^2 + kRelMseEpsilon)
     double mae = 0;       ///< mean absolute difference
     double p50 = 0;       ///< half of the absolute differences are not above this ...
@@ -48,7 +48,7 @@ struct Metrics {
     ivec2 maximumAt{0};   ///< ... and the first pixel that has it, from the top left
     double psnr = 0;      ///< dB for a peak of 1; infinite for equal pictures
     double bias = 0;      ///< mean difference
-    double fluxRatio = 0; ///< sum of the picture over sum of the reference; NaN when that is 0
+    double fluxRatio = 0; ///< sum of the picture over sum of the reference; NaN unless > 0
 
     // These two cost more than all others together and are there when they were asked for.
     std::optional<double> ssim; ///< ssim() of Ssim.h; NaN for pictures too small for it

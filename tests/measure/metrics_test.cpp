@@ -35,6 +35,15 @@ TEST(Metrics, AreThoseOfTheirDefinitions) {
     EXPECT_DOUBLE_EQ(metrics->fluxRatio, 3.25 / 3.5);
 }
 
+TEST(Metrics, OfDirectionsThatPointBelowZeroAreNoShares) {
+    const auto metrics =
+        compare(imageOf(2, 1, 1, {-1, 0.5f}), "a", imageOf(2, 1, 1, {-1, 0.25f}), "b"); // mean -0.375
+    ASSERT_TRUE(metrics.ok());
+    EXPECT_DOUBLE_EQ(metrics->rmse, 0.25 / std::sqrt(2.0));
+    EXPECT_TRUE(std::isnan(metrics->relRmse));
+    EXPECT_TRUE(std::isnan(metrics->fluxRatio));
+}
+
 TEST(Metrics, LookAtRedGreenBlueAndNotAtAlpha) {
     const auto metrics = compare(imageOf(1, 1, 4, {0, 3, 0, 9}), "a", imageOf(1, 1, 3, {0, 0, 0}), "b");
     ASSERT_TRUE(metrics.ok());
