@@ -2,7 +2,7 @@
 /// What the tests of opaque surfaces share: matt things, the technique with all that it asks for, and truth.
 
 #include "brdf/Brdf.h"
-#include "tests/support/Gl.h"
+#include "tests/support/Seen.h"
 #include "truth/Glass.h"
 
 #include <gtest/gtest.h>
@@ -72,29 +72,16 @@ struct Brdf : support::GlTest {
         const auto import = [&](const graph::Texture& texture) {
             return graph.import(texture.handle(), desc, texture.label());
         };
-        const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
-        const auto drawn = views::drawnMeshes(scene, images, true);
-        std::vector<views::DrawnMesh> all = drawn->solid;
-        all.insert(all.end(), drawn->glass.begin(), drawn->glass.end());
-        const auto posed = views::recordPose(graph, *context, all, scene.view.time);
-        std::vector<views::PosedMesh> solids = *posed;
-        std::erase_if(solids, [](const views::PosedMesh& mesh) {
-            return !mesh.drawn.object->visible || mesh.drawn.object->material.isRefractive();
-        });
         const graph::TextureId surfaceId = import(surface), targetId = import(target);
         const graph::TextureId fluxId = flux ? import(caustics) : graph::TextureId();
         graph.keep(targetId);
-        EXPECT_TRUE(views::recordSurface(graph, *context, eye, {}, solids, surfaceId, size).ok());
-        auto environment = graph::TextureHandle::None;
-        if (scene.environment) environment = *images.image(scene.environment->map);
+        const support::Seen posed(graph, *context, images, scene, surfaceId, size);
         context->device().checkTargets(true);
-        const Inputs in{scene, eye, solids, *posed, surfaceId, fluxId, environment, targetId, show, size};
+        const Inputs in{scene,  posed.eye,         posed.solids, posed.all, surfaceId,
+                        fluxId, posed.environment, targetId,     show,      size};
         const Status recorded = brdf::Brdf(*context).record(graph, in, settings);
         EXPECT_TRUE(recorded.ok());
-        const Status compiled = graph.compile();
-        EXPECT_TRUE(compiled.ok()) << compiled.error().message;
-        graph.execute(pool);
-        return context->device().read(target.handle());
+        return support::finish(graph, pool, *context, target);
     }
     float atMiddle(const scene::Scene& scene, const Settings& settings = {}) {
         return shade(scene, {33, 33}, kIrradiance, settings).at(16, 16)[1];

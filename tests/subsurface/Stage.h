@@ -2,8 +2,7 @@
 /// What the tests of light inside share: bodies of marble, and the technique with all that it asks for.
 
 #include "subsurface/Subsurface.h"
-#include "tests/support/Gl.h"
-#include "views/FieldTextures.h"
+#include "tests/support/Seen.h"
 
 #include <gtest/gtest.h>
 
@@ -64,39 +63,25 @@ struct SubsurfaceTest : support::GlTest {
         const auto import = [&](const graph::Texture& texture) {
             return graph.import(texture.handle(), desc, texture.label());
         };
-        const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
-        const auto drawn = views::drawnMeshes(scene, images, true);
-        std::vector<views::DrawnMesh> all = drawn->solid;
-        all.insert(all.end(), drawn->glass.begin(), drawn->glass.end());
-        const auto posed = views::recordPose(graph, *context, all, scene.view.time);
-        std::vector<views::PosedMesh> solids = *posed;
-        std::erase_if(solids, [](const views::PosedMesh& mesh) {
-            return !mesh.drawn.object->visible || mesh.drawn.object->material.isRefractive();
-        });
         const graph::TextureId surfaceId = import(surface), targetId = import(target);
         graph.keep(targetId);
-        EXPECT_TRUE(views::recordSurface(graph, *context, eye, {}, solids, surfaceId, size).ok());
-        auto environment = graph::TextureHandle::None;
-        if (scene.environment) environment = *images.image(scene.environment->map);
+        const support::Seen posed(graph, *context, images, scene, surfaceId, size);
         context->device().checkTargets(true);
         Subsurface subsurface(*context);
-        const auto plan = subsurface.plan(pool, scene, drawn->solid, settings);
+        const auto plan = subsurface.plan(pool, scene, posed.drawn.solid, settings);
         EXPECT_TRUE(plan.ok()) << plan.error().message;
         const Inputs in{.scene = scene,
-                        .eye = eye,
-                        .solids = solids,
-                        .casters = *posed,
+                        .eye = posed.eye,
+                        .solids = posed.solids,
+                        .casters = posed.all,
                         .surface = surfaceId,
-                        .environment = environment,
+                        .environment = posed.environment,
                         .target = targetId,
                         .radiosity = radiosity,
                         .size = size};
         const Status recorded = subsurface.record(graph, in, *plan, settings);
         EXPECT_TRUE(recorded.ok()) << recorded.error().message;
-        const Status compiled = graph.compile();
-        EXPECT_TRUE(compiled.ok()) << compiled.error().message;
-        graph.execute(pool);
-        return context->device().read(target.handle());
+        return support::finish(graph, pool, *context, target);
     }
 };
 
