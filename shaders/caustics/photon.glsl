@@ -4,7 +4,8 @@
 // out   a ray that leaves what bends it; WITH_BOOK: where its light stays
 // model VERTICES: the rays through the middles of cells, for beams (caustics/beams.frag); RESTS: a ray for each cell,
 //       of what no beam carries: where what bends light ends, or its rays part; PIXELS: for each pixel of that; both
-//       packed (caustics/lone_cells.glsl). VERTICES and one of the two together carry all light. Else a ray for each cell, full or not
+//       packed (caustics/lone_cells.glsl). VERTICES and one of the two together carry all light. Else a ray for each
+//       cell, full or not
 #if defined(PACKED) || (defined(VERTICES) && defined(WITH_BOOK))
 #include "caustics/beams.glsl"
 #endif
