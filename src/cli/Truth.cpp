@@ -7,7 +7,7 @@
 #include "base/Text.h"
 #include "measure/SubsurfaceTruth.h"
 #include "measure/TruthModel.h"
-#include "relief/Relief.h"
+#include "techniques/relief/Relief.h"
 #include "truth/Dipole.h"
 #include "truth/Glass.h"
 #include "truth/Lambert.h"

@@ -1,7 +1,7 @@
 #include "frame/Budget.h"
 
 #include "base/Text.h"
-#include "relief/Transfer.h"
+#include "techniques/relief/Transfer.h"
 #include "views/Surface.h"
 
 #include <algorithm>

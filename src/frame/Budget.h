@@ -5,7 +5,7 @@
 /// difference is small enough: what is predicted is measured on the scene at hand, not on others like it.
 /// What was learned from others is how far such a sample can err (kSafety).
 
-#include "relief/Relief.h"
+#include "techniques/relief/Relief.h"
 #include "views/FieldTextures.h"
 
 #include <functional>

@@ -2,11 +2,11 @@
 /// Everything that is no height field: opaque objects and mirrors with the caustics on them, objects in which
 /// light scatters, over the light on the fields, and all of it seen through refractive objects.
 
-#include "brdf/Brdf.h"
-#include "caustics/Caustics.h"
+#include "techniques/brdf/Brdf.h"
+#include "techniques/caustics/Caustics.h"
 #include "frame/SurfaceKey.h"
-#include "refract/Refract.h"
-#include "subsurface/Subsurface.h"
+#include "techniques/refract/Refract.h"
+#include "techniques/subsurface/Subsurface.h"
 #include "views/Surface.h"
 #include "views/Water.h"
 

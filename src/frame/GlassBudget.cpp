@@ -1,9 +1,9 @@
 #include "frame/GlassBudget.h"
 
 #include "base/Text.h"
-#include "brdf/Brdf.h"
+#include "techniques/brdf/Brdf.h"
 #include "frame/Renderer.h"
-#include "views/Lamps.h"
+#include "light/Lamps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,9 @@
 /// square root of the points and in proportion to the rays' distance.
 
 #include "base/Image.h"
-#include "caustics/Caustics.h"
+#include "techniques/caustics/Caustics.h"
 #include "gl/Context.h"
-#include "refract/Refract.h"
+#include "techniques/refract/Refract.h"
 
 #include <memory>
 #include <string>

@@ -2,7 +2,7 @@
 /// Pictures of what the techniques work on: a layer of the camera's view, a caustic map. Each writes what it
 /// is worth into an image of the picture's size, with coverage 0 where there is nothing.
 
-#include "caustics/Caustics.h"
+#include "techniques/caustics/Caustics.h"
 #include "views/Layers.h"
 
 namespace lucent::frame {

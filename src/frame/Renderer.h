@@ -4,7 +4,7 @@
 #include "base/Image.h"
 #include "base/Param.h"
 #include "base/Result.h"
-#include "caustics/Caustics.h"
+#include "techniques/caustics/Caustics.h"
 #include "gl/Context.h"
 #include "scene/Scene.h"
 #include "views/Water.h"

@@ -11,8 +11,8 @@
 #include "frame/Renderer.h"
 #include "frame/SurfaceKey.h"
 #include "graph/FrameGraph.h"
-#include "relief/Relief.h"
-#include "relief/Transfers.h"
+#include "techniques/relief/Relief.h"
+#include "techniques/relief/Transfers.h"
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 #include "frame/Renderer.h"
 
 #include "frame/Compose.h"
-#include "relief/Relief.h"
+#include "techniques/relief/Relief.h"
 
 namespace lucent::frame {
 

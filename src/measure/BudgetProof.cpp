@@ -3,7 +3,7 @@
 #include "base/JsonWriter.h"
 #include "frame/Renderer.h"
 #include "measure/Statistics.h"
-#include "relief/Relief.h"
+#include "techniques/relief/Relief.h"
 #include "scene/Environment.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "measure/CausticsPlan.h"
 
-#include "caustics/Caustics.h"
+#include "techniques/caustics/Caustics.h"
 #include "frame/Renderer.h"
 #include "measure/CausticsForms.h"
 #include "scene/Mesh.h"

@@ -3,7 +3,7 @@
 #include "frame/Renderer.h"
 #include "measure/RefractPlan.h"
 #include "measure/Statistics.h"
-#include "refract/Refract.h"
+#include "techniques/refract/Refract.h"
 #include "scene/Environment.h"
 
 #include <chrono>

@@ -2,7 +2,7 @@
 #include "measure/SelfCheck.h"
 
 #include "frame/Renderer.h"
-#include "relief/Relief.h"
+#include "techniques/relief/Relief.h"
 #include "scene/Environment.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "measure/ReliefPlan.h"
 
 #include "frame/Renderer.h"
-#include "relief/Relief.h"
+#include "techniques/relief/Relief.h"
 #include "scene/Environment.h"
 #include "truth/RenderRelief.h"
 

@@ -1,6 +1,6 @@
 #include "measure/SubsurfacePlan.h"
 
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 
 namespace lucent::measure {
 

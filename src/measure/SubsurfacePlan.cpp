@@ -6,7 +6,7 @@
 #include "measure/SubsurfaceTruth.h"
 #include "scene/MaterialPresets.h"
 #include "scene/Painting.h"
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 
 #include <algorithm>
 #include <cmath>

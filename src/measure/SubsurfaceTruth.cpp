@@ -1,6 +1,6 @@
 #include "measure/SubsurfaceTruth.h"
 
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 #include "truth/Walk.h"
 
 #include <algorithm>

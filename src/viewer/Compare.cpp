@@ -1,7 +1,7 @@
 #include "viewer/Compare.h"
 
 #include "base/Pfm.h"
-#include "relief/Relief.h"
+#include "techniques/relief/Relief.h"
 #include "scene/Load.h"
 #include "scene/Mesh.h"
 #include "scene/Painting.h"

@@ -1,6 +1,6 @@
 // The scene of a viewer: its controls, what is set, what is taken back.
-#include "refract/Refract.h"
-#include "subsurface/Subsurface.h"
+#include "techniques/refract/Refract.h"
+#include "techniques/subsurface/Subsurface.h"
 #include "viewer/State.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "viewer/Mode.h"
 
 #include "frame/Renderer.h"
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 #include "viewer/Painter.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "base/Param.h"
 #include "scene/Canvas.h"
 #include "scene/Scene.h"
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 #include "viewer/Interaction.h"
 #include "viewer/Panel.h"
 

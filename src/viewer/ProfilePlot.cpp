@@ -1,7 +1,7 @@
 #include "viewer/ProfilePlot.h"
 
 #include "base/JsonWriter.h"
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 #include "views/Surface.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "base/Text.h"
 #include "frame/Renderer.h"
 #include "measure/TruthModel.h"
-#include "relief/Relief.h"
+#include "techniques/relief/Relief.h"
 #include "scene/Load.h"
 #include "truth/Glass.h"
 #include "truth/RenderRelief.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// What the tests of opaque surfaces share: matt things, the technique with all that it asks for, and truth.
 
-#include "brdf/Brdf.h"
+#include "techniques/brdf/Brdf.h"
 #include "tests/support/Seen.h"
 #include "truth/Glass.h"
 

@@ -1,9 +1,9 @@
 // Opaque surfaces and mirrors in closed forms.
-#include "brdf/Brdf.h"
+#include "techniques/brdf/Brdf.h"
 
-#include "brdf/SkyIrradiance.h"
+#include "techniques/brdf/SkyIrradiance.h"
 #include "tests/brdf/Stage.h"
-#include "views/Lamps.h"
+#include "light/Lamps.h"
 
 #include <gtest/gtest.h>
 

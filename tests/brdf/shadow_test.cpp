@@ -1,9 +1,9 @@
 // Shadows on opaque surfaces, of lamps without and with a size, against ray-traced truth.
-#include "brdf/Brdf.h"
+#include "techniques/brdf/Brdf.h"
 
 #include "tests/brdf/Stage.h"
-#include "views/Lamps.h"
-#include "views/ShadowMap.h"
+#include "light/Lamps.h"
+#include "light/ShadowMap.h"
 
 #include <gtest/gtest.h>
 

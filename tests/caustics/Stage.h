@@ -1,8 +1,8 @@
 #pragma once
 /// What the tests of caustics share: floors, the technique with all that it asks for, and sums over pictures.
 
-#include "brdf/Brdf.h"
-#include "caustics/Caustics.h"
+#include "techniques/brdf/Brdf.h"
+#include "techniques/caustics/Caustics.h"
 #include "tests/support/Gl.h"
 #include "tests/truth/scenes.h"
 #include "truth/Glass.h"

@@ -1,7 +1,7 @@
 // Caustics on floors and other things in closed forms.
-#include "caustics/Caustics.h"
+#include "techniques/caustics/Caustics.h"
 
-#include "caustics/Spectrum.h"
+#include "techniques/caustics/Spectrum.h"
 #include "tests/caustics/Stage.h"
 
 #include <gtest/gtest.h>

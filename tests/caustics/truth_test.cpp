@@ -1,5 +1,5 @@
 // Caustics against ray-traced truth, and on water.
-#include "caustics/Caustics.h"
+#include "techniques/caustics/Caustics.h"
 
 #include "scene/Mesh.h"
 #include "tests/caustics/Stage.h"

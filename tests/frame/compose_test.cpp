@@ -1,7 +1,7 @@
 // Scenes that hold more than height fields: only the passes that a scene needs, and the techniques over each
 // other.
 #include "frame/Renderer.h"
-#include "refract/Refract.h"
+#include "techniques/refract/Refract.h"
 #include "tests/support/Fields.h"
 #include "tests/support/Gl.h"
 #include "truth/Glass.h"

@@ -3,7 +3,7 @@
 #include "measure/Sweep.h"
 #include "scene/MaterialPresets.h"
 #include "scene/Mesh.h"
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 #include "tests/support/Gl.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 /// Pictures through glass with nothing around the technique: what is opaque shows its place in the world.
 
-#include "refract/Refract.h"
+#include "techniques/refract/Refract.h"
 #include "tests/support/Gl.h"
 #include "tests/truth/scenes.h"
 #include "truth/Glass.h"

@@ -1,5 +1,5 @@
 // Transfer: one dot product a texel for any environment, against sums over thousands of directions.
-#include "relief/Transfer.h"
+#include "techniques/relief/Transfer.h"
 #include "scene/Environment.h"
 #include "tests/support/Relief.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What the tests of light inside share: bodies of marble, and the technique with all that it asks for.
 
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 #include "tests/support/Seen.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Diffusion in cells: against a random walk, closed forms, and itself.
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 
-#include "subsurface/Volume.h"
+#include "techniques/subsurface/Volume.h"
 #include "tests/subsurface/Stage.h"
 
 #include <gtest/gtest.h>

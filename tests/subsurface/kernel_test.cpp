@@ -1,5 +1,5 @@
 // Kernels against the profiles that they are made of, and lattices of points against integrals.
-#include "subsurface/Kernel.h"
+#include "techniques/subsurface/Kernel.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Painted objects in whole pictures: closed forms and sums by brute force first, then where paint stays.
 #include "frame/Renderer.h"
 #include "scene/Painting.h"
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 #include "tests/support/Gl.h"
 
 #include <algorithm>

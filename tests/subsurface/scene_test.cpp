@@ -1,7 +1,7 @@
 // Whole scenes in which light scatters: only the passes that they need, and scattering objects among others.
 #include "diffusion/Profile.h"
 #include "frame/Renderer.h"
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 #include "tests/support/Gl.h"
 #include "truth/Dipole.h"
 

@@ -1,5 +1,5 @@
 // Radiosity on simple bodies: closed forms first, then the same dipole summed by brute force.
-#include "subsurface/Subsurface.h"
+#include "techniques/subsurface/Subsurface.h"
 
 #include "tests/subsurface/Stage.h"
 

@@ -2,7 +2,7 @@
 /// Height fields and scenes that tests share.
 
 #include "frame/Renderer.h"
-#include "relief/Relief.h"
+#include "techniques/relief/Relief.h"
 #include "scene/Scene.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Where shadows are looked for from a light.
-#include "views/ShadowMap.h"
+#include "light/ShadowMap.h"
 
 #include <gtest/gtest.h>
 

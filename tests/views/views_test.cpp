@@ -1,6 +1,6 @@
 // Views without GL: the min-max pyramid and the environment as lights.
 #include "tests/support/Fields.h"
-#include "views/EnvironmentLights.h"
+#include "light/EnvironmentLights.h"
 #include "views/Eye.h"
 #include "views/FieldTextures.h"
 

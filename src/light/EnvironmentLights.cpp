@@ -1,0 +1,183 @@
+#include "light/EnvironmentLights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lucent::views {
+
+namespace {
+
+// Rings of equal height in polar angle; a ring's number of cells follows its length, so cells are nearly
+// square.
+struct Rings {
+    explicit Rings(int count) : rows(std::max(2, int(std::lround(std::sqrt(count * kPi / 4))))) {
+        for (int row = 0; row < rows; ++row) {
+            first.push_back(total);
+            columns.push_back(std::max(3, int(std::lround(2 * rows * std::sin((row + 0.5) * kPi / rows)))));
+            total += columns.back();
+        }
+    }
+    int rows, total = 0;
+    std::vector<int> first, columns;
+};
+
+// Direction of a place on a lat-long map: row 0 = +y, centre column = -z, to the right = +x.
+glm::dvec3 directionAt(double u, double v) {
+    const double azimuth = (2 * u - 1) * std::numbers::pi;
+    const double polar = v * std::numbers::pi;
+    return {std::sin(azimuth) * std::sin(polar), std::cos(polar), -std::cos(azimuth) * std::sin(polar)};
+}
+
+// Integral of a pixel row's radiance into the cells: each pixel is shared out by the area it has in each.
+struct Sums {
+    explicit Sums(int cells) : radiance(cells, glm::dvec3(0)), area(cells, 0) {}
+    std::vector<glm::dvec3> radiance;
+    std::vector<double> area;
+};
+
+// Adds a pixel's part inside one ring, split at the borders of the ring's cells.
+void addPixel(Sums& sums, const Rings& rings, int row, double left, double right, double solidAngle,
+              glm::dvec3 color) {
+    const int columns = rings.columns[row];
+    for (double at = left; at < right - 1e-12;) {
+        const int column = std::min(int(at * columns + 1e-9), columns - 1);
+        const double end = std::min(right, double(column + 1) / columns);
+        const double share = solidAngle * (end - at) / (right - left);
+        sums.radiance[rings.first[row] + column] += share * color;
+        sums.area[rings.first[row] + column] += share;
+        at = std::max(end, at + 1e-12);
+    }
+}
+
+} // namespace
+
+namespace {
+
+// The cells of a map, before it is turned: radiance and area of each. The last few are kept, because a map is
+// turned more often than changed, and asked for in a few numbers of cells by turns.
+struct MapCells {
+    std::weak_ptr<const Image> map;
+    int count = 0;
+    std::vector<EnvironmentLight> cells;
+};
+
+std::vector<EnvironmentLight> cellsOf(const Image& map, int count) {
+    const Rings rings(count);
+    Sums sums(rings.total);
+    for (int y = 0; y < map.height; ++y) {
+        const double top = double(y) / map.height, bottom = double(y + 1) / map.height;
+        for (int row = int(top * rings.rows + 1e-9);
+             row < rings.rows && double(row) / rings.rows < bottom - 1e-12; ++row) {
+            const double low = std::max(top, double(row) / rings.rows);
+            const double high = std::min(bottom, double(row + 1) / rings.rows);
+            // Area of a band of the unit sphere: difference of cosines times the azimuth.
+            const double band = std::cos(low * std::numbers::pi) - std::cos(high * std::numbers::pi);
+            const double solidAngle = band * 2 * std::numbers::pi / map.width;
+            for (int x = 0; x < map.width; ++x) {
+                const float* color = map.at(x, y);
+                addPixel(sums, rings, row, double(x) / map.width, double(x + 1) / map.width, solidAngle,
+                         {color[0], color[1], color[2]});
+            }
+        }
+    }
+    std::vector<EnvironmentLight> cells;
+    for (int row = 0; row < rings.rows; ++row) {
+        for (int column = 0; column < rings.columns[row]; ++column) {
+            const int cell = rings.first[row] + column;
+            cells.push_back({vec3(directionAt((column + 0.5) / rings.columns[row], (row + 0.5) / rings.rows)),
+                             vec3(sums.radiance[cell] / sums.area[cell]),
+                             float(sums.area[cell] / (4 * std::numbers::pi))});
+        }
+    }
+    return cells;
+}
+
+// A part of the sphere: some of the cells.
+struct Part {
+    std::vector<EnvironmentLight> cells;
+    float light = 0, weight = 0;
+    vec3 center{0}, spread{0}; // of the light; spread: standard deviation along x, y, z
+
+    explicit Part(std::vector<EnvironmentLight> list) : cells(std::move(list)) {
+        vec3 square(0);
+        for (const EnvironmentLight& cell : cells) {
+            const float part = lightOf(cell);
+            light += part;
+            weight += cell.weight;
+            center += part * cell.direction;
+            square += part * cell.direction * cell.direction;
+        }
+        center /= light;
+        spread = glm::sqrt(glm::max(square / light - center * center, vec3(0)));
+    }
+    // A little light is everywhere, so that dark parts are cut too.
+    static float lightOf(const EnvironmentLight& cell) {
+        return cell.weight * (glm::dot(cell.radiance, vec3(0.2126f, 0.7152f, 0.0722f)) + 1e-4f);
+    }
+    float urgency() const { return cells.size() > 1 ? light * glm::length(spread) : 0; }
+    int widest() const {
+        const int xy = spread.x > spread.y ? 0 : 1;
+        return spread.z > spread[xy] ? 2 : xy;
+    }
+};
+
+std::pair<Part, Part> cut(Part part) {
+    const int axis = part.widest();
+    std::sort(part.cells.begin(), part.cells.end(),
+              [&](const auto& a, const auto& b) { return a.direction[axis] < b.direction[axis]; });
+    std::size_t split = 0;
+    for (float below = 0; split < part.cells.size() && below < part.light / 2; ++split)
+        below += Part::lightOf(part.cells[split]);
+    split = std::clamp<std::size_t>(split, 1, part.cells.size() - 1);
+    const auto middle = part.cells.begin() + std::ptrdiff_t(split);
+    return {Part({part.cells.begin(), middle}), Part({middle, part.cells.end()})};
+}
+
+EnvironmentLight lightOf(const Part& part) {
+    EnvironmentLight light{glm::length(part.center) > 1e-6f ? glm::normalize(part.center) : vec3(0, 1, 0),
+                           vec3(0), part.weight};
+    for (const EnvironmentLight& cell : part.cells)
+        light.radiance += cell.weight / part.weight * cell.radiance;
+    return light;
+}
+
+} // namespace
+
+std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count) {
+    constexpr std::size_t kKept = 4;
+    static std::vector<MapCells> known;
+    auto found = std::find_if(known.begin(), known.end(), [&](const MapCells& cells) {
+        return cells.map.lock() == environment.map && cells.count == count;
+    });
+    if (found == known.end()) {
+        if (known.size() == kKept) known.erase(known.begin());
+        found = known.insert(known.end(), {environment.map, count, cellsOf(*environment.map, count)});
+    }
+    const mat3 rotation = rotationFromDegrees(environment.rotation);
+    std::vector<EnvironmentLight> lights = found->cells;
+    for (EnvironmentLight& light : lights) {
+        light.direction = rotation * light.direction;
+        light.radiance *= environment.intensity;
+    }
+    return lights;
+}
+
+std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count) {
+    constexpr int kFineCells = 16384;
+    const auto lessUrgent = [](const Part& a, const Part& b) { return a.urgency() < b.urgency(); };
+    std::vector<Part> parts{Part(environmentLights(environment, std::max(kFineCells, 4 * count)))};
+    while (int(parts.size()) < count && parts.front().urgency() > 0) {
+        std::pop_heap(parts.begin(), parts.end(), lessUrgent);
+        auto [low, high] = cut(std::move(parts.back()));
+        parts.back() = std::move(low);
+        std::push_heap(parts.begin(), parts.end(), lessUrgent);
+        parts.push_back(std::move(high));
+        std::push_heap(parts.begin(), parts.end(), lessUrgent);
+    }
+    std::vector<EnvironmentLight> lights;
+    for (const Part& part : parts)
+        lights.push_back(lightOf(part));
+    return lights;
+}
+
+} // namespace lucent::views

@@ -1,0 +1,107 @@
+#include "light/Lamps.h"
+
+#include <cmath>
+
+namespace lucent::views {
+
+namespace {
+
+const float kGolden = kPi * (3 - std::sqrt(5.0f)); // angle between the points of a spiral (Vogel 1979)
+
+float middleOf(int i, int count) { return (float(i) + 0.5f) / float(count); }
+
+// Even over the unit disc.
+vec2 inDisc(int i, int count) {
+    const float angle = float(i) * kGolden;
+    return std::sqrt(middleOf(i, count)) * vec2(std::cos(angle), std::sin(angle));
+}
+
+// In the unit ball with density 1 / sqrt(1 - r²): directions on a spiral, and radii r = sin a whose share is
+// (a - sin a cos a) 2 / pi.
+vec3 inBall(int i, int count) {
+    float share = (float(i) + 0.5f) * std::sqrt(2.0f); // the golden ratio would go with the angles
+    share -= std::floor(share);
+    float low = 0, high = kPi / 2;
+    for (int step = 0; step < 24; ++step) { // to the last digit of a float
+        const float a = 0.5f * (low + high);
+        (a - std::sin(a) * std::cos(a) < share * kPi / 2 ? low : high) = a;
+    }
+    const float z = 1 - 2 * middleOf(i, count), aside = std::sqrt(1 - z * z), angle = float(i) * kGolden;
+    return std::sin(low) * vec3(aside * std::cos(angle), z, aside * std::sin(angle));
+}
+
+void add(std::vector<LampPoint>& points, const scene::PointLight& light, int samples) {
+    const int count = light.radius > 0 ? samples : 1;
+    for (int i = 0; i < count; ++i) {
+        const vec3 place = light.position + (count > 1 ? light.radius * inBall(i, count) : vec3(0));
+        points.push_back({.place = vec4(place, 1),
+                          .centre = light.position,
+                          .fades = light.falloff == scene::LightFalloff::InverseSquare,
+                          .color = light.intensity / float(count) * light.color,
+                          .isPart = count > 1,
+                          .source = {.place = vec4(place, 1)}});
+    }
+}
+
+void add(std::vector<LampPoint>& points, const scene::DistantLight& light, int samples) {
+    const int count = light.angle > 0 ? samples : 1;
+    const vec3 back = -glm::normalize(light.direction);
+    const vec3 aside = std::abs(back.x) < 0.5f ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    const vec3 right = glm::normalize(glm::cross(back, aside)), up = glm::cross(back, right);
+    const float radius = std::tan(glm::radians(light.angle / 2));
+    for (int i = 0; i < count; ++i) {
+        const vec2 at = count > 1 ? radius * inDisc(i, count) : vec2(0);
+        const vec4 place(glm::normalize(back + at.x * right + at.y * up), 0);
+        points.push_back({.place = place,
+                          .color = light.irradiance / float(count) * light.color,
+                          .isPart = count > 1,
+                          .source = {.place = place}});
+    }
+}
+
+void add(std::vector<LampPoint>& points, const scene::SpotLight& light, int) {
+    const float inner = std::cos(glm::radians(light.innerAngle));
+    const float outer = std::cos(glm::radians(light.outerAngle));
+    const float scale = 1 / std::max(0.001f, inner - outer);
+    const vec4 place(light.position, 1);
+    const vec3 axis = glm::normalize(light.direction);
+    points.push_back({.place = place,
+                      .centre = light.position,
+                      .fades = true,
+                      .color = light.intensity * light.color,
+                      .axis = axis,
+                      .cone = {scale, -outer * scale},
+                      .exponent = 2,
+                      .source = {place, axis, std::tan(glm::radians(light.outerAngle))}});
+}
+
+// Places of the rank-1 lattice of the golden ratio: even over the parallelogram for any number.
+void add(std::vector<LampPoint>& points, const scene::AreaLight& light, int samples) {
+    const vec3 across = glm::cross(light.edgeU, light.edgeV);
+    const float area = glm::length(across);
+    const float inverseGolden = 0.5f * (std::sqrt(5.0f) - 1);
+    for (int i = 0; i < samples; ++i) {
+        const float v = (float(i) + 0.5f) * inverseGolden;
+        const vec3 place =
+            light.corner + middleOf(i, samples) * light.edgeU + (v - std::floor(v)) * light.edgeV;
+        points.push_back({.place = vec4(place, 1),
+                          .centre = place,
+                          .fades = true,
+                          .color = light.radiance * area / float(samples) * light.color,
+                          .axis = across / area,
+                          .cone = {1, 0},
+                          .isPart = samples > 1,
+                          .source = {.place = vec4(place, 1)}});
+    }
+}
+
+} // namespace
+
+std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples) {
+    std::vector<LampPoint> points;
+    for (const scene::Light& light : scene.lights)
+        std::visit([&](const auto& one) { add(points, one, samples); }, light);
+    return points;
+}
+
+} // namespace lucent::views

@@ -1,0 +1,477 @@
+#include "techniques/caustics/Caustics.h"
+
+#include "techniques/caustics/LightPasses.h"
+#include "views/Glass.h"
+#include "views/Surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace lucent::caustics {
+
+namespace {
+
+constexpr std::string_view kIntersects[] = {"hybrid", "fixed-point", "newton", "secant"};
+constexpr std::string_view kDeposits[] = {"beam", "splat", "lines"};
+constexpr std::string_view kPointMaps[] = {"cube", "paraboloids"};
+
+// A point of a light that looks at meshes no wider than their vertices ask for: their box may be too wide for
+// one view where they are not. Moving ones are looked at by their box.
+views::ShadowSource aimedAt(views::ShadowSource source, const std::vector<views::DrawnMesh>& meshes,
+                            const views::Bounds& bounds) {
+    const vec3 place(source.place), towards = bounds.center() - place;
+    if (source.place.w == 0 || glm::length(towards) == 0) return source;
+    const vec3 axis = glm::normalize(towards);
+    float tangent = 0;
+    for (const views::DrawnMesh& mesh : meshes) {
+        if (scene::moves(*mesh.object)) return source;
+        const mat4 worldFromObject = mesh.object->transform.worldFromObject();
+        for (const vec3& position : scene::meshOf(*mesh.object)->positions) {
+            const vec3 v = vec3(worldFromObject * vec4(position, 1)) - place;
+            const float depth = glm::dot(v, axis);
+            if (depth <= 0) return source;
+            tangent = std::max(tangent, glm::length(v - depth * axis) / depth);
+        }
+    }
+    if (tangent >= source.tangent) return source;
+    source.axis = axis;
+    source.tangent = tangent;
+    return source;
+}
+
+// Faces of a cube show a little more than a sixth of everything: light there would count twice.
+int borderOf(const std::vector<views::Eye>& faces, int size) {
+    if (faces.size() == 1) return 0;
+    return int(std::lround(0.5f * float(size) * (1 - 1 / faces.front().halfExtent.x)));
+}
+
+// What the camera shows of a box, and a little around it: beams that end beside the map are no beams, and so
+// are frayed where it ends.
+//
+// @param ray  m between rays
+views::Bounds seenWithMargin(const views::Eye& eye, const std::vector<views::DrawnMesh>& meshes,
+                             const std::vector<views::DrawnObject>& fields, float ray) {
+    constexpr float kMargin = 1.0f / 16, kRays = 4; // of the longest side; at least
+    views::Bounds seen;
+    const auto add = [&](const scene::Object& object) {
+        const views::Bounds one = views::seenBy(eye, views::boundsOf(object));
+        seen.low = glm::min(seen.low, one.low);
+        seen.high = glm::max(seen.high, one.high);
+    };
+    for (const views::DrawnMesh& mesh : meshes)
+        add(*mesh.object);
+    for (const views::DrawnObject& field : fields)
+        add(*field.object);
+    const views::Bounds all = boundsOfAll(meshes, fields);
+    const vec3 size = seen.high - seen.low;
+    const vec3 margin(std::max(kMargin * std::max({size.x, size.y, size.z}), kRays * ray));
+    return {glm::max(seen.low - margin, all.low), glm::min(seen.high + margin, all.high)};
+}
+
+// All directions from a point as one paraboloid towards what receives, and one away from it if any of that
+// lies there.
+views::ShadowViews paraboloidsOf(const vec3& place, const views::Bounds& receivers, int size) {
+    const vec3 towards = receivers.center() - place;
+    views::Eye eye{.position = place,
+                   .forward = glm::length(towards) > 0 ? glm::normalize(towards) : vec3(0, -1, 0),
+                   .perspective = true,
+                   .halfExtent = vec2(float(size) / float(size - 4))}; // texels around what lies on the rim
+    eye.right = glm::normalize(
+        glm::cross(eye.forward, std::abs(eye.forward.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0)));
+    eye.up = glm::cross(eye.right, eye.forward);
+    views::Eye back = eye;
+    back.forward = -eye.forward;
+    back.right = -eye.right;
+    const vec3 nearest = glm::mix(receivers.low, receivers.high, glm::lessThan(eye.forward, vec3(0)));
+    const bool isAllBefore = glm::dot(nearest - place, eye.forward) > 0;
+    return {.faces = isAllBefore ? std::vector{eye} : std::vector{eye, back}, .size = size};
+}
+
+// Whether what light falls on cannot lie behind itself: one surface that bends nowhere away from any lamp.
+bool isConvex(const scene::Object& object) {
+    return object.wave.amplitude == vec3(0) && (std::holds_alternative<scene::Plane>(object.shape) ||
+                                                std::holds_alternative<scene::Box>(object.shape) ||
+                                                std::holds_alternative<scene::Sphere>(object.shape));
+}
+
+// Whether a light sees receivers behind others, farther than where one pixel of its map cannot tell.
+Result<bool> liesBehind(graph::TexturePool& pool, gl::Context& context, views::ShadowViews views,
+                        const std::vector<views::DrawnMesh>& receivers,
+                        const std::vector<views::DrawnObject>& fields, float time) {
+    if (fields.empty() && receivers.size() == 1 && isConvex(*receivers.front().object)) return false;
+    constexpr int kLooked = 128; // pixels a side: smaller things are not looked for
+    views.size = std::min(views.size, kLooked);
+    graph::FrameGraph graph;
+    Result<std::vector<views::PosedMesh>> posed = views::recordPose(graph, context, receivers, time);
+    if (!posed) return posed.error();
+    const views::Bounds bounds = boundsOfAll(receivers, fields);
+    Result<graph::TextureId> depths = views::recordShadow(graph, context, views, *posed, bounds, fields);
+    if (!depths) return depths.error();
+    Result<graph::TextureId> behind =
+        views::recordShadow(graph, context, views, *posed, bounds, fields, *depths);
+    if (!behind) return behind.error();
+    const graph::TextureDesc desc{.size = views.imageSize(), .format = graph::Format::RG32F};
+    const graph::Texture both(context.device(), desc, "caustics.both");
+    const graph::TextureId target = graph.import(both.handle(), desc, both.label());
+    graph.keep(target);
+    Result<const gl::Program*> program = context.program("caustics/both");
+    if (!program) return program.error();
+    graph.addPass("caustics.both", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("whether receivers lie behind others");
+        pass.sample(*depths);
+        pass.sample(*behind);
+        pass.write(target);
+        return [program = *program, depths = *depths, behind = *behind](const graph::Resources& resources,
+                                                                        graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .textures = {{"uShadow", resources[depths]}, {"uBehind", resources[behind]}}});
+        };
+    });
+    if (Status s = graph.compile(); !s) return s.error();
+    graph.execute(pool);
+    const Image image = context.device().read(both.handle());
+    const views::Eye& face = views.faces.front();
+    for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+        const float depth = image.pixels[i], next = image.pixels[i + 1];
+        const float texel = 2 * face.halfExtent.x / float(views.size) * (face.perspective ? depth : 1);
+        if (next < 1e29f && next - depth > texel) return true;
+    }
+    return false;
+}
+
+// How many surfaces lie behind each other in a view of a lamp. Of one convex thing that is known without a
+// look; pictures are read back for all others.
+Result<int> surfacesIn(graph::TexturePool& pool, gl::Context& context, const views::Eye& face,
+                       const std::vector<views::DrawnMesh>& glass, float time, int size) {
+    if (glass.size() == 1 && isConvex(*glass.front().object)) return 2;
+    return views::countLayers(pool, context, face, glass, time, ivec2(size));
+}
+
+// Around all ways from a box to a lamp.
+views::Bounds waysTo(const views::LampPoint& lamp, views::Bounds box) {
+    const vec3 place(lamp.place);
+    if (lamp.place.w != 0) {
+        box.add(place);
+        return box;
+    }
+    constexpr float kFar = 1e30f;
+    box.low = glm::mix(box.low, vec3(-kFar), glm::lessThan(place, vec3(0)));
+    box.high = glm::mix(box.high, vec3(kFar), glm::greaterThan(place, vec3(0)));
+    return box;
+}
+
+// Around what may stand between a lamp and what lies in a box; empty where nothing does.
+views::Bounds hidingFrom(const views::LampPoint& lamp, const views::Bounds& box,
+                         const std::vector<views::DrawnMesh>& meshes,
+                         const std::vector<views::DrawnObject>& fields) {
+    const views::Bounds ways = waysTo(lamp, box);
+    views::Bounds hiding;
+    const auto add = [&](const scene::Object& object) {
+        const views::Bounds one = views::boundsOf(object);
+        if (glm::any(glm::lessThan(one.high, ways.low)) || glm::any(glm::greaterThan(one.low, ways.high)))
+            return;
+        hiding.add(one.low);
+        hiding.add(one.high);
+    };
+    for (const views::DrawnMesh& mesh : meshes)
+        add(*mesh.object);
+    for (const views::DrawnObject& field : fields)
+        add(*field.object);
+    return hiding;
+}
+
+} // namespace
+
+std::string_view nameOf(Intersect intersect) { return kIntersects[std::size_t(intersect)]; }
+std::string_view nameOf(Deposit deposit) { return kDeposits[std::size_t(deposit)]; }
+
+const ParamTable& Caustics::params() {
+    static const Param list[] = {
+        declare(&Settings::intersect,
+                {.id = "intersect",
+                 .label = "Intersection",
+                 .group = Group::Caustics,
+                 .doc =
+                     "How the place is found where light meets a receiver: within a bracket that secants or "
+                     "halving shrink; by the dissertation's fixed point; by Newton's method; by secants.",
+                 .choices = kIntersects}),
+        declare(&Settings::deposit,
+                {.id = "deposit",
+                 .label = "Deposit",
+                 .group = Group::Caustics,
+                 .doc = "What light leaves on receivers: the triangles between rays, with flux over area; "
+                        "the dissertation's Gaussian points; or lines that meet what the picture shows, "
+                        "whose light is gathered there.",
+                 .choices = kDeposits}),
+        declare(&Settings::grid, {.id = "grid",
+                                  .label = "Rays of a light",
+                                  .min = 2,
+                                  .max = 1024,
+                                  .low = 32,
+                                  .high = 512,
+                                  .logarithmic = true,
+                                  .group = Group::Caustics,
+                                  .doc = "Rays along a side of what a light sees of refractive objects and "
+                                         "mirrors."}),
+        declare(&Settings::refine,
+                {.id = "refine",
+                 .label = "Finer at edges",
+                 .group = Group::Caustics,
+                 .doc =
+                     "Where neighbouring rays part, as at outlines, light is traced by single pixels of the "
+                     "lamp's view rather than by cells of the grid of rays. Of beams, and of lamps without "
+                     "size."}),
+        declare(&Settings::mapSize, {.id = "mapSize",
+                                     .label = "Caustic map",
+                                     .unit = "texels",
+                                     .min = 16,
+                                     .max = 4096,
+                                     .low = 128,
+                                     .high = 2048,
+                                     .logarithmic = true,
+                                     .group = Group::Caustics,
+                                     .doc = "Texels along a side of the image in which light adds up."}),
+        declare(&Settings::pointMap,
+                {.id = "pointMap",
+                 .label = "Map of a lamp all around",
+                 .group = Group::Caustics,
+                 .doc =
+                     "How the image in which light adds up lies about a lamp with receivers all around: as "
+                     "up to six faces of a cube; or as two paraboloids, coarser in a third of the memory.",
+                 .choices = kPointMaps}),
+        declare(&Settings::steps, {.id = "steps",
+                                   .label = "Steps",
+                                   .min = 1,
+                                   .max = 256,
+                                   .low = 1,
+                                   .high = 64,
+                                   .logarithmic = true,
+                                   .group = Group::Caustics,
+                                   .doc = "Looks at the receivers' image, at most, to find where a ray meets "
+                                          "them."}),
+        declare(&Settings::receiverLayers,
+                {.id = "receiverLayers",
+                 .label = "Receivers behind each other",
+                 .min = 1,
+                 .max = 2,
+                 .group = Group::Caustics,
+                 .doc =
+                     "2: light that passes an edge of what the lamp sees first, as under a table, falls on "
+                     "what lies behind. Of the hybrid intersection; where nothing lies behind, it costs "
+                     "nothing."}),
+        declare(&Settings::lightSamples,
+                {.id = "lightSamples",
+                 .label = "Points of a lamp in caustics",
+                 .min = 1,
+                 .max = 256,
+                 .low = 1,
+                 .high = 64,
+                 .logarithmic = true,
+                 .group = Group::Caustics,
+                 .doc = "How many points stand for a lamp that has a size, each with "
+                        "its own views."}),
+        declare(&Settings::wavelengths,
+                {.id = "wavelengths",
+                 .label = "Wavelengths",
+                 .min = 3,
+                 .max = 64,
+                 .low = 3,
+                 .high = 32,
+                 .group = Group::Caustics,
+                 .doc = "Kinds of light that glass with dispersion bends differently: 3 stand for red, green "
+                        "and blue, more for as many parts of the spectrum."}),
+    };
+    static const ParamTable table = tableOf<Settings>("caustics", list, "All lamps");
+    return table;
+}
+
+std::optional<std::string> Caustics::need(const scene::Scene& scene) {
+    const auto find = [&](auto wanted) -> const scene::Object* {
+        const auto found = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                        [&](const auto& one) { return wanted(one); });
+        return found == scene.objects.end() ? nullptr : &*found;
+    };
+    const auto bendsLight = [](const scene::Object& one) {
+        return !one.isField() && (one.material.isRefractive() || one.material.isMirror());
+    };
+    const scene::Object* bends = find(bendsLight);
+    const scene::Object* receives = find([&](const scene::Object& one) { return !bendsLight(one); });
+    if (scene.lights.empty() || !bends || !receives) return std::nullopt;
+    return "object \"" + bends->name + "\" throws the lamps' light on \"" + receives->name + "\"";
+}
+
+Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
+                            const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
+                            const Settings& settings) const {
+    Plan plan;
+    const views::Bounds glass = boundsOfAll(meshes.glass), mirrors = boundsOfAll(mirrorsOf(meshes.solid));
+    std::vector<views::DrawnMesh> all = meshes.solid; // what stands before glass and mirrors hides them
+    all.insert(all.end(), meshes.glass.begin(), meshes.glass.end());
+    const views::Bounds everything = boundsOfAll(all, fields);
+    const float ray = meshes.glass.empty() ? 0 : 2 * glass.radius() / float(settings.grid);
+    const views::Bounds receivers = seenWithMargin(eye, receiversOf(meshes.solid), fields, ray);
+    for (const views::LampPoint& lamp : views::lampPoints(scene, settings.lightSamples)) {
+        if (lamp.color == vec3(0)) continue;
+        views::ShadowSource around = lamp.source; // light leaves the cone of a spot where it is bent
+        around.tangent = views::ShadowSource().tangent;
+        Plan::Light light{.lamp = lamp,
+                          .receivers = views::shadowViews(around, receivers, receivers, settings.mapSize)};
+        if (light.receivers.faces.empty()) continue;
+        if (settings.pointMap == PointMap::Paraboloids && light.receivers.faces.size() > 1)
+            light.halves = paraboloidsOf(vec3(lamp.source.place), receivers, settings.mapSize);
+        const int size = viewSizeOf(settings.grid).x;
+        const auto viewsOf = [&](const std::vector<views::DrawnMesh>& bending, const views::Bounds& bounds) {
+            return views::shadowViews(aimedAt(lamp.source, bending, bounds), everything, bounds, size).faces;
+        };
+        const bool isOnWater = beginsOnWater(settings, lamp, meshes);
+        if (isOnWater)
+            light.water = {views::shadowViews(lamp.source, hidingFrom(lamp, glass, meshes.solid, fields),
+                                              glass, settings.mapSize)};
+        const std::vector<views::Eye> faces =
+            isOnWater ? std::vector<views::Eye>{} : viewsOf(meshes.glass, glass);
+        for (const views::Eye& face : faces) {
+            const Result<int> count = surfacesIn(pool, context_, face, meshes.glass, scene.view.time, size);
+            if (!count) return count.error();
+            if (*count > 0) light.glass.push_back({face, *count, borderOf(faces, size)});
+        }
+        const std::vector<views::Eye> mirroring = viewsOf(mirrorsOf(meshes.solid), mirrors);
+        for (const views::Eye& face : mirroring)
+            light.mirrors.push_back({face, 0, borderOf(mirroring, size)});
+        if (!light.water && light.glass.empty() && light.mirrors.empty()) continue;
+        if (settings.receiverLayers > 1 && settings.intersect == Intersect::Hybrid) {
+            Result<bool> lies = liesBehind(pool, context_, light.receivers, receiversOf(meshes.solid), fields,
+                                           scene.view.time);
+            if (!lies) return lies.error();
+            light.hasBehind = *lies;
+        }
+        plan.lights.push_back(std::move(light));
+    }
+    return plan;
+}
+
+Status Caustics::checkLimits(const Inputs& in, const Settings& settings) const {
+    if (in.glass.size() > views::kMostGlass)
+        return Error{"caustics: " + std::to_string(in.glass.size()) +
+                         " refractive objects; must be at most " + std::to_string(views::kMostGlass),
+                     Fault::Machine};
+    if (const std::size_t count = mirrorsOf(in.solids).size(); count > MirrorBlock::kMost)
+        return Error{"caustics: " + std::to_string(count) + " mirrors; must be at most " +
+                         std::to_string(MirrorBlock::kMost),
+                     Fault::Machine};
+    if (const int side = viewSizeOf(settings.grid).x; side > context_.caps().maxTextureSize)
+        return Error{"caustics: grid is " + std::to_string(settings.grid) + ", for which a lamp's view has " +
+                         std::to_string(side) + " pixels a side; must be at most " +
+                         std::to_string(context_.caps().maxTextureSize) + " on this GPU",
+                     Fault::Machine};
+    return Done{};
+}
+
+Result<graph::TextureId> Caustics::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
+                                          const Settings& settings) const {
+    if (Status legal = checkLimits(in, settings); !legal) return legal.error();
+    graph::TextureId sum;
+    Targets targets(graph);
+    Inputs all = in;
+    if (!in.fields.empty() && !plan.lights.empty()) {
+        all.solid = graph.create("caustics.shown", {.size = in.size, .format = graph::Format::RGBA32F});
+        if (Status s = views::recordSolid(graph, context_, in.eye, in.fields, in.solids, in.surface,
+                                          all.solid, in.size);
+            !s)
+            return s.error();
+    }
+    for (const Plan::Light& light : plan.lights)
+        if (Status s = LightPasses(graph, context_, targets, all, light, settings).record(sum); !s)
+            return s.error();
+    return sum;
+}
+
+Result<Map> Caustics::recordMap(graph::FrameGraph& graph, const Inputs& in, const Plan::Light& light,
+                                const Settings& settings) const {
+    if (Status legal = checkLimits(in, settings); !legal) return legal.error();
+    graph::TextureId none;
+    Targets targets(graph);
+    LightPasses passes(graph, context_, targets, in, light, settings);
+    if (Status s = passes.record(none); !s) return s.error();
+    return passes.map();
+}
+
+namespace {
+
+// Sums the textures of one measured light.
+class Ledger {
+public:
+    Ledger(gl::Device& device, const Targets& targets) : device_(device), targets_(targets) {}
+
+    dvec3 sum(std::string_view label) {
+        dvec3 total(0);
+        each(label, [&](const Image& image) {
+            for (std::size_t i = 0; i < image.pixels.size(); i += 4)
+                total += dvec3(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]);
+        });
+        return total;
+    }
+    void each(std::string_view label, const std::function<void(const Image&)>& visit) {
+        for (const graph::Texture& texture : targets_.kept())
+            if (texture.label() == label) visit(device_.read(texture.handle()));
+    }
+    std::vector<Image> all(std::string_view label) {
+        std::vector<Image> list;
+        each(label, [&](const Image& image) { list.push_back(image); });
+        return list;
+    }
+
+private:
+    gl::Device& device_;
+    const Targets& targets_;
+};
+
+} // namespace
+
+Result<Energy> Caustics::measure(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
+                                 const views::DrawnMeshes& meshes,
+                                 const std::vector<views::DrawnObject>& fields, const Plan& plan,
+                                 const Settings& settings) const {
+    Energy energy;
+    double rays = 0;
+    for (const Plan::Light& light : plan.lights) {
+        graph::FrameGraph graph;
+        Result<std::vector<views::PosedMesh>> glass =
+            views::recordPose(graph, context_, meshes.glass, scene.view.time);
+        if (!glass) return glass.error();
+        Result<std::vector<views::PosedMesh>> solids =
+            views::recordPose(graph, context_, meshes.solid, scene.view.time);
+        if (!solids) return solids.error();
+        const Inputs in{scene, eye, *glass, *solids, {}, {}, fields};
+        Targets targets(graph, &context_.device());
+        graph::TextureId none;
+        LightPasses passes(graph, context_, targets, in, light, settings);
+        if (Status s = passes.record(none); !s) return s.error();
+        if (Status s = graph.compile(); !s) return s.error();
+        graph.execute(pool);
+        Ledger ledger(context_.device(), targets);
+        energy.met += ledger.sum("caustics.met");
+        energy.absorbed += ledger.sum("caustics.absorbed");
+        energy.reflected += ledger.sum("caustics.reflected");
+        energy.lost += ledger.sum("caustics.lost");
+        energy.received += double(passes.unit()) * ledger.sum("caustics.map");
+        const std::vector<Image> flux = ledger.all("caustics.flux"), landing = ledger.all("caustics.landing"),
+                                 effort = ledger.all("caustics.effort"), met = ledger.all("caustics.met");
+        for (std::size_t image = 0; image < flux.size(); ++image)
+            for (std::size_t i = 0; i < flux[image].pixels.size(); i += 4) {
+                const float* f = &flux[image].pixels[i];
+                const dvec3 carried = double(met[image].pixels[i + 3]) * dvec3(f[0], f[1], f[2]);
+                const bool landed = landing[image].pixels[i + 3] > 0;
+                const bool isAstray = std::abs(effort[image].pixels[i + 1]) > 2;
+                if (!landed) energy.missed += carried;
+                if (landed && isAstray) energy.astray += carried;
+                energy.looks += double(effort[image].pixels[i]);
+                if (f[3] > 0) ++rays;
+            }
+    }
+    if (std::string error = context_.takeError(); !error.empty()) return Error{error, Fault::Machine};
+    if (rays > 0) energy.looks /= rays;
+    return energy;
+}
+
+} // namespace lucent::caustics

@@ -1,0 +1,133 @@
+#pragma once
+/// Light that refractive objects and mirrors throw onto opaque surfaces (image-space dissertation 2007, ch.
+/// 5): rays of a light are traced through layered images of its own view, carried on to the receivers that it
+/// sees, and add up in a caustic map, where the pixels of the camera look their irradiance up. Nothing is
+/// precomputed.
+
+#include "light/Lamps.h"
+#include "views/Layers.h"
+#include "light/ShadowMap.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lucent::caustics {
+
+enum class Intersect : int { Hybrid, FixedPoint, Newton, Secant };
+enum class Deposit : int { Beam, Splat, Lines };
+enum class PointMap : int { Cube, Paraboloids };
+std::string_view nameOf(Intersect intersect);
+std::string_view nameOf(Deposit deposit);
+
+struct Settings {
+    Intersect intersect = Intersect::Hybrid;
+    Deposit deposit = Deposit::Beam;
+    int grid = 128;                     ///< rays a side
+    bool refine = true;                 ///< beams: rays through single pixels where no beam carries light
+    int mapSize = 512;                  ///< texels a side of the caustic map, or of each of its faces
+    PointMap pointMap = PointMap::Cube; ///< how the map lies about a lamp that shines all around
+    int steps = 32;                     ///< looks at the receivers' image for a ray, at most
+    int receiverLayers = 2;             ///< receivers behind each other on which light is found
+    int lightSamples = 16;              ///< points that stand for a lamp with a size
+    int wavelengths = 3;                ///< of white light in glass that disperses
+};
+
+struct Inputs {
+    const scene::Scene& scene;
+    const views::Eye& eye;                         ///< the camera's
+    const std::vector<views::PosedMesh>& glass;    ///< refractive objects, hidden or not
+    const std::vector<views::PosedMesh>& solids;   ///< opaque objects and mirrors, hidden or not
+    graph::TextureId surface;                      ///< views.surface; none: nothing is looked up
+    ivec2 size;                                    ///< of the camera's picture
+    const std::vector<views::DrawnObject>& fields; ///< height fields, which receive
+    graph::TextureId solid{};                      ///< record() makes it, where there are fields
+};
+
+/// What is drawn for each light; made once for as long as lights and objects stay where they are.
+struct Plan {
+    struct View {
+        views::Eye eye;
+        int layers = 0; ///< surfaces of refractive objects behind each other
+        int border = 0; ///< pixels at each side that belong to the light's next view
+    };
+    /// Water under a lamp that is high above it: its light is followed from the surface on.
+    struct Water {
+        views::ShadowViews over; ///< on what may hide the lamp; none: nothing can
+    };
+    struct Light {
+        views::LampPoint lamp;
+        std::optional<Water> water{}; ///< instead of `glass`, where that is all that refracts
+        std::vector<View> glass{};    ///< that show what refracts
+        std::vector<View> mirrors{};  ///< that show what mirrors
+        views::ShadowViews receivers; ///< that show what receives
+        views::ShadowViews
+            halves{};           ///< paraboloids in which the caustic map lies; none: it lies in `receivers`
+        bool hasBehind = false; ///< behind what receives light lies more that does
+    };
+    std::vector<Light> lights;
+};
+
+/// What became of light that met something refractive or mirroring, W of each colour. Every entry is summed
+/// on its own; the first is the sum of the others but for what the caustic map rounds.
+struct Energy {
+    dvec3 met{0};
+    dvec3 received{0};  ///< in the caustic maps
+    dvec3 absorbed{0};  ///< by media, by objects that let only a share in, by mirrors
+    dvec3 reflected{0}; ///< at interfaces, and not followed
+    dvec3 missed{0};    ///< met no receiver that the light's view shows
+    dvec3 lost{0};      ///< given up inside
+    dvec3 astray{0};    ///< of `received`: laid down where no surface is, two texels or more beside one
+    double looks = 0;   ///< at the receivers' image, mean over the rays that left glass
+};
+
+/// What one point of a light leaves on what it sees.
+struct Map {
+    graph::TextureId flux;   ///< 1: what the light leaves on a texel undisturbed, in its brightest colour.
+                             ///< Above what lies on the receivers that it sees: on those behind, if any
+    graph::TextureId depths; ///< R32F: of the receivers that it sees; 1e30 where there is none
+    ivec2 size{0};           ///< of the latter
+};
+
+/// Not drawn: light that glass or mirrors reflect on (but for total reflection inside), light by way of a
+/// mirror and glass or of two mirrors, what falls on receivers that the lamp sees past two or more others, or
+/// on sides turned away from it, and what lamps inside of glass send out of it. Mirrors
+/// hide glass from a lamp, but stop no light behind it.
+class Caustics {
+public:
+    static const ParamTable& params();
+    /// Why the scene needs this technique; nothing when it does not.
+    static std::optional<std::string> need(const scene::Scene& scene);
+
+    explicit Caustics(gl::Context& context) : context_(context) {}
+
+    /// Chooses the views of each light and counts their layers, which reads pictures back.
+    ///
+    /// @param eye     the camera's: what it does not show receives nothing
+    /// @param fields  height fields, which receive
+    Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
+                      const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
+                      const Settings& settings) const;
+
+    /// Adds the passes that give each pixel of opaque objects and height fields the irradiance of caustics.
+    ///
+    /// @return  RGBA32F, W/m², of `in.size`; none where the plan has no light. Error (Fault::Machine) for
+    ///          more than views::kMostGlass refractive objects or images larger than the GPU's textures
+    Result<graph::TextureId> record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
+                                    const Settings& settings) const;
+
+    /// Adds the passes of one light alone, up to its map. `in.surface` must be none.
+    Result<Map> recordMap(graph::FrameGraph& graph, const Inputs& in, const Plan::Light& light,
+                          const Settings& settings) const;
+
+    /// Runs the same passes and sums what they carry. Reads pictures back.
+    Result<Energy> measure(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
+                           const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
+                           const Plan& plan, const Settings& settings) const;
+
+private:
+    Status checkLimits(const Inputs& in, const Settings& settings) const;
+    gl::Context& context_;
+};
+
+} // namespace lucent::caustics

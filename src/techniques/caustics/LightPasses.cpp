@@ -1,0 +1,480 @@
+#include "techniques/caustics/LightPasses.h"
+
+#include "views/Glass.h"
+#include "views/Surface.h"
+
+#include <algorithm>
+
+namespace lucent::caustics {
+
+using graph::Format;
+using graph::TextureDesc;
+using graph::TextureId;
+
+// A few pixels for each ray, because surfaces stand in these pixels and because what no beam carries has a
+// ray for each of them. Their number for a ray is odd: it runs through the middle one.
+ivec2 viewSizeOf(int grid) {
+    constexpr int kLeast = 384;
+    const int pixels = std::max(3, (kLeast + grid - 1) / grid);
+    return ivec2(grid * (pixels | 1));
+}
+
+// --- what bends light
+
+LampBlock LightPasses::lampBlock() const {
+    return {.color = vec4(light_.lamp.color, light_.lamp.exponent),
+            .axis = vec4(light_.lamp.axis, light_.lamp.fades),
+            .cone = light_.lamp.cone,
+            .grid = vec2(float(settings_.grid))};
+}
+
+PhotonBlock LightPasses::photonBlock(const Plan::View& view, const Tint& tint) const {
+    PhotonBlock block{.view = views::viewBlock(view.eye, viewSize()),
+                      .lamp = lampBlock(),
+                      .glass = {},
+                      .tint = vec4(tint.color, 0),
+                      .count = view.layers,
+                      .channel = tint.channel,
+                      .border = view.border};
+    for (std::size_t i = 0; i < in_.glass.size(); ++i) {
+        views::GlassBlock& glass = block.glass[i];
+        glass = views::glassBlock(in_.glass[i].drawn.object->material);
+        if (tint.wavelength > 0) glass.ior.g = iorAt(vec3(glass.ior), tint.wavelength);
+    }
+    return block;
+}
+
+Result<views::Layers> LightPasses::layersOf(const Plan::View& view, TextureId& solid) {
+    const ivec2 size = viewSize();
+    if (!in_.solids.empty() || !in_.fields.empty()) {
+        const TextureDesc desc{.size = size, .format = Format::RGBA32F};
+        const TextureId surface = graph_.create("caustics.surface", desc);
+        solid = graph_.create("caustics.solid", desc);
+        Status s = views::recordSurface(graph_, context_, view.eye, in_.fields, in_.solids, surface, size);
+        if (s)
+            s = views::recordSolid(graph_, context_, view.eye, in_.fields, in_.solids, surface, solid, size);
+        if (!s) return s.error();
+    }
+    return views::recordLayers(graph_, context_, view.eye, in_.glass, size, view.layers, solid);
+}
+
+namespace {
+graph::Draw filled(graph::Draw draw, const gl::Program& program, const graph::Block& block,
+                   std::vector<graph::Binding> textures) {
+    draw.program = &program;
+    draw.block = block;
+    draw.textures = std::move(textures);
+    return draw;
+}
+} // namespace
+
+// Rays of the rest are packed into the lowest rows of their images: a rectangle over these.
+graph::Draw LightPasses::drawOf(Part part) {
+    return isRest(part) ? graph::Draw{.vertices = 6} : graph::Draw{};
+}
+
+LightPasses::Samples LightPasses::Start::samples() const {
+    Samples list;
+    if (isRest() || (part == Part::Vertices && book)) list.push_back({"uBeams", cells.beams});
+    if (isRest()) list.push_back({"uIndex", cells.index});
+    return list;
+}
+
+std::vector<std::string> LightPasses::Start::defines() const {
+    std::vector<std::string> list;
+    if (part == Part::Vertices) list.push_back("VERTICES");
+    if (part == Part::Rests) list.push_back("RESTS");
+    if (part == Part::Pixels) list.push_back("PIXELS");
+    if (isRest()) list.push_back("PACKED");
+    if (book) list.push_back("WITH_BOOK");
+    return list;
+}
+
+Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views::Layers& layers,
+                          TextureId solid, const Start& start) {
+    std::vector<std::string> defines = start.defines();
+    if (solid) defines.push_back("USE_SOLID");
+    Result<const gl::Program*> traced = program("caustics/photon", defines);
+    if (!traced) return traced.error();
+    graph_.addPass("caustics.photon", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(start.book       ? "where their light stays"
+                    : start.isRest() ? "rays of one point of a light where no beam carries it"
+                                     : "rays of one point of a light through refractive objects");
+        views::sampleLayers(pass, layers);
+        if (solid) pass.sample(solid);
+        for (const auto& [name, texture] : start.samples())
+            pass.sample(texture);
+        for (const TextureId target : start.targets) {
+            pass.write(target);
+            if (start.isRest()) pass.clear(target, vec4(0));
+        }
+        return [=, draw = drawOf(start.part), program = *traced, block = photonBlock(view, tint)](
+                   const graph::Resources& resources, graph::Commands& commands) {
+            auto textures = views::layerBindings(resources, layers);
+            if (solid) textures.push_back({"uSolid", resources[solid]});
+            for (const auto& [name, texture] : start.samples())
+                textures.push_back({name, resources[texture]});
+            commands.draw(filled(draw, *program, block, std::move(textures)));
+        };
+    });
+    return Done{};
+}
+
+MirrorBlock LightPasses::mirrorBlock(const Plan::View& view) const {
+    MirrorBlock block{
+        .view = views::viewBlock(view.eye, viewSize()), .lamp = lampBlock(), .border = view.border};
+    for (const views::PosedMesh& mesh : mirrorsOf(in_.solids))
+        block.mirrors[std::size_t(block.count++)] =
+            vec4(objectOf(mesh).material.reflectance, float(mesh.drawn.index));
+    return block;
+}
+
+// What the light meets first, mirrors or not: what refracts hides mirrors too.
+Result<TextureId> LightPasses::surfaceOf(const views::Eye& eye) {
+    std::vector<views::PosedMesh> everything = in_.solids;
+    everything.insert(everything.end(), in_.glass.begin(), in_.glass.end());
+    const TextureId surface =
+        graph_.create("caustics.surface", {.size = viewSize(), .format = Format::RGBA32F});
+    if (Status s = views::recordSurface(graph_, context_, eye, in_.fields, everything, surface, viewSize());
+        !s)
+        return s.error();
+    return surface;
+}
+
+Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Start& start) {
+    Result<const gl::Program*> reflecting = program("caustics/mirror", start.defines());
+    if (!reflecting) return reflecting.error();
+    graph_.addPass("caustics.mirror", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(start.book       ? "where their light stays"
+                    : start.isRest() ? "rays of one point of a light where no beam carries it"
+                                     : "rays of one point of a light off mirrors");
+        pass.sample(surface);
+        for (const auto& [name, texture] : start.samples())
+            pass.sample(texture);
+        for (const TextureId target : start.targets) {
+            pass.write(target);
+            if (start.isRest()) pass.clear(target, vec4(0));
+        }
+        return [=, draw = drawOf(start.part), program = *reflecting,
+                block = mirrorBlock(view)](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
+            for (const auto& [name, texture] : start.samples())
+                textures.push_back({name, resources[texture]});
+            commands.draw(filled(draw, *program, block, std::move(textures)));
+        };
+    });
+    return Done{};
+}
+
+// --- rays
+
+// Begins rays and follows them to where they land.
+Result<LightPasses::Photons> LightPasses::send(Part part, const Cells& cells, const Trace& trace) {
+    Photons photons{.count = part == Part::Pixels ? viewSize() : ivec2(settings_.grid)};
+    const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
+    photons.place = targets_.make("caustics.place", desc);
+    photons.direction = targets_.make("caustics.direction", desc);
+    photons.flux = targets_.make("caustics.flux", desc);
+    if (Status s = trace({part, cells, {photons.place, photons.direction, photons.flux}}); !s)
+        return s.error();
+    if (isInPicture()) return photons; // they land there
+    if (Status s = land(photons, part, cells); !s) return s.error();
+    return photons;
+}
+
+// Where somebody reads it, what became of their light.
+Status LightPasses::keepBook(Part part, const Cells& cells, const Photons& photons, const Trace& trace) {
+    if (!targets_.keeps()) return Done{};
+    const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
+    std::vector<TextureId> book;
+    for (const char* label : {"caustics.met", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
+        book.push_back(targets_.make(label, desc));
+    return trace({part, cells, std::move(book), true});
+}
+
+Status LightPasses::carry(const views::Eye& eye, const Trace& trace) {
+    const bool beams = settings_.deposit == Deposit::Beam;
+    const Part part = beams ? Part::Vertices : Part::Cells;
+    Sheet sheet{.eye = eye};
+    Result<Photons> grid = send(part, {}, trace);
+    if (!grid) return grid.error();
+    sheet.grid = *grid;
+    if (beams) {
+        Result<TextureId> mask = beamsOf(*grid, 2 * eye.halfExtent.x / float(grid->count.x));
+        if (!mask) return mask.error();
+        sheet.cells.beams = *mask;
+        if (Status s = weigh(sheet); !s) return s;
+    }
+    if (Status s = keepBook(part, sheet.cells, *grid, trace); !s) return s;
+    if (beams) {
+        const Part rests = refines() ? Part::Pixels : Part::Rests;
+        if (Status s = pack(sheet); !s) return s;
+        Result<Photons> rest = send(rests, sheet.cells, trace);
+        if (!rest) return rest.error();
+        sheet.rest = *rest;
+        if (Status s = keepBook(rests, sheet.cells, *rest, trace); !s) return s;
+        if (Status s = spread(sheet); !s) return s;
+    }
+    sheets_.push_back(std::move(sheet));
+    return Done{};
+}
+
+// A little larger, so that flat ones have an inside.
+views::Bounds LightPasses::boxOfReceivers() const {
+    views::Bounds box = boundsOfAll(receivers_, in_.fields);
+    const float margin = 1e-3f * box.radius();
+    return {box.low - margin, box.high + margin};
+}
+
+Status LightPasses::land(Photons& photons, Part part, const Cells& cells) {
+    static const char* const kVariants[] = {nullptr, "FIXED_POINT", "NEWTON", "SECANT"};
+    std::vector<std::string> defines;
+    if (const char* variant = kVariants[std::size_t(settings_.intersect)]) defines.push_back(variant);
+    if (behind_) defines.push_back("USE_BEHIND");
+    if (isRest(part)) defines.push_back("PACKED");
+    if (light_.receivers.faces.size() == 1) defines.push_back("ONE_VIEW");
+    Result<const gl::Program*> landing = program("caustics/land", defines);
+    if (!landing) return landing.error();
+    const views::Bounds box = boxOfReceivers();
+    photons.landing = targets_.make("caustics.landing", {.size = photons.count, .format = Format::RGBA32F});
+    const TextureId effort =
+        targets_.make("caustics.effort", {.size = photons.count, .format = Format::RG32F});
+    graph_.addPass("caustics.land", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("where these rays meet receivers, by " + std::string(nameOf(settings_.intersect)));
+        pass.sample(photons.place);
+        pass.sample(photons.direction);
+        pass.sample(depths_);
+        if (behind_) {
+            pass.sample(behind_);
+            pass.sample(back_);
+        }
+        for (const TextureId target : {photons.landing, effort}) {
+            pass.write(target);
+            if (isRest(part)) pass.clear(target, vec4(0));
+        }
+        if (isRest(part)) pass.sample(cells.index);
+        const LandBlock block{.faces = Faces(light_.receivers),
+                              .low = vec4(box.low, 0),
+                              .high = vec4(box.high, 0),
+                              .faceCount = int(light_.receivers.faces.size()),
+                              .steps = settings_.steps};
+        return [=, draw = drawOf(part), program = *landing, depths = depths_, behind = behind_,
+                back = back_](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uPlace", resources[photons.place]},
+                                                 {"uDirection", resources[photons.direction]},
+                                                 {"uShadow", resources[depths]}};
+            if (behind) {
+                textures.push_back({"uBehind", resources[behind]});
+                textures.push_back({"uBack", resources[back]});
+            }
+            if (isRest(part)) textures.push_back({"uIndex", resources[cells.index]});
+            commands.draw(filled(draw, *program, block, std::move(textures)));
+        };
+    });
+    return Done{};
+}
+
+// @param cell  width of a ray's: m, or of a point's light m for each metre from it
+Result<TextureId> LightPasses::beamsOf(const Photons& photons, float cell) {
+    Result<const gl::Program*> choosing = programOnMap(
+        "caustics/beams", refines() ? std::vector<std::string>{"REFINE"} : std::vector<std::string>{});
+    if (!choosing) return choosing.error();
+    TextureId beams;
+    graph_.addPass("caustics.beams", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("which triangles between rays carry the light between them");
+        pass.sample(photons.place);
+        pass.sample(photons.flux);
+        pass.sample(photons.landing);
+        beams = pass.createColor("caustics.beams", {.size = photons.count, .format = Format::RGBA32F});
+        const DepositBlock block = depositBlock(photons, cell);
+        return [photons, block, program = *choosing](const graph::Resources& resources,
+                                                     graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uPlace", resources[photons.place]},
+                                        {"uFlux", resources[photons.flux]},
+                                        {"uLanding", resources[photons.landing]}}});
+        };
+    });
+    return beams;
+}
+
+// What is known of the cells of a grid of rays.
+Result<TextureId> LightPasses::recordCells(const char* stem, const char* reason, const TextureDesc& desc,
+                                           const Samples& samples) {
+    Result<const gl::Program*> found = program(stem);
+    if (!found) return found.error();
+    TextureId cells;
+    graph_.addPass("caustics.cells", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(reason);
+        for (const auto& [name, texture] : samples)
+            pass.sample(texture);
+        cells = pass.createColor("caustics.cells", desc);
+        return [=, program = *found](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{.program = program};
+            for (const auto& [name, texture] : samples)
+                draw.textures.push_back({name, resources[texture]});
+            commands.draw(draw);
+        };
+    });
+    return cells;
+}
+
+// Finds the cells in which rays of their own begin, and a place for each.
+Status LightPasses::pack(Sheet& sheet) {
+    const ivec2 grid = sheet.grid.count;
+    const TextureDesc number{.size = grid, .format = Format::R32F};
+    const TextureDesc row{.size = {1, grid.y}, .format = Format::R32F};
+    Result<TextureId> lone =
+        recordCells("caustics/lone", "in which cells of the grid beams carry not all light", number,
+                    {{"uBeams", sheet.cells.beams}, {"uFlux", sheet.grid.flux}});
+    if (!lone) return lone.error();
+    Result<TextureId> ranks =
+        recordCells("caustics/ranks", "how many of them a row has up to each", number, {{"uLone", *lone}});
+    if (!ranks) return ranks.error();
+    Result<TextureId> rows =
+        recordCells("caustics/rows", "how many there are up to each row", row, {{"uRanks", *ranks}});
+    if (!rows) return rows.error();
+    Result<TextureId> index =
+        recordCells("caustics/index", "where each of them is packed",
+                    {.size = grid, .format = Format::RGBA32F}, {{"uRanks", *ranks}, {"uRows", *rows}});
+    if (!index) return index.error();
+    sheet.cells.index = *index;
+    return Done{};
+}
+
+// What the triangles around each ray leave where it lands.
+Status LightPasses::weigh(Sheet& sheet) {
+    if (Status s = weighOnce(sheet, false); !s) return s;
+    return weighOnce(sheet, true);
+}
+
+// @param sharpen  what was found before
+Status LightPasses::weighOnce(Sheet& sheet, bool sharpen) {
+    Result<const gl::Program*> weighing = program(
+        "caustics/density", sharpen ? std::vector<std::string>{"SHARPEN"} : std::vector<std::string>{});
+    if (!weighing) return weighing.error();
+    const TextureId before = sheet.density;
+    graph_.addPass("caustics.density", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("how densely the triangles around each ray light what they fall on");
+        pass.sample(sheet.cells.beams);
+        pass.sample(sheet.grid.flux);
+        if (sharpen) pass.sample(before);
+        const TextureDesc desc{.size = sheet.grid.count, .format = Format::RGBA32F};
+        sheet.density = pass.createColor("caustics.density", desc);
+        if (!sharpen) sheet.points = pass.createColor("caustics.points", desc);
+        return [=, beams = sheet.cells.beams, flux = sheet.grid.flux, block = depositBlock(sheet.grid, 0),
+                program = *weighing](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{.program = program,
+                             .block = block,
+                             .textures = {{"uBeams", resources[beams]}, {"uFlux", resources[flux]}}};
+            if (sharpen) draw.textures.push_back({"uDensity", resources[before]});
+            commands.draw(draw);
+        };
+    });
+    return Done{};
+}
+
+// Depths at which what the light sees ends, where it is solid.
+Status LightPasses::recordBack() {
+    Result<const gl::Program*> drawing = program("views/shadow", {"BEHIND", "BACK"});
+    if (!drawing) return drawing.error();
+    graph_.addPass("caustics.back", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("how thick what the light sees is, past which it may come");
+        for (const views::PosedMesh& mesh : receivers_) {
+            pass.sample(mesh.positions);
+            pass.sample(mesh.normals);
+        }
+        pass.sample(depths_);
+        const ivec2 size = light_.receivers.imageSize();
+        back_ = pass.createColor("caustics.back", {.size = size, .format = Format::R32F});
+        pass.clear(back_, vec4(1e30f));
+        pass.clear(pass.createDepth("caustics.backDepth", size, Format::Depth32F), 1.0f);
+        return [program = *drawing, views = light_.receivers, meshes = receivers_,
+                first = depths_](const graph::Resources& resources, graph::Commands& commands) {
+            for (int face = 0; face < int(views.faces.size()); ++face)
+                for (const views::PosedMesh& mesh : meshes)
+                    views::drawMesh(commands, *program, resources, mesh, views.faces[std::size_t(face)],
+                                    ivec2(views.size), mesh.drawn.index,
+                                    {.region = ivec4(views.corner(face), views.size, views.size),
+                                     .depthTest = graph::DepthTest::Less,
+                                     .textures = {{"uFirst", resources[first]}}});
+        };
+    });
+    return Done{};
+}
+
+// Depths in the map's paraboloids.
+Status LightPasses::recordRound() {
+    std::vector<std::string> defines{"PARABOLOIDS"};
+    if (behind_) defines.push_back("USE_BEHIND");
+    Result<const gl::Program*> rounding = program("caustics/round", defines);
+    if (!rounding) return rounding.error();
+    graph_.addPass("caustics.round", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("how far what the light sees lies behind each texel of the map's paraboloids");
+        Samples samples{{"uShadow", depths_}};
+        if (behind_) samples.insert(samples.end(), {{"uBehind", behind_}, {"uBack", back_}});
+        for (const auto& [name, texture] : samples)
+            pass.sample(texture);
+        const TextureDesc desc{.size = mapViews().imageSize(), .format = Format::R32F};
+        mapDepths_ = pass.createColor("caustics.round", desc);
+        if (behind_) mapBehind_ = pass.createColor("caustics.roundBehind", desc);
+        RoundBlock block{
+            .faces = Faces(light_.receivers), .halves = {}, .faceCount = int(light_.receivers.faces.size())};
+        std::copy_n(Faces(light_.halves).list, 2, block.halves);
+        return [=, program = *rounding, samples = std::move(samples)](const graph::Resources& resources,
+                                                                      graph::Commands& commands) {
+            std::vector<graph::Binding> textures;
+            for (const auto& [name, texture] : samples)
+                textures.push_back({name, resources[texture]});
+            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+        };
+    });
+    return Done{};
+}
+
+// --- all of them
+
+Status LightPasses::record(TextureId& sum) {
+    Result<TextureId> depths = views::recordShadow(graph_, context_, light_.receivers, receivers_,
+                                                   boundsOfAll(receivers_, in_.fields), in_.fields);
+    if (!depths) return depths.error();
+    depths_ = *depths;
+    if (light_.hasBehind) {
+        Result<TextureId> behind =
+            views::recordShadow(graph_, context_, light_.receivers, receivers_,
+                                boundsOfAll(receivers_, in_.fields), in_.fields, depths_);
+        if (!behind) return behind.error();
+        behind_ = *behind;
+        if (Status s = recordBack(); !s) return s;
+    }
+    mapDepths_ = depths_;
+    mapBehind_ = behind_;
+    if (!light_.halves.faces.empty())
+        if (Status s = recordRound(); !s) return s;
+    const std::vector<Tint> light =
+        views::disperses(in_.glass) ? tints(settings_.wavelengths) : std::vector<Tint>{{}};
+    if (light_.water)
+        for (const Tint& tint : light)
+            if (Status s = carryFromWater(tint); !s) return s;
+    for (const Plan::View& view : light_.glass) {
+        TextureId solid;
+        Result<views::Layers> layers = layersOf(view, solid);
+        if (!layers) return layers.error();
+        for (const Tint& tint : light) {
+            const auto through = [&](const Start& start) { return trace(view, tint, *layers, solid, start); };
+            if (Status s = carry(view.eye, through); !s) return s;
+        }
+    }
+    for (const Plan::View& view : light_.mirrors) {
+        Result<TextureId> surface = surfaceOf(view.eye);
+        if (!surface) return surface.error();
+        const auto off = [&](const Start& start) { return reflect(view, *surface, start); };
+        if (Status s = carry(view.eye, off); !s) return s;
+    }
+    if (isInPicture()) return drawLines(sum);
+    if (Status s = deposit(); !s) return s;
+    return in_.surface ? lookUp(sum) : Status(Done{});
+}
+
+} // namespace lucent::caustics

@@ -1,0 +1,188 @@
+#include "techniques/caustics/LightPasses.h"
+#include "views/Glass.h"
+
+#include <cmath>
+
+namespace lucent::caustics {
+
+using graph::Format;
+using graph::TextureDesc;
+using graph::TextureId;
+
+namespace {
+
+// A lamp this high above all of the water [sine]: waves of less than 45 degrees stand in no light of each
+// other, and the steepest that do not break have 30.
+constexpr float kHighEnough = 0.7071f;
+
+ivec2 raysOn(const scene::Water& water, int grid) {
+    const vec2 part = water.size / std::max(water.size.x, water.size.y);
+    return glm::max(ivec2(glm::round(part * float(grid))), ivec2(2));
+}
+
+} // namespace
+
+bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const views::DrawnMeshes& meshes) {
+    if (settings.deposit != Deposit::Beam || meshes.glass.size() != 1 || !mirrorsOf(meshes.solid).empty())
+        return false;
+    const scene::Object& object = objectOf(meshes.glass.front());
+    if (!std::holds_alternative<scene::Water>(object.shape)) return false;
+    const vec3 up = rotationFromDegrees(object.transform.rotate) * vec3(0, 1, 0);
+    if (lamp.place.w == 0) return glm::dot(vec3(lamp.place), up) >= kHighEnough;
+    const views::Bounds box = views::boundsOf(object);
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec3 place(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                         corner & 4 ? box.high.z : box.low.z);
+        const vec3 way = vec3(lamp.place) - place;
+        if (!(glm::dot(way, up) >= kHighEnough * glm::length(way))) return false;
+    }
+    return true;
+}
+
+WaterRaysBlock LightPasses::waterBlock(const Tint& tint, ivec2 rays) const {
+    const scene::Object& object = objectOf(in_.glass.front());
+    const auto& water = std::get<scene::Water>(object.shape);
+    const vec2 size = object.transform.scale * water.size / vec2(rays - 1);
+    WaterRaysBlock block{.faces = Faces(light_.water->over),
+                         .worldFromObject = object.transform.worldFromObject(),
+                         .normalFromObject = mat4(rotationFromDegrees(object.transform.rotate)),
+                         .lamp = lampBlock(),
+                         .water = views::glassBlock(object.material),
+                         .place = light_.lamp.place,
+                         .tint = vec4(tint.color, 0),
+                         .cells = scene::waterCells(water),
+                         .grid = rays,
+                         .faceCount = int(light_.water->over.faces.size()),
+                         .channel = tint.channel,
+                         .area = size.x * size.y};
+    if (tint.wavelength > 0) block.water.ior.g = iorAt(vec3(block.water.ior), tint.wavelength);
+    return block;
+}
+
+Status LightPasses::beginOnWater(const Tint& tint, ivec2 rays, TextureId shadow,
+                                 const std::vector<TextureId>& targets, bool book) {
+    std::vector<std::string> defines;
+    if (shadow) defines.push_back("USE_SHADOW");
+    if (book) defines.push_back("WITH_BOOK");
+    Result<const gl::Program*> beginning = program("caustics/water", defines);
+    if (!beginning) return beginning.error();
+    graph_.addPass("caustics.water", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(book ? "where their light stays" : "rays of one point of a light from the water on");
+        const views::PosedMesh& mesh = in_.glass.front();
+        pass.sample(mesh.positions);
+        pass.sample(mesh.normals);
+        if (shadow) pass.sample(shadow);
+        for (const TextureId target : targets)
+            pass.write(target);
+        return [=, program = *beginning, block = waterBlock(tint, rays), positions = mesh.positions,
+                normals = mesh.normals](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uPositions", resources[positions]},
+                                                 {"uNormals", resources[normals]}};
+            if (shadow) textures.push_back({"uShadow", resources[shadow]});
+            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+        };
+    });
+    return Done{};
+}
+
+Status LightPasses::soak(const Photons& photons, TextureId before, TextureId met, TextureId target) {
+    Result<const gl::Program*> soaking =
+        program("caustics/soak", met ? std::vector<std::string>{"WITH_BOOK"} : std::vector<std::string>{});
+    if (!soaking) return soaking.error();
+    graph_.addPass("caustics.soak", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what the water leaves of their light until they land");
+        pass.sample(photons.place);
+        pass.sample(photons.landing);
+        pass.sample(before);
+        if (met) pass.sample(met);
+        pass.write(target);
+        const views::GlassBlock glass = views::glassBlock(objectOf(in_.glass.front()).material);
+        return [=, program = *soaking, block = SoakBlock{glass.absorption}](const graph::Resources& resources,
+                                                                            graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uPlace", resources[photons.place]},
+                                                 {"uLanding", resources[photons.landing]},
+                                                 {"uFlux", resources[before]}};
+            if (met) textures.push_back({"uMet", resources[met]});
+            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+        };
+    });
+    return Done{};
+}
+
+// The light of triangles that are no beams goes with the rays at their corners.
+Status LightPasses::leaveAlone(Sheet& sheet) {
+    Result<const gl::Program*> leaving = program("caustics/alone");
+    if (!leaving) return leaving.error();
+    sheet.rest.count = sheet.grid.count;
+    const Samples samples{{"uFlux", sheet.grid.flux},
+                          {"uLanding", sheet.grid.landing},
+                          {"uBeams", sheet.cells.beams},
+                          {"uIndex", sheet.cells.index}};
+    graph_.addPass("caustics.alone", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("light between rays of which no beam is made");
+        for (const auto& [name, texture] : samples)
+            pass.sample(texture);
+        const TextureDesc desc{.size = sheet.grid.count, .format = Format::RGBA32F};
+        sheet.rest.flux = pass.createColor("caustics.alone", desc);
+        sheet.rest.landing = pass.createColor("caustics.aloneLanding", desc);
+        pass.clear(sheet.rest.flux, vec4(0));
+        pass.clear(sheet.rest.landing, vec4(0));
+        return [=, draw = drawOf(Part::Rests), program = *leaving](const graph::Resources& resources,
+                                                                   graph::Commands& commands) {
+            graph::Draw filled = draw;
+            filled.program = program;
+            for (const auto& [name, texture] : samples)
+                filled.textures.push_back({name, resources[texture]});
+            commands.draw(filled);
+        };
+    });
+    return Done{};
+}
+
+Status LightPasses::carryFromWater(const Tint& tint) {
+    TextureId shadow;
+    if (!light_.water->over.faces.empty()) {
+        const views::Bounds below = boundsOfAll(in_.glass);
+        Result<TextureId> depths =
+            views::recordShadow(graph_, context_, light_.water->over, in_.solids, below, in_.fields);
+        if (!depths) return depths.error();
+        shadow = *depths;
+    }
+    const auto& water = std::get<scene::Water>(objectOf(in_.glass.front()).shape);
+    const TextureDesc desc{.size = raysOn(water, settings_.grid), .format = Format::RGBA32F};
+    Sheet sheet{.eye = light_.receivers.faces.front()};
+    sheet.grid.count = desc.size;
+    sheet.grid.place = targets_.make("caustics.place", desc);
+    sheet.grid.direction = targets_.make("caustics.direction", desc);
+    const TextureId entering = graph_.create("caustics.entering", desc);
+    Status s =
+        beginOnWater(tint, desc.size, shadow, {sheet.grid.place, sheet.grid.direction, entering}, false);
+    if (s) s = land(sheet.grid, Part::Cells, {});
+    if (!s) return s;
+    sheet.grid.flux = targets_.make("caustics.flux", desc);
+    if (s = soak(sheet.grid, entering, {}, sheet.grid.flux); !s) return s;
+    if (targets_.keeps()) {
+        std::vector<TextureId> book;
+        for (const char* label : {"caustics.met", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
+            book.push_back(targets_.make(label, desc));
+        s = beginOnWater(tint, desc.size, shadow, book, true);
+        if (s) s = soak(sheet.grid, entering, book.front(), targets_.make("caustics.absorbed", desc));
+        if (!s) return s;
+    }
+    const float reach = light_.lamp.place.w == 0
+                            ? 1
+                            : glm::distance(vec3(light_.lamp.place), boundsOfAll(in_.glass).center());
+    const float cell = std::max(water.size.x, water.size.y) / float(settings_.grid);
+    Result<TextureId> mask = beamsOf(sheet.grid, objectOf(in_.glass.front()).transform.scale * cell / reach);
+    if (!mask) return mask.error();
+    sheet.cells.beams = *mask;
+    s = weigh(sheet);
+    if (s) s = pack(sheet);
+    if (s) s = leaveAlone(sheet);
+    if (s) s = spread(sheet);
+    if (!s) return s;
+    sheets_.push_back(std::move(sheet));
+    return Done{};
+}
+
+} // namespace lucent::caustics

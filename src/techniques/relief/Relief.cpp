@@ -1,0 +1,269 @@
+#include "techniques/relief/Relief.h"
+
+#include "techniques/relief/ReliefBlock.h"
+#include "light/EnvironmentLights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lucent::relief {
+
+namespace {
+
+constexpr std::string_view kMethods[] = {"hierarchy", "march", "counting", "transfer"};
+constexpr std::string_view kAttenuations[] = {"ratio", "exponential"};
+constexpr std::string_view kSamplings[] = {"equal", "importance"};
+
+std::vector<std::string> defines(const views::DrawnObject& drawn, const Settings& settings,
+                                 const Inputs& in) {
+    constexpr auto none = graph::TextureHandle::None;
+    std::vector<std::string> list;
+    if (!in.transferred.empty()) list.push_back("USE_TRANSFER");
+    const bool shines = !in.transferred.empty() && drawn.object->material.specularity > 0;
+    if (in.first == in.end && !shines) list.push_back("LIGHTLESS");
+    if (settings.method == Method::March) list.push_back("METHOD_MARCH");
+    if (settings.method == Method::Counting) list.push_back("METHOD_COUNTING");
+    if (drawn.baseMap != none) list.push_back("USE_BASE_MAP");
+    if (drawn.diffuseMap != none) list.push_back("USE_DIFFUSE_MAP");
+    if (drawn.specularMap != none) list.push_back("USE_SPECULAR_MAP");
+    if (in.show == scene::Aov::Iterations) list.push_back("SHOW_ITERATIONS");
+    if (in.show == scene::Aov::Visibility) list.push_back("SHOW_VISIBILITY");
+    return list;
+}
+
+bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
+
+// A light that relief knows, and its size.
+struct Lamp {
+    LightSource source;
+    float extent; ///< of its disc: m, or tangent of the angle; 0: none
+};
+
+std::optional<Lamp> lampOf(const scene::Light& light) {
+    if (const auto* point = std::get_if<scene::PointLight>(&light)) {
+        const bool fades = point->falloff == scene::LightFalloff::InverseSquare;
+        return Lamp{{vec4(point->position, fades ? 2 : 1), point->intensity * point->color, 1},
+                    point->radius};
+    }
+    if (const auto* distant = std::get_if<scene::DistantLight>(&light))
+        return Lamp{{vec4(-glm::normalize(distant->direction), 0), distant->irradiance * distant->color, 1},
+                    std::tan(glm::radians(distant->angle / 2))};
+    return std::nullopt;
+}
+
+// Points spread evenly over the lamp's disc on a spiral (Vogel 1979), each with its part of the light.
+void addLamp(std::vector<LightSource>& sources, const Lamp& lamp, int samples) {
+    const int count = lamp.extent > 0 ? samples : 1;
+    const float golden = kPi * (3 - std::sqrt(5.0f));
+    for (int i = 0; i < count; ++i) {
+        LightSource source = lamp.source;
+        const float radius = lamp.extent * std::sqrt((float(i) + 0.5f) / float(count));
+        source.disc = radius * vec2(std::cos(float(i) * golden), std::sin(float(i) * golden));
+        source.color /= float(count);
+        source.weight /= float(count);
+        sources.push_back(source);
+    }
+}
+
+ReliefBlock blockOf(const views::DrawnObject& drawn, const Inputs& in, const Settings& settings) {
+    const mat4 worldFromObject = drawn.object->transform.worldFromObject();
+    ReliefBlock block = makeBlock(drawn, settings);
+    block.eye = in.eye.inObject(worldFromObject);
+    block.objectFromWorld = glm::inverse(worldFromObject);
+    block.firstLight = in.first;
+    block.endLight = in.end;
+    block.isFirst = in.first == 0;
+    block.placed = in.placed;
+    return block;
+}
+
+} // namespace
+
+ReliefBlock makeBlock(const views::DrawnObject& drawn, const Settings& settings) {
+    const scene::Object& object = *drawn.object;
+    const scene::Material& material = object.material;
+    const float scale = object.transform.scale;
+    ReliefBlock block{};
+    block.field = drawn.field->block(object.field());
+    block.base = vec4(material.base, material.specularity);
+    block.diffuse = vec4(material.diffuse, material.forwardScatter);
+    block.specular = vec4(material.specular, material.depth / scale);
+    block.falloffs = vec4(material.specularFalloff, material.scatterFalloff);
+    block.objectFromWorld = mat4(1);
+    block.metres = scale;
+    block.radius = glm::length(object.field().footprint());
+    block.object = drawn.index;
+    block.exponential = settings.attenuation == Attenuation::Exponential;
+    block.steps = settings.steps;
+    return block;
+}
+
+const ParamTable& Relief::params() {
+    static const Param list[] = {
+        declare(&Settings::method, {.id = "method",
+                                    .label = "Method",
+                                    .group = Group::HeightField,
+                                    .doc = "How the length inside the solid is found: exactly, skipping by a "
+                                           "pyramid of heights; by equal steps; or by counting points as in "
+                                           "the thesis, which does not converge. Transfer does as hierarchy "
+                                           "for lamps, and traces a field once for all environments.",
+                                    .choices = kMethods}),
+        declare(&Settings::steps, {.id = "steps",
+                                   .label = "Steps",
+                                   .min = 1,
+                                   .max = 65536,
+                                   .low = 16,
+                                   .high = 1024,
+                                   .logarithmic = true,
+                                   .group = Group::HeightField,
+                                   .doc = "Steps along a ray; only march and counting take steps."}),
+        declare(&Settings::attenuation,
+                {.id = "attenuation",
+                 .label = "Attenuation",
+                 .group = Group::HeightField,
+                 .doc =
+                     "How light fades with the length r inside the solid: t / r, or e^(1 - r / t), which has "
+                     "the same value and slope where r is the depth t.",
+                 .choices = kAttenuations}),
+        declare(&Settings::environmentLights,
+                {.id = "environmentLights",
+                 .label = "Directions",
+                 .min = 6,
+                 .max = 65536,
+                 .low = 16,
+                 .high = 1024,
+                 .logarithmic = true,
+                 .group = Group::Environment,
+                 .doc = "About how many directions stand for the environment; each carries the mean of its "
+                        "part of the map. Transfer does without them."}),
+        declare(
+            &Settings::environmentSampling,
+            {.id = "environmentSampling",
+             .label = "Choice of directions",
+             .group = Group::Environment,
+             .doc = "Where those directions are: evenly all around, or more of them where the map is bright.",
+             .choices = kSamplings}),
+        declare(&Settings::terms,
+                {.id = "terms",
+                 .label = "Terms",
+                 .min = 4,
+                 .max = kMostTerms,
+                 .low = 4,
+                 .high = kMostTerms,
+                 .group = Group::Environment,
+                 .doc = "Coefficients a texel by which transfer keeps how much light each direction brings; "
+                        "rounded up to a multiple of 4."}),
+        declare(&Settings::lightSamples, {.id = "lightSamples",
+                                          .label = "Points of a lamp",
+                                          .min = 1,
+                                          .max = 4096,
+                                          .low = 1,
+                                          .high = 256,
+                                          .logarithmic = true,
+                                          .group = Group::Light,
+                                          .doc = "How many points stand for a lamp that has a size."}),
+        declare(&Settings::normalise, {.id = "normalise",
+                                       .label = "Divide by number of lights",
+                                       .group = Group::Light,
+                                       .doc = "Divides the light by the number of lights, an environment "
+                                              "counting as one, so that more lights do not brighten the "
+                                              "picture (thesis 4.3.7). Off: lights add."}),
+    };
+    static const ParamTable table = tableOf<Settings>("relief", list, "Relief");
+    return table;
+}
+
+std::optional<std::string> Relief::need(const scene::Scene& scene) {
+    const auto field = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                    [](const scene::Object& object) { return object.isField(); });
+    if (field == scene.objects.end()) return std::nullopt;
+    return "object \"" + field->name + "\" is a height field";
+}
+
+std::vector<LightSource> Relief::lights(const scene::Scene& scene, const Settings& settings,
+                                        int environmentLights) {
+    std::vector<LightSource> sources;
+    for (const scene::Light& light : scene.lights)
+        if (const std::optional<Lamp> lamp = lampOf(light)) addLamp(sources, *lamp, settings.lightSamples);
+    if (hasEnvironment(scene) && environmentLights > 0) {
+        const auto list = settings.environmentSampling == EnvironmentSampling::Importance
+                              ? views::importanceLights(*scene.environment, environmentLights)
+                              : views::environmentLights(*scene.environment, environmentLights);
+        for (const views::EnvironmentLight& light : list)
+            sources.push_back({vec4(light.direction, 0), light.weight * light.radiance, light.weight});
+    }
+    const float share = shareOfLight(scene);
+    for (LightSource& source : sources) {
+        source.weight *= share;
+        if (settings.normalise) source.color *= share;
+    }
+    return sources;
+}
+
+float Relief::shareOfLight(const scene::Scene& scene) {
+    return 1 / float(std::max<std::size_t>(1, scene.lights.size() + (hasEnvironment(scene) ? 1 : 0)));
+}
+
+Image Relief::lightTable(const std::vector<LightSource>& lights) {
+    const int rows = std::max(1, (int(lights.size()) + kLightsPerRow - 1) / kLightsPerRow);
+    Image table(3 * kLightsPerRow, rows, 4);
+    float* texel = table.pixels.data();
+    for (const LightSource& light : lights) {
+        for (float value :
+             {light.place.x, light.place.y, light.place.z, light.place.w, light.color.r, light.color.g,
+              light.color.b, light.weight, light.disc.x, light.disc.y, 0.0f, 0.0f})
+            *texel++ = value;
+    }
+    return table;
+}
+
+Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings& settings) const {
+    std::vector<const gl::Program*> programs;
+    for (const views::DrawnObject& drawn : in.objects) {
+        Result<const gl::Program*> program = context_.program("relief/light", defines(drawn, settings, in));
+        if (!program) return program.error();
+        programs.push_back(*program);
+    }
+    std::vector<graph::Block> blocks;
+    for (const views::DrawnObject& drawn : in.objects)
+        blocks.push_back(blockOf(drawn, in, settings));
+    const std::vector<views::DrawnObject> objects = in.objects;
+    const graph::TextureId surface = in.surface, sum = in.sum, target = in.target, table = in.lightTable;
+    const std::vector<Transferred> transferred = in.transferred;
+    const bool readsSum = in.first > 0;
+    graph.addPass("relief.light", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("lights " + std::to_string(in.first) + " to " + std::to_string(in.end - 1) + " of " +
+                    std::to_string(in.lights.size()) + " through the solid, method " +
+                    std::string(kMethods[std::size_t(settings.method)]));
+        pass.sample(surface);
+        pass.sample(table);
+        if (readsSum) pass.sample(sum);
+        for (const Transferred& light : transferred)
+            if (light.irradiance) pass.sample(light.irradiance);
+        pass.write(target);
+        pass.clear(target, vec4(0));
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            for (std::size_t i = 0; i < objects.size(); ++i) {
+                const views::DrawnObject& drawn = objects[i];
+                auto textures = drawn.field->bindings();
+                textures.push_back({"uSurface", resources[surface]});
+                textures.push_back({"uLights", resources[table]});
+                if (readsSum) textures.push_back({"uSum", resources[sum]});
+                if (!transferred.empty() && transferred[i].irradiance) {
+                    textures.push_back({"uIrradiance", resources[transferred[i].irradiance]});
+                    textures.push_back({"uGloss", transferred[i].gloss});
+                }
+                if (drawn.baseMap != graph::TextureHandle::None)
+                    textures.push_back({"uBaseMap", drawn.baseMap});
+                if (drawn.diffuseMap != graph::TextureHandle::None)
+                    textures.push_back({"uDiffuseMap", drawn.diffuseMap});
+                if (drawn.specularMap != graph::TextureHandle::None)
+                    textures.push_back({"uSpecularMap", drawn.specularMap});
+                commands.draw({.program = programs[i], .block = blocks[i], .textures = std::move(textures)});
+            }
+        };
+    });
+    return Done{};
+}
+
+} // namespace lucent::relief

@@ -1,0 +1,274 @@
+#include "techniques/subsurface/Past.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace lucent::subsurface {
+
+using graph::Format;
+using graph::TextureId;
+
+namespace {
+
+// By how much a lamp or the environment may turn between pictures that follow each other: 10 degrees, or of a
+// lamp that has a place, so much of its distance from the bodies.
+constexpr float kTurn = 0.17f;
+constexpr double kSquare = 8;                 // distances of points, a square over which light changes evenly
+constexpr int kLeastSide = 4, kMostSide = 64; // pixels, of a square
+
+struct CarriedBlock {
+    views::ViewBlock view;
+    mat4 thenFromNow{1};
+    int object = 0;
+    int padding[3] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = views::viewMembers(offsetof(CarriedBlock, view));
+            list.insert(list.end(), {{"thenFromNow", offsetof(CarriedBlock, thenFromNow)},
+                                     {"object", offsetof(CarriedBlock, object)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"CarriedBlock", sizeof(CarriedBlock), members};
+        return layout;
+    }
+};
+
+struct ChangeBlock {
+    int side;
+    float unit;
+    int padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {{"side", offsetof(ChangeBlock, side)},
+                                                             {"unit", offsetof(ChangeBlock, unit)}};
+        static const graph::BlockLayout layout{"ChangeBlock", sizeof(ChangeBlock), members};
+        return layout;
+    }
+};
+
+std::vector<float> numbersOf(const Settings& settings) {
+    return {float(settings.method),    float(settings.profile), float(settings.dipoleGeometry),
+            settings.epsilon,          float(settings.splats),  float(settings.mostSplats),
+            float(settings.blurEnergy)};
+}
+
+void addNumbers(std::vector<float>& numbers, const scene::Material& material) {
+    for (const diffusion::Medium& medium : diffusion::mediaOf(material)) {
+        numbers.insert(numbers.end(),
+                       {float(medium.scattering), float(medium.absorption), float(medium.ior)});
+        for (const diffusion::Slab& slab : medium.above)
+            numbers.insert(numbers.end(), {float(slab.scattering), float(slab.absorption), float(slab.ior),
+                                           float(slab.thickness)});
+    }
+    numbers.push_back(material.thickness);
+}
+
+Moment momentOf(const Inputs& in, const Plan::State& plan, const Settings& settings) {
+    Moment moment{.size = in.size,
+                  .eye = in.eye,
+                  .numbers = numbersOf(settings),
+                  .bodies = {},
+                  .lamps = views::lampPoints(in.scene, settings.lightSamples),
+                  .map = nullptr};
+    for (const Plan::State::Object& object : plan.objects) {
+        const scene::Object& body = in.scene.objects[std::size_t(object.index)];
+        moment.bodies.push_back({object.index, views::objectKey(body, in.scene.view.time), body.painting});
+        addNumbers(moment.numbers, body.material);
+    }
+    if (in.environment != graph::TextureHandle::None) {
+        moment.map = in.scene.environment->map;
+        moment.sky = vec4(in.scene.environment->rotation, in.scene.environment->intensity);
+    }
+    return moment;
+}
+
+bool isNear(const views::LampPoint& a, const views::LampPoint& b, const std::vector<Moment::Body>& bodies) {
+    if (a.color != b.color || a.place.w != b.place.w || a.fades != b.fades || a.cone != b.cone ||
+        a.exponent != b.exponent || glm::distance(a.axis, b.axis) > kTurn)
+        return false;
+    float reach = a.place.w == 0 ? 1 : 1e30f;
+    if (a.place.w != 0)
+        for (const Moment::Body& body : bodies)
+            reach = std::min(reach, glm::distance(vec3(a.place), vec3(body.key.worldFromObject[3])));
+    return glm::distance(vec3(a.place), vec3(b.place)) <= kTurn * reach;
+}
+
+// Nothing of the two tells them apart.
+bool isSame(const Moment& a, const Moment& b) {
+    const auto stands = [](const views::LampPoint& one, const views::LampPoint& other) {
+        return one.place == other.place && one.axis == other.axis;
+    };
+    return a.eye.clipFromWorld == b.eye.clipFromWorld && a.bodies == b.bodies && a.sky == b.sky &&
+           std::equal(a.lamps.begin(), a.lamps.end(), b.lamps.begin(), b.lamps.end(), stands);
+}
+
+// What carries the light of an object over; nothing where it bends, which no matrix does.
+std::optional<mat4> thenFromNow(const views::ObjectKey& now, const views::ObjectKey& then) {
+    if (now.shape != then.shape || now.numbers != then.numbers) return std::nullopt;
+    return then.worldFromObject * glm::inverse(now.worldFromObject);
+}
+
+// Pixels a side of a square over which the points' light is even.
+int sideOf(const Inputs& in, const Plan::State& plan) {
+    double side = kLeastSide;
+    for (const Plan::State::Object& object : plan.objects) {
+        const views::Bounds bounds = views::boundsOf(in.scene.objects[std::size_t(object.index)]);
+        const float depth = glm::dot(bounds.center() - in.eye.position, in.eye.forward);
+        const float pixel = 2 * in.eye.halfExtent.y / float(in.size.y) *
+                            (in.eye.perspective ? std::max(depth, in.eye.nearest) : 1.0f);
+        side = std::max(side, kSquare * object.profile->kernel.bands.front().spacing / double(pixel));
+    }
+    return int(std::min(std::ceil(side), double(kMostSide)));
+}
+
+// The passes of one picture.
+class Steady {
+public:
+    Steady(graph::FrameGraph& graph, gl::Context& context, const Inputs& in, const Radiosity& now,
+           const std::shared_ptr<Past>& past, int side)
+        : graph_(graph), context_(context), in_(in), now_(now), past_(past), block_{side, now.unit},
+          light_(import(past->light)), places_(import(past->places)) {}
+
+    Status carry(const Moment& moment);
+    Status change();
+    Result<Radiosity> record(Moment moment);
+
+private:
+    TextureId import(const graph::Texture& texture) {
+        const TextureId id = graph_.import(texture.handle(), texture.desc(), texture.label());
+        graph_.keep(id);
+        return id;
+    }
+
+    graph::FrameGraph& graph_;
+    gl::Context& context_;
+    const Inputs& in_;
+    const Radiosity& now_;
+    const std::shared_ptr<Past>& past_;
+    const ChangeBlock block_;
+    const TextureId light_, places_;
+    TextureId carried_, change_;
+};
+
+Status Steady::carry(const Moment& moment) {
+    Result<const gl::Program*> program = context_.program("subsurface/carried");
+    if (!program) return program.error();
+    const Moment& then = past_->moment;
+    std::vector<graph::Block> blocks;
+    for (std::size_t i = 0; i < moment.bodies.size(); ++i)
+        if (const auto matrix = thenFromNow(moment.bodies[i].key, then.bodies[i].key))
+            blocks.push_back(CarriedBlock{.view = views::viewBlock(then.eye, then.size),
+                                          .thenFromNow = *matrix,
+                                          .object = moment.bodies[i].index});
+    graph_.addPass("subsurface.carried", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what left in the picture before, where it is now");
+        for (const TextureId id : {now_.places, light_, places_})
+            pass.sample(id);
+        carried_ = pass.createColor("subsurface.carried", {.size = in_.size, .format = Format::RGBA32F});
+        pass.clear(carried_, vec4(0));
+        return [=, program = *program, now = now_.places, light = light_,
+                then = places_](const graph::Resources& resources, graph::Commands& commands) {
+            for (const graph::Block& block : blocks)
+                commands.draw({.program = program,
+                               .block = block,
+                               .textures = {{"uPlaces", resources[now]},
+                                            {"uThen", resources[then]},
+                                            {"uLight", resources[light]}}});
+        };
+    });
+    return Done{};
+}
+
+Status Steady::change() {
+    Result<const gl::Program*> program = context_.program("subsurface/change");
+    if (!program) return program.error();
+    graph_.addPass("subsurface.change", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("how light has changed over squares of " + std::to_string(block_.side) + " pixels");
+        for (const TextureId id : {now_.places, now_.light, carried_})
+            pass.sample(id);
+        change_ = pass.createColor("subsurface.change", {.size = (in_.size + block_.side - 1) / block_.side,
+                                                         .format = Format::RGBA32F});
+        return [program = *program, now = now_, carried = carried_,
+                block = block_](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uPlaces", resources[now.places]},
+                                        {"uNow", resources[now.light]},
+                                        {"uCarried", resources[carried]}}});
+        };
+    });
+    return Done{};
+}
+
+Result<Radiosity> Steady::record(Moment moment) {
+    const bool follows = bool(carried_);
+    Result<const gl::Program*> program = context_.program(
+        "subsurface/steady", follows ? std::vector<std::string>{"FOLLOWS"} : std::vector<std::string>{});
+    if (!program) return program.error();
+    graph_.addPass("subsurface.steady", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(follows ? "light that leaves, mixed with that of the picture before"
+                            : "light that leaves, kept for the next picture");
+        for (const TextureId id : {now_.places, now_.light})
+            pass.sample(id);
+        if (follows)
+            for (const TextureId id : {carried_, change_})
+                pass.sample(id);
+        pass.write(light_);
+        pass.write(places_);
+        return [=, program = *program, now = now_, carried = carried_, change = change_, block = block_,
+                past = past_,
+                moment = std::move(moment)](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{
+                .program = program,
+                .block = block,
+                .textures = {{"uPlaces", resources[now.places]}, {"uNow", resources[now.light]}}};
+            if (follows) {
+                draw.textures.push_back({"uCarried", resources[carried]});
+                draw.textures.push_back({"uChange", resources[change]});
+            }
+            commands.draw(draw);
+            past->moment = moment;
+            past->drawn = true;
+        };
+    });
+    return Radiosity{light_, 1, now_.places};
+}
+
+} // namespace
+
+bool follows(const Moment& now, const Moment& then) {
+    const auto isOne = [](const Moment::Body& a, const Moment::Body& b) {
+        return a.index == b.index && a.painting == b.painting;
+    };
+    const auto isNearOne = [&](const views::LampPoint& a, const views::LampPoint& b) {
+        return isNear(a, b, now.bodies);
+    };
+    return now.size == then.size && now.numbers == then.numbers &&
+           now.eye.perspective == then.eye.perspective && now.map == then.map && now.sky.w == then.sky.w &&
+           glm::distance(vec3(now.sky), vec3(then.sky)) <= glm::degrees(kTurn) &&
+           std::equal(now.bodies.begin(), now.bodies.end(), then.bodies.begin(), then.bodies.end(), isOne) &&
+           std::equal(now.lamps.begin(), now.lamps.end(), then.lamps.begin(), then.lamps.end(), isNearOne) &&
+           !isSame(now, then);
+}
+
+Result<Radiosity> recordSteady(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
+                               const Plan::State& plan, const Radiosity& now, const Settings& settings,
+                               const std::shared_ptr<Past>& past) {
+    const graph::TextureDesc desc{.size = in.size, .format = Format::RGBA32F};
+    if (!past->light || past->light.desc() != desc) {
+        past->light = graph::Texture(context.device(), desc, "subsurface.past");
+        past->places = graph::Texture(context.device(), desc, "subsurface.pastPlaces");
+        past->drawn = false;
+    }
+    Moment moment = momentOf(in, plan, settings);
+    Steady steady(graph, context, in, now, past, sideOf(in, plan));
+    if (past->drawn && follows(moment, past->moment)) {
+        if (Status s = steady.carry(moment); !s) return s.error();
+        if (Status s = steady.change(); !s) return s.error();
+    }
+    return steady.record(std::move(moment));
+}
+
+} // namespace lucent::subsurface

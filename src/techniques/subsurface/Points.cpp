@@ -1,0 +1,271 @@
+#include "techniques/subsurface/Points.h"
+
+#include "base/Log.h"
+#include "light/ShadowMap.h"
+#include "views/Surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace lucent::subsurface {
+
+using graph::Format;
+using graph::TextureId;
+
+namespace {
+
+struct FluxBlock {
+    views::ViewBlock view;
+    vec4 color{0}, axis{0};
+    vec4 sky[9] = {};
+    vec4 sharpness{0};
+    vec2 cone{0};
+    int object = 0;
+    float ior = 1;
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = views::viewMembers(offsetof(FluxBlock, view));
+            list.insert(list.end(), {{"color", offsetof(FluxBlock, color)},
+                                     {"axis", offsetof(FluxBlock, axis)},
+                                     {"sky", offsetof(FluxBlock, sky)},
+                                     {"sharpness", offsetof(FluxBlock, sharpness)},
+                                     {"cone", offsetof(FluxBlock, cone)},
+                                     {"object", offsetof(FluxBlock, object)},
+                                     {"ior", offsetof(FluxBlock, ior)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"FluxBlock", sizeof(FluxBlock), members};
+        return layout;
+    }
+};
+
+struct MergeBlock {
+    float width;
+    int perspective;
+    int padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {
+            {"width", offsetof(MergeBlock, width)}, {"perspective", offsetof(MergeBlock, perspective)}};
+        static const graph::BlockLayout layout{"MergeBlock", sizeof(MergeBlock), members};
+        return layout;
+    }
+};
+
+constexpr const char* kPlace = "subsurface.place";
+constexpr const char* kFlux = "subsurface.flux";
+constexpr const char* kNormal = "subsurface.normal";
+constexpr const char* kSharpness = "subsurface.sharpness";
+
+Level createLevel(graph::PassBuilder& pass, ivec2 size, bool painted) {
+    const graph::TextureDesc desc{.size = size, .format = Format::RGBA32F};
+    Level level{.place = pass.createColor(kPlace, desc),
+                .flux = pass.createColor(kFlux, desc),
+                .normal = pass.createColor(kNormal, desc),
+                .size = size};
+    if (painted) level.sharpness = pass.createColor(kSharpness, {.size = size, .format = Format::R32F});
+    return level;
+}
+
+Result<Level> recordMerge(graph::FrameGraph& graph, gl::Context& context, const Level& fine,
+                          const MergeBlock& block) {
+    const bool painted = bool(fine.sharpness);
+    Result<const gl::Program*> program = context.program(
+        "subsurface/merge", painted ? std::vector<std::string>{"PAINTED"} : std::vector<std::string>{});
+    if (!program) return program.error();
+    Level level;
+    graph.addPass("subsurface.merge", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("points for four blocks each");
+        for (const TextureId id : {fine.place, fine.flux, fine.normal})
+            pass.sample(id);
+        if (painted) pass.sample(fine.sharpness);
+        level = createLevel(pass, (fine.size + 1) / 2, painted);
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{.program = program,
+                             .block = block,
+                             .textures = {{"uPlace", resources[fine.place]},
+                                          {"uFlux", resources[fine.flux]},
+                                          {"uNormal", resources[fine.normal]}}};
+            if (painted) draw.textures.push_back({"uSharpness", resources[fine.sharpness]});
+            commands.draw(draw);
+        };
+    });
+    return level;
+}
+
+Result<Points> recordPoints(graph::FrameGraph& graph, gl::Context& context, const FluxBlock& block,
+                            TextureId surface, TextureId paint, bool fromSky, ivec2 size, int levels,
+                            const std::string& name) {
+    std::vector<std::string> defines;
+    if (fromSky) defines.push_back("FROM_SKY");
+    if (paint) defines.push_back("PAINTED");
+    Result<const gl::Program*> program = context.program("subsurface/flux", defines);
+    if (!program) return program.error();
+    Points points;
+    graph.addPass("subsurface.flux", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("light that enters object \"" + name + "\"");
+        pass.sample(surface);
+        if (paint) pass.sample(paint);
+        points.push_back(createLevel(pass, size, bool(paint)));
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{
+                .program = program, .block = block, .textures = {{"uSurface", resources[surface]}}};
+            if (paint) draw.textures.push_back({"uPaint", resources[paint]});
+            commands.draw(draw);
+        };
+    });
+    float width = std::max(glm::length(vec3(block.view.right)), glm::length(vec3(block.view.up)));
+    while (int(points.size()) < levels && points.back().size != ivec2(1)) {
+        width *= 2;
+        Result<Level> level = recordMerge(graph, context, points.back(), {width, int(block.view.eye.w)});
+        if (!level) return level.error();
+        points.push_back(*level);
+    }
+    return points;
+}
+
+FluxBlock blockOf(const views::Eye& eye, ivec2 size, const views::PosedMesh& object,
+                  const Sharpness& sharpness) {
+    FluxBlock block{.view = views::viewBlock(eye, size)};
+    block.sharpness = {sharpness.most, sharpness.spread, sharpness.blur, float(sharpness.paper)};
+    block.object = object.drawn.index;
+    block.ior = object.drawn.object->material.surfaceIor();
+    return block;
+}
+
+Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::Eye& eye,
+                  const views::PosedMesh& object, ivec2 size, TextureId before, TextureId& layer,
+                  TextureId& paint) {
+    std::vector<std::string> defines;
+    if (!before) defines.push_back("PEEL_FIRST");
+    if (object.drawn.paint) defines.push_back("PAINTED");
+    Result<const gl::Program*> program = context.program("subsurface/peel", defines);
+    if (!program) return program.error();
+    graph.addPass("subsurface.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("a surface of object \"" + object.drawn.object->name + "\" that the environment lights");
+        pass.sample(object.positions);
+        pass.sample(object.normals);
+        if (before) pass.sample(before);
+        layer = pass.createColor("subsurface.layer", {.size = size, .format = Format::RGBA32F});
+        pass.clear(layer, vec4(0));
+        if (object.drawn.paint) {
+            paint = pass.createColor("subsurface.paint", {.size = size, .format = Format::RGBA32F});
+            pass.clear(paint, vec4(1));
+        }
+        pass.clear(pass.createDepth("subsurface.depth", size, Format::Depth32F), 1.0f);
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{.depthTest = graph::DepthTest::Less};
+            if (object.drawn.paint) draw.textures = views::enteringBindings(*object.drawn.paint);
+            if (before) draw.textures.push_back({"uBefore", resources[before]});
+            drawMesh(commands, *program, resources, object, eye, size, object.drawn.index, std::move(draw));
+        };
+    });
+    return Done{};
+}
+
+// @param move  without scale
+views::Eye moved(views::Eye eye, const mat4& move) {
+    eye.clipFromWorld = eye.clipFromWorld * glm::inverse(move);
+    eye.position = vec3(move * vec4(eye.position, 1));
+    for (vec3* direction : {&eye.forward, &eye.right, &eye.up})
+        *direction = mat3(move) * *direction;
+    return eye;
+}
+
+// More pixels across a flat object that a lamp grazes: there each stands for a strip that is so much longer.
+ivec2 pixelsOfGrazed(ivec2 size, const views::Eye& eye, const views::Bounds& object, const Grid& grid) {
+    constexpr float kSteepest = 4; // what finer levels of points make up for
+    const vec3 box = object.high - object.low;
+    const auto along = [&](const vec3& axis) { return glm::dot(glm::abs(axis), box); };
+    const vec2 seen = glm::max(vec2(along(eye.right), along(eye.up)), vec2(1e-12f));
+    const vec2 steeper = glm::max(along(eye.forward) / seen / kSteepest, vec2(1));
+    const float longest = std::min(glm::length(box) / grid.pixel, float(grid.most));
+    return glm::max(size, ivec2(glm::min(vec2(size) * steeper, vec2(longest))));
+}
+
+} // namespace
+
+ivec2 pixelsOf(const views::Eye& eye, const scene::Object& object, const Grid& grid) {
+    const views::Bounds bounds = views::boundsOf(object);
+    const float farthest = glm::dot(bounds.center() - eye.position, eye.forward) + bounds.radius();
+    const vec2 extent = 2.0f * eye.halfExtent * (eye.perspective ? farthest : 1.0f);
+    const vec2 wanted = glm::ceil(extent / grid.pixel);
+    const float most = std::max(wanted.x, wanted.y);
+    if (most > grid.spare * float(grid.most))
+        warnOnce("subsurface: a light's view of object \"" + object.name + "\" asks for " +
+                 std::to_string(std::int64_t(most)) + " pixels a side; " + std::to_string(grid.most) +
+                 " are drawn, and its light is patchy");
+    return glm::clamp(ivec2(glm::min(wanted, vec2(float(grid.most)))), ivec2(1), ivec2(grid.most));
+}
+
+Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const views::LampPoint& lamp,
+                         const views::Eye& face, const views::PosedMesh& object,
+                         const std::vector<views::PosedMesh>& casters, const Grid& grid) {
+    const views::Bounds bounds = views::boundsOf(*object.drawn.object);
+    const ivec2 size = pixelsOfGrazed(pixelsOf(face, *object.drawn.object, grid), face, bounds, grid);
+    const TextureId surface = graph.create("subsurface.lit", {.size = size, .format = Format::RGBA32F});
+    if (Status s = views::recordSurface(graph, context, face, {}, casters, surface, size); !s)
+        return s.error();
+    TextureId paint;
+    if (object.drawn.paint) {
+        Result<TextureId> drawn = views::recordEntering(graph, context, face, object, size);
+        if (!drawn) return drawn.error();
+        paint = *drawn;
+    }
+    FluxBlock block = blockOf(face, size, object, grid.sharpness);
+    block.color = vec4(lamp.color, lamp.exponent);
+    block.axis = vec4(lamp.axis, lamp.fades);
+    block.cone = lamp.cone;
+    return recordPoints(graph, context, block, surface, paint, false, size, grid.levels,
+                        object.drawn.object->name);
+}
+
+Result<std::vector<Points>> recordSky(graph::FrameGraph& graph, gl::Context& context, const views::Eye& axis,
+                                      const views::PosedMesh& object, int layers,
+                                      const std::array<vec3, 9>& sky, const Grid& grid) {
+    const ivec2 size = pixelsOf(axis, *object.drawn.object, grid);
+    FluxBlock block = blockOf(axis, size, object, grid.sharpness);
+    std::transform(sky.begin(), sky.end(), block.sky, [](vec3 one) { return vec4(one, 0); });
+    std::vector<Points> list;
+    TextureId before;
+    for (int i = 0; i < layers; ++i) {
+        TextureId layer, paint;
+        if (Status s = recordPeel(graph, context, axis, object, size, before, layer, paint); !s)
+            return s.error();
+        Result<Points> points = recordPoints(graph, context, block, layer, paint, true, size, grid.levels,
+                                             object.drawn.object->name);
+        if (!points) return points.error();
+        list.push_back(std::move(*points));
+        before = layer;
+    }
+    return list;
+}
+
+scene::Object unmoved(const scene::Object& object) {
+    scene::Object same = object;
+    same.transform = {.scale = object.transform.scale};
+    return same;
+}
+
+std::array<views::Eye, 3> axesOf(const views::Bounds& box, int size) {
+    std::array<views::Eye, 3> axes;
+    for (int i = 0; i < 3; ++i) {
+        views::ShadowSource source{.place = vec4(0)};
+        source.place[i] = 1;
+        axes[std::size_t(i)] = views::shadowViews(source, box, box, size).faces.front();
+    }
+    return axes;
+}
+
+std::array<views::Eye, 3> axesOf(const scene::Object& object, int size) {
+    const scene::Object before = unmoved(object);
+    const mat4 move = object.transform.worldFromObject() * glm::inverse(before.transform.worldFromObject());
+    std::array<views::Eye, 3> axes = axesOf(views::boundsOf(before), size);
+    for (views::Eye& eye : axes)
+        eye = moved(eye, move);
+    return axes;
+}
+
+} // namespace lucent::subsurface

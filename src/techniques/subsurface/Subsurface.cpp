@@ -1,0 +1,575 @@
+#include "techniques/subsurface/Subsurface.h"
+
+#include "base/Log.h"
+#include "techniques/subsurface/Lambert.h"
+#include "techniques/subsurface/Past.h"
+#include "techniques/subsurface/Splatting.h"
+#include "techniques/subsurface/Volume.h"
+#include "views/Layers.h"
+#include "light/ShadowMap.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace lucent::subsurface {
+
+using graph::TextureId;
+
+namespace {
+
+constexpr std::string_view kMethods[] = {"multires", "splat", "diffusion", "lambert"};
+constexpr std::string_view kProfiles[] = {"dipole", "multipole", "burley"};
+constexpr std::string_view kGeometries[] = {"planar", "offset"};
+constexpr std::string_view kSplats[] = {"bound", "paper"};
+constexpr std::string_view kExits[] = {"whole", "paper"};
+constexpr std::string_view kBlurEnergies[] = {"kept", "paper"};
+
+struct HighlightBlock {
+    views::ViewBlock view;
+    views::ViewBlock faces[views::ShadowViews::kMost];
+    vec4 place{0}, color{0}, axis{0};
+    vec2 cone{0};
+    int faceCount = 0, object = 0;
+    float ior = 1, roughness = 0;
+    float padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = views::viewMembers(offsetof(HighlightBlock, view));
+            list.insert(list.end(), {{"faces[0].eye", offsetof(HighlightBlock, faces)},
+                                     {"faces[1].size", offsetof(HighlightBlock, faces[1].size)},
+                                     {"place", offsetof(HighlightBlock, place)},
+                                     {"color", offsetof(HighlightBlock, color)},
+                                     {"axis", offsetof(HighlightBlock, axis)},
+                                     {"cone", offsetof(HighlightBlock, cone)},
+                                     {"faceCount", offsetof(HighlightBlock, faceCount)},
+                                     {"object", offsetof(HighlightBlock, object)},
+                                     {"ior", offsetof(HighlightBlock, ior)},
+                                     {"roughness", offsetof(HighlightBlock, roughness)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"HighlightBlock", sizeof(HighlightBlock), members};
+        return layout;
+    }
+};
+
+struct ShadeBlock {
+    views::ViewBlock view;
+    mat4 mapFromWorld{1};
+    float ior = 1, roughness = 0, mean = 1, intensity = 0;
+    int object = 0;
+    float unit = 1;
+    int padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = views::viewMembers(offsetof(ShadeBlock, view));
+            list.insert(list.end(), {{"mapFromWorld", offsetof(ShadeBlock, mapFromWorld)},
+                                     {"ior", offsetof(ShadeBlock, ior)},
+                                     {"roughness", offsetof(ShadeBlock, roughness)},
+                                     {"mean", offsetof(ShadeBlock, mean)},
+                                     {"intensity", offsetof(ShadeBlock, intensity)},
+                                     {"object", offsetof(ShadeBlock, object)},
+                                     {"unit", offsetof(ShadeBlock, unit)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"SubsurfaceShadeBlock", sizeof(ShadeBlock), members};
+        return layout;
+    }
+};
+
+bool scatters(const scene::Object& object) {
+    return object.visible && !object.isField() && object.material.isScattering();
+}
+
+// Those whose pixels are drawn here.
+std::vector<views::PosedMesh> scattering(const std::vector<views::PosedMesh>& solids) {
+    std::vector<views::PosedMesh> list = solids;
+    std::erase_if(list, [](const views::PosedMesh& mesh) { return !scatters(*mesh.drawn.object); });
+    return list;
+}
+
+// Not a picture but the light at the surface.
+bool showsLight(const Inputs& in) { return in.radiosity || in.irradiance; }
+
+bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
+
+// Adds the highlights of one point of a lamp on all objects to those before it; or to none.
+Result<TextureId> recordHighlight(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
+                                  const std::vector<views::PosedMesh>& objects, const views::LampPoint& lamp,
+                                  TextureId before) {
+    Result<LampShadow> lampShadow = recordLampShadow(graph, context, in, objects, lamp);
+    if (!lampShadow) return lampShadow.error();
+    const views::ShadowViews& views = lampShadow->views;
+    const TextureId shadow = lampShadow->map;
+    std::vector<std::string> defines;
+    if (shadow) defines.push_back("USE_SHADOW");
+    if (before) defines.push_back("USE_BEFORE");
+    Result<const gl::Program*> program = context.program("subsurface/highlight", defines);
+    if (!program) return program.error();
+    std::vector<graph::Block> blocks;
+    for (const views::PosedMesh& mesh : objects) {
+        const scene::Material& material = mesh.drawn.object->material;
+        HighlightBlock block{.view = views::viewBlock(in.eye, in.size),
+                             .faces = {},
+                             .place = lamp.place,
+                             .color = vec4(lamp.color, lamp.exponent),
+                             .axis = vec4(lamp.axis, lamp.fades),
+                             .cone = lamp.cone,
+                             .faceCount = int(views.faces.size()),
+                             .object = mesh.drawn.index,
+                             .ior = material.surfaceIor(),
+                             .roughness = material.roughness};
+        for (std::size_t i = 0; i < views.faces.size(); ++i)
+            block.faces[i] = views::viewBlock(views.faces[i], ivec2(views.size));
+        blocks.push_back(block);
+    }
+    TextureId sum;
+    graph.addPass("subsurface.highlight", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("light of one point of a lamp that scattering objects mirror");
+        pass.sample(in.surface);
+        if (shadow) pass.sample(shadow);
+        if (before) pass.sample(before);
+        sum = pass.createColor("subsurface.highlight", {.size = in.size, .format = graph::Format::RGBA32F});
+        pass.clear(sum, vec4(0));
+        return [=, surface = in.surface, program = *program](const graph::Resources& resources,
+                                                             graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
+            if (shadow) textures.push_back({"uShadow", resources[shadow]});
+            if (before) textures.push_back({"uBefore", resources[before]});
+            for (const graph::Block& block : blocks)
+                commands.draw({.program = program, .block = block, .textures = textures});
+        };
+    });
+    return sum;
+}
+
+ShadeBlock shadeBlock(const Inputs& in, const views::PosedMesh& mesh, float unit, const Settings& settings) {
+    const scene::Material& material = mesh.drawn.object->material;
+    ShadeBlock block{.view = views::viewBlock(in.eye, in.size),
+                     .ior = material.surfaceIor(),
+                     .roughness = material.roughness,
+                     .object = mesh.drawn.index,
+                     .unit = unit};
+    if (settings.exit == Exit::Whole) block.mean = float(diffusion::meanTransmittance(material.surfaceIor()));
+    if (in.environment != graph::TextureHandle::None) {
+        block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.scene.environment->rotation)));
+        block.intensity = in.scene.environment->intensity;
+    }
+    return block;
+}
+
+// Draws objects of which all are painted, or none.
+//
+// @param paint  what is painted on them where the camera sees them; or none
+Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
+                   const std::vector<views::PosedMesh>& objects, const Radiosity& leaving,
+                   TextureId highlight, TextureId paint, const Settings& settings) {
+    if (objects.empty()) return Done{};
+    const bool hasSky = in.environment != graph::TextureHandle::None && !showsLight(in);
+    std::vector<std::string> defines;
+    if (highlight) defines.push_back("USE_LAMPS");
+    if (hasSky) defines.push_back("USE_SKY");
+    if (showsLight(in)) defines.push_back("SHOW_RADIOSITY");
+    if (paint) defines.push_back("PAINTED");
+    Result<const gl::Program*> program = context.program("subsurface/shade", defines);
+    if (!program) return program.error();
+    std::vector<graph::Block> blocks;
+    for (const views::PosedMesh& mesh : objects)
+        blocks.push_back(shadeBlock(in, mesh, leaving.unit, settings));
+    const TextureId radiosity = leaving.light, matt = paint ? in.matt : TextureId{};
+    graph.addPass("subsurface.shade", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(std::to_string(objects.size()) + (paint ? " painted" : "") +
+                    " object(s) in which light scatters" +
+                    (hasSky ? "; the environment lights them past everything" : ""));
+        pass.sample(in.surface);
+        pass.sample(radiosity);
+        if (highlight) pass.sample(highlight);
+        if (paint) pass.sample(paint);
+        if (matt) pass.sample(matt);
+        pass.write(in.target);
+        return [=, surface = in.surface, environment = in.environment,
+                program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
+                                                 {"uRadiosity", resources[radiosity]}};
+            if (highlight) textures.push_back({"uHighlight", resources[highlight]});
+            if (hasSky) textures.push_back({"uEnvironment", environment});
+            if (paint) textures.push_back({"uPaint", resources[paint]});
+            if (matt) textures.push_back({"uMatt", resources[matt]});
+            for (const graph::Block& block : blocks)
+                commands.draw({.program = program, .block = block, .textures = textures});
+        };
+    });
+    return Done{};
+}
+
+struct LayerBlock {
+    int object = 0, layer = 0;
+    int padding[2] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const graph::BlockLayout::Member members[] = {{"object", offsetof(LayerBlock, object)},
+                                                             {"layer", offsetof(LayerBlock, layer)}};
+        static const graph::BlockLayout layout{"PaintLayerBlock", sizeof(LayerBlock), members};
+        return layout;
+    }
+};
+
+// Shows what is painted on objects in place of their light.
+Status recordLayer(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
+                   const std::vector<views::PosedMesh>& painted, PaintLayer layer) {
+    const bool entering = layer == PaintLayer::Blur || layer == PaintLayer::Glow;
+    Result<TextureId> map = entering ? views::recordEnteringMap(graph, context, in.eye, painted, in.size)
+                                     : views::recordLeaving(graph, context, in.eye, painted, in.size);
+    if (!map) return map.error();
+    Result<const gl::Program*> program = context.program("subsurface/layer");
+    if (!program) return program.error();
+    std::vector<graph::Block> blocks;
+    for (const views::PosedMesh& mesh : painted)
+        blocks.push_back(LayerBlock{.object = mesh.drawn.index, .layer = int(layer)});
+    graph.addPass("subsurface.layer", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what is painted on " + std::to_string(painted.size()) +
+                    " object(s), in place of their light");
+        pass.sample(in.surface);
+        pass.sample(*map);
+        pass.write(in.target);
+        return [blocks, surface = in.surface, paint = *map,
+                program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            for (const graph::Block& block : blocks)
+                commands.draw({.program = program,
+                               .block = block,
+                               .textures = {{"uSurface", resources[surface]}, {"uPaint", resources[paint]}}});
+        };
+    });
+    return Done{};
+}
+
+// --- plan
+
+// What a kernel is made of.
+struct Wanted {
+    std::array<diffusion::Medium, 3> media;
+    KernelWish wish;
+    Settings settings;
+    double width = 0; // m, of a light's view at most
+
+    std::vector<float> key() const {
+        std::vector<float> list;
+        for (const diffusion::Medium& medium : media)
+            for (const diffusion::Slab& slab : medium.above)
+                list.insert(list.end(), {float(slab.scattering), float(slab.absorption), float(slab.ior),
+                                         float(slab.thickness)});
+        for (const diffusion::Medium& medium : media)
+            list.insert(list.end(), {float(medium.scattering), float(medium.absorption), float(medium.ior)});
+        list.insert(list.end(),
+                    {float(wish.thickness), float(wish.size), float(width), float(wish.sharpest),
+                     float(settings.method), float(settings.profile), float(settings.dipoleGeometry),
+                     settings.epsilon, float(settings.splats), float(settings.mostSplats)});
+        return list;
+    }
+};
+
+// Over a light's view of an object that is not turned; by steps of a fifth, so that tables stay while it
+// turns.
+double widerTurned(const scene::Object& object) {
+    const float wider = views::boundsOf(object).radius() / views::boundsOf(unmoved(object)).radius();
+    return std::exp2(std::ceil(4 * std::log2(double(wider)) - 0.01) / 4);
+}
+
+Wanted wantedOf(const views::DrawnMesh& mesh, const Settings& settings) {
+    const scene::Object& object = *mesh.object;
+    Wanted wanted{.media = diffusion::mediaOf(object.material), .wish = {}, .settings = settings};
+    KernelWish& wish = wanted.wish;
+    wish.shape = settings.profile;
+    wish.thickness = object.material.thickness;
+    wish.epsilon = settings.epsilon;
+    wish.size = 2 * views::boundsOf(unmoved(object)).radius();
+    // In octaves, so that tables stay while someone paints.
+    if (mesh.paint) wish.sharpest = std::exp2(std::max(0.0f, std::ceil(std::log2(mesh.paint->sharpest))));
+    const bool bound = settings.splats == Splats::Bound;
+    wanted.width = wish.size * widerTurned(object);
+    wish.leastSpacing = bound ? wanted.width / (kTilt * settings.mostSplats) : 0;
+    wish.split = bound && settings.method == Method::Multires;
+    const bool layered = settings.profile == diffusion::Shape::Multipole && wanted.media[0].isLayered();
+    wish.shares = settings.dipoleGeometry == DipoleGeometry::Offset &&
+                  settings.profile != diffusion::Shape::Burley && !layered; // layers have no poles
+    return wanted;
+}
+
+// The dissertation's number of splats, as many of them as there may be.
+void usePapersSplats(Kernel& kernel, const Wanted& wanted, const std::string& name) {
+    const double wish = papersSplats(wanted.media, wanted.wish, wanted.width);
+    const double splats = std::min(wish, double(wanted.settings.mostSplats));
+    if (splats < wish)
+        warnOnce("subsurface: eq. 6.17 and 6.18 ask for " + std::to_string(std::llround(wish)) +
+                 " splats a side of object \"" + name + "\"; " + std::to_string(wanted.settings.mostSplats) +
+                 " are drawn");
+    kernel.bands.front().spacing = wanted.width / splats;
+}
+
+std::shared_ptr<const Profiled> profileOf(gl::Context& context, const Wanted& wanted,
+                                          const std::string& name) {
+    auto profiled = std::make_shared<Profiled>();
+    profiled->key = wanted.key();
+    profiled->kernel = kernelOf(wanted.media, wanted.wish);
+    if (wanted.settings.splats == Splats::Paper) usePapersSplats(profiled->kernel, wanted, name);
+    if (profiled->kernel.blur > 0)
+        warnOnce("subsurface: object \"" + name + "\" is " + std::to_string(wanted.wish.size) +
+                 " m wide and its light reaches less far than mostSplats can tell apart; it is blurred by " +
+                 std::to_string(profiled->kernel.blur) + " m");
+    constexpr double kPoleError = 1e-4; // of the profile's largest value: 24 poles at most
+    if (wanted.wish.shares && profiled->kernel.blur == 0)
+        for (std::size_t c = 0; c < 3; ++c)
+            profiled->poles[c] = diffusion::polesOf(
+                wanted.media[c], wanted.wish.shape == diffusion::Shape::Multipole ? wanted.wish.thickness : 0,
+                kPoleError);
+    for (const Band& band : profiled->kernel.bands) {
+        const graph::TextureDesc desc{.size = {int(band.table.size()), 1}, .format = graph::Format::RGBA32F};
+        profiled->tables.emplace_back(context.device(), desc, "subsurface.table");
+        context.device().upload(profiled->tables.back().handle(), 0, band.table);
+    }
+    return profiled;
+}
+
+// Says what of M_d is not drawn.
+void warnOfPaint(const views::DrawnMesh& mesh, const Grid& grid, const Settings& settings) {
+    const views::Paint& paint = *mesh.paint;
+    const std::string object = "subsurface: object \"" + mesh.object->name + "\" is painted with ";
+    if (settings.method == Method::Diffusion) {
+        if (paint.isBlurred()) warnOnce(object + "blur, which method diffusion does not draw");
+    } else if (paint.sharpest > grid.sharpness.most) {
+        warnOnce(object + "less blur than mostSplats can tell apart; M_d counts as " +
+                 std::to_string(grid.sharpness.most) + " at most");
+    }
+}
+
+} // namespace
+
+const ParamTable& Subsurface::params() {
+    static const Param list[] = {
+        declare(&Settings::method,
+                {.id = "method",
+                 .label = "Method",
+                 .group = Group::Subsurface,
+                 .doc =
+                     "How light is summed: near and far light apart, far light with few points and on few "
+                     "pixels; every splat on every pixel, as in the dissertation; by solving diffusion "
+                     "in cells of the body itself, which is right behind bodies and in thin parts too; or, "
+                     "for comparison, lambert: as if light left where it entered.",
+                 .choices = kMethods}),
+        declare(&Settings::profile,
+                {.id = "profile",
+                 .label = "Profile",
+                 .group = Group::Subsurface,
+                 .doc =
+                     "What leaves around the place where light entered: a dipole; a multipole, for slabs of "
+                     "the material's thickness and for its layers; or Burley's normalised diffusion.",
+                 .choices = kProfiles}),
+        declare(&Settings::dipoleGeometry,
+                {.id = "dipoleGeometry",
+                 .label = "Dipole geometry",
+                 .group = Group::Subsurface,
+                 .doc =
+                     "Where the sources of dipole and multipole stand on a curved surface: planar, by the "
+                     "distance alone; offset, along the normal where light entered, which leaves less light "
+                     "behind a body.",
+                 .choices = kGeometries}),
+        declare(&Settings::epsilon,
+                {.id = "epsilon",
+                 .label = "Error",
+                 .min = 1e-4,
+                 .max = 0.5,
+                 .low = 1e-3,
+                 .high = 0.1,
+                 .logarithmic = true,
+                 .group = Group::Subsurface,
+                 .doc = "Of the sum over points, over the integral that it stands for: it "
+                        "decides how far splats reach and how many there are."}),
+        declare(&Settings::splats,
+                {.id = "splats",
+                 .label = "Number of splats",
+                 .group = Group::Subsurface,
+                 .doc =
+                     "By the bound on what a lattice of points misses; or by the dissertation's eq. 6.17 and "
+                     "6.18, which ask for many more.",
+                 .choices = kSplats}),
+        declare(&Settings::mostSplats,
+                {.id = "mostSplats",
+                 .label = "Most splats",
+                 .min = 16,
+                 .max = 1024,
+                 .low = 32,
+                 .high = 512,
+                 .logarithmic = true,
+                 .group = Group::Subsurface,
+                 .doc = "Along a side of a light's view. Where more were needed light is "
+                        "blurred until these suffice."}),
+        declare(&Settings::exit,
+                {.id = "exit",
+                 .label = "Light that leaves",
+                 .group = Group::Subsurface,
+                 .doc = "Whole: what arrives below the surface leaves it; paper: the surface keeps its mean "
+                        "reflection a second time, as in the dissertation's eq. 6.13.",
+                 .choices = kExits}),
+        declare(&Settings::blurEnergy,
+                {.id = "blurEnergy",
+                 .label = "Light where blur is painted",
+                 .group = Group::Light,
+                 .doc =
+                     "Kept: as much leaves however far it spreads; paper: as the dissertation's eq. 7.4 has "
+                     "it, where twice the spread is four times the light.",
+                 .choices = kBlurEnergies}),
+        declare(
+            &Settings::lightSamples,
+            {.id = "lightSamples",
+             .label = "Points of a lamp in scattering",
+             .min = 1,
+             .max = 256,
+             .low = 1,
+             .high = 64,
+             .logarithmic = true,
+             .group = Group::Subsurface,
+             .doc = "How many points stand for a lamp that has a size, where it lights scattering objects."}),
+        declare(
+            &Settings::cells,
+            {.id = "cells",
+             .label = "Cells",
+             .min = 8,
+             .max = 128,
+             .low = 16,
+             .high = 96,
+             .group = Group::Subsurface,
+             .doc =
+                 "Along the longest side of a body, of method diffusion: details of light finer than a cell "
+                 "are lost, and thinner parts shine alike on both sides."}),
+        declare(&Settings::temporal,
+                {.id = "temporal",
+                 .label = "Steady between pictures",
+                 .group = Group::Subsurface,
+                 .doc = "Mixes what leaves with what left there in the picture before, so that few splats "
+                        "flicker less where things turn. It changes no single picture, and none that is "
+                        "drawn again as it was."}),
+    };
+    static const ParamTable table = tableOf<Settings>("subsurface", list, "Light inside");
+    return table;
+}
+
+bool acts(const Settings& settings, std::string_view id) {
+    const bool sums = settings.method == Method::Multires || settings.method == Method::Splat;
+    return id != "temporal" || sums;
+}
+
+std::optional<std::string> Subsurface::need(const scene::Scene& scene) {
+    for (const scene::Object& object : scene.objects)
+        if (scatters(object)) return "light scatters inside object \"" + object.name + "\"";
+    return std::nullopt;
+}
+
+Plan::Plan() : state_(std::make_unique<State>()) {}
+Plan::Plan(Plan&&) noexcept = default;
+Plan& Plan::operator=(Plan&&) noexcept = default;
+Plan::~Plan() = default;
+
+Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scene,
+                              const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
+    Plan plan;
+    std::vector<std::shared_ptr<const Profiled>> used;
+    for (const views::DrawnMesh& mesh : meshes) {
+        if (!scatters(*mesh.object) || settings.method == Method::Lambert) continue;
+        Plan::State::Object object{.index = mesh.index, .profile = nullptr, .layers = {}};
+        const Wanted wanted = wantedOf(mesh, settings);
+        const auto known =
+            std::find_if(profiles_.begin(), profiles_.end(),
+                         [key = wanted.key()](const auto& profile) { return profile->key == key; });
+        object.profile = known != profiles_.end() ? *known : profileOf(context_, wanted, mesh.object->name);
+        if (known == profiles_.end()) profiles_.push_back(object.profile);
+        used.push_back(object.profile);
+        const Grid grid = layoutOf(*object.profile, mesh, settings, context_.caps().maxTextureSize).grid;
+        if (mesh.paint) warnOfPaint(mesh, grid, settings);
+        if (hasEnvironment(scene) || settings.method == Method::Diffusion) {
+            const Result<std::array<int, 3>> layers =
+                countLayers(pool, mesh, scene.view.time, settings, grid);
+            if (!layers) return layers.error();
+            object.layers = *layers;
+        }
+        plan.state_->objects.push_back(std::move(object));
+    }
+    profiles_ = std::move(used); // of the last scene only
+    if (settings.method != Method::Diffusion)
+        volumes_.reset();
+    else if (!volumes_)
+        volumes_ = std::make_shared<Volumes>();
+    if (!settings.temporal || !acts(settings, "temporal"))
+        past_.reset();
+    else if (!past_)
+        past_ = std::make_shared<Past>();
+    return plan;
+}
+
+Result<std::array<int, 3>> Subsurface::countLayers(graph::TexturePool& pool, const views::DrawnMesh& mesh,
+                                                   float time, const Settings& settings, const Grid& grid) {
+    // Cells lie along the world's axes, points along the object's own.
+    const bool inCells = settings.method == Method::Diffusion;
+    const std::array<views::Eye, 3> axes =
+        inCells ? axesOf(views::boundsOf(*mesh.object), grid.most) : axesOf(*mesh.object, grid.most);
+    Counted now{.key = views::objectKey(inCells ? *mesh.object : unmoved(*mesh.object), time),
+                .sizes = {},
+                .layers = {}};
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        now.sizes[i] = pixelsOf(axes[i], *mesh.object, grid);
+    Counted& known = counted_[mesh.index];
+    if (!mesh.water && known.key == now.key && known.sizes == now.sizes) return known.layers;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const Result<int> count = views::countLayers(pool, context_, axes[i], {mesh}, time, now.sizes[i]);
+        if (!count) return count.error();
+        now.layers[i] = *count;
+    }
+    known = now;
+    return now.layers;
+}
+
+void Subsurface::clear() {
+    counted_.clear();
+    profiles_.clear();
+    volumes_.reset();
+    past_.reset();
+}
+
+Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
+                          const Settings& settings) const {
+    std::vector<views::PosedMesh> objects = scattering(in.solids);
+    if (settings.layer != PaintLayer::None && !showsLight(in)) {
+        const auto rest = std::stable_partition(
+            objects.begin(), objects.end(), [](const views::PosedMesh& mesh) { return !mesh.drawn.paint; });
+        const std::vector<views::PosedMesh> painted(rest, objects.end());
+        objects.erase(rest, objects.end());
+        if (!painted.empty())
+            if (Status s = recordLayer(graph, context_, in, painted, settings.layer); !s) return s;
+    }
+    if (objects.empty()) return Done{};
+    Result<Radiosity> radiosity = in.irradiance || settings.method == Method::Lambert
+                                      ? recordLambert(graph, context_, in, objects, settings)
+                                  : settings.method == Method::Diffusion
+                                      ? recordVolumes(graph, context_, in, *plan.state_, settings, *volumes_)
+                                      : recordRadiosity(graph, context_, in, *plan.state_, settings);
+    if (radiosity && past_ && radiosity->places)
+        radiosity = recordSteady(graph, context_, in, *plan.state_, *radiosity, settings, past_);
+    if (!radiosity) return radiosity.error();
+    TextureId highlight;
+    if (!showsLight(in))
+        for (const views::LampPoint& lamp : views::lampPoints(in.scene, settings.lightSamples)) {
+            Result<TextureId> added = recordHighlight(graph, context_, in, objects, lamp, highlight);
+            if (!added) return added.error();
+            highlight = *added;
+        }
+    std::vector<views::PosedMesh> plain, painted;
+    for (const views::PosedMesh& mesh : objects)
+        (mesh.drawn.paint && !in.irradiance ? painted : plain).push_back(mesh);
+    if (Status s = recordShade(graph, context_, in, plain, *radiosity, highlight, {}, settings); !s) return s;
+    if (painted.empty()) return Done{};
+    Result<TextureId> paint = views::recordLeaving(graph, context_, in.eye, painted, in.size);
+    if (!paint) return paint.error();
+    return recordShade(graph, context_, in, painted, *radiosity, highlight, *paint, settings);
+}
+
+} // namespace lucent::subsurface

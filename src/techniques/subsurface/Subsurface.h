@@ -1,0 +1,136 @@
+#pragma once
+/// Light that enters objects, is scattered inside and leaves them around (image-space dissertation 2007, ch.
+/// 6): points of the surface that a light sees are splatted, in the camera's view, onto all that they reach
+/// of their object. Nothing is precomputed but tables of the material.
+
+#include "diffusion/Profile.h"
+#include "graph/FrameGraph.h"
+#include "scene/Scene.h"
+#include "light/Lamps.h"
+#include "views/ObjectKey.h"
+#include "views/Surface.h"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lucent::subsurface {
+
+enum class Method : int { Multires, Splat, Diffusion, Lambert };
+enum class DipoleGeometry : int { Planar, Offset };
+enum class Splats : int { Bound, Paper };
+enum class Exit : int { Whole, Paper };
+enum class BlurEnergy : int { Kept, Paper };
+/// A painted map shown on its object in place of light.
+enum class PaintLayer : int { None, Translucency, Blur, Glow, Outgoing };
+
+struct Settings {
+    Method method = Method::Multires;
+    diffusion::Shape profile = diffusion::Shape::Dipole;
+    DipoleGeometry dipoleGeometry = DipoleGeometry::Planar;
+    float epsilon = 0.01f; ///< error of the integral over the surface
+    Splats splats = Splats::Bound;
+    int mostSplats = 256; ///< a side of a light's view
+    Exit exit = Exit::Whole;
+    BlurEnergy blurEnergy = BlurEnergy::Kept; ///< of light where M_d is painted
+    int lightSamples = 16;                    ///< points that stand for a lamp with a size
+    int cells = 48;                           ///< along the longest side of a body, of diffusion
+    bool temporal = false;                    ///< light is mixed with that of the picture before
+    PaintLayer layer = PaintLayer::None;      ///< no parameter: who paints asks for it, not a scene
+};
+
+/// Whether a parameter changes anything beside these choices.
+bool acts(const Settings& settings, std::string_view id);
+
+struct Inputs {
+    const scene::Scene& scene;
+    const views::Eye& eye;
+    const std::vector<views::PosedMesh>& solids;  ///< visible ones; those that scatter are drawn
+    const std::vector<views::PosedMesh>& casters; ///< all that stands in the light's way, hidden or not:
+                                                  ///< opaque, scattering, mirrors and refractive
+    graph::TextureId surface;                     ///< views.surface
+    graph::TextureHandle environment;             ///< lat-long map of scene.environment; None without one
+    graph::TextureId target;                      ///< RGBA32F
+    bool radiosity = false;                       ///< shows what leaves, W/m², not radiance
+    bool irradiance = false;                      ///< shows what arrives, W/m²
+    ivec2 size{0};
+    graph::TextureId matt{}; ///< painted objects as if they were opaque (brdf), RGBA32F; not for radiosity
+};
+
+struct Grid;
+struct Profiled;
+struct Past;
+class Volumes;
+
+/// Profiles of the scene's materials as textures, and what is drawn for its environment. Made once for as
+/// long as objects and settings stay.
+class Plan {
+public:
+    struct State;
+    Plan();
+    Plan(Plan&&) noexcept;
+    Plan& operator=(Plan&&) noexcept;
+    ~Plan();
+
+private:
+    friend class Subsurface;
+    std::unique_ptr<State> state_;
+};
+
+/// Radiance B F_t / (pi mean F_t), and what the surface mirrors of lamps and environment. B, what leaves, is
+/// the sum over points of R_d(distance) times the flux that entered: past everything that stands in a lamp's
+/// way, which refractive objects do as if they were opaque (as for brdf); of the environment, which nothing
+/// stands in the way of.
+///
+/// Painted objects (scene/Painting.h): light that enters at x_i leaves by t M_i M_d² R_d(M_d r) of x_i, and
+/// what is seen at x_o is t M_o times that radiance and 1 - t of the matt one. Of points that cannot stand as
+/// close as the largest M_d asks for, M_d counts as less.
+///
+/// Not drawn: light that scatters once (ch. 6 leaves it out), light of caustics on scattering objects, light
+/// that scattering objects send each other, and from lamps inside of them.
+class Subsurface {
+public:
+    static const ParamTable& params();
+    /// Why the scene needs this technique; nothing when it does not.
+    static std::optional<std::string> need(const scene::Scene& scene);
+
+    explicit Subsurface(gl::Context& context) : context_(context) {}
+
+    /// Makes the tables, and counts the layers of objects where an environment shines. That reads pictures
+    /// back, but for objects that have only moved or turned since.
+    ///
+    /// @param meshes  visible ones
+    Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene,
+                      const std::vector<views::DrawnMesh>& meshes, const Settings& settings);
+
+    /// Adds the passes that draw the pixels of scattering objects into the target and leave the others as
+    /// they are; a: 1.
+    ///
+    /// @return  Error (Fault::Machine) for images larger than the GPU's textures
+    Status record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
+                  const Settings& settings) const;
+    /// Gives back what is kept between pictures.
+    void clear();
+
+private:
+    // How many surfaces of an object lie behind each other along three axes, and what that depends on.
+    struct Counted {
+        views::ObjectKey key;
+        std::array<ivec2, 3> sizes{};
+        std::array<int, 3> layers{};
+    };
+    Result<std::array<int, 3>> countLayers(graph::TexturePool& pool, const views::DrawnMesh& mesh, float time,
+                                           const Settings& settings, const Grid& grid);
+
+    gl::Context& context_;
+    std::map<int, Counted> counted_;                        // by the object's place in the scene
+    std::vector<std::shared_ptr<const Profiled>> profiles_; // of the last plan
+    std::shared_ptr<Volumes> volumes_;                      // null for methods that solve nothing
+    std::shared_ptr<Past> past_; // null where no picture keeps any of the one before
+};
+
+} // namespace lucent::subsurface
