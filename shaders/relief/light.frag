@@ -4,16 +4,22 @@
 // in    uSurface     the visible points (views/surface_pixel.glsl)
 //       uSum         light summed so far; not looked at in the first slice
 //       uLights      the lights (relief/model.glsl)
+//       uOcclusion   USE_OCCLUSION: light/occlusion.glsl
+//       uFlux        USE_FLUX: [W/m²] irradiance that caustics add, taken as a matt surface takes it
 //       uIrradiance  USE_TRANSFER: the environment's light on each texel, times the forward scatter, and the mean of d
 //                    (relief/gather.frag); texels may be fewer than the field's. Walls have none: there all lights are summed
 //       uGloss       USE_TRANSFER: the environment's part in the specular term by the direction of reflection
 //       LIGHTLESS    no light in this slice and no gloss: the point is not shaded
-// out   oSum.rgb     light towards the eye, linear Rec. 709, the thesis's units (no pi)
+// out   oSum.rgb     light towards the eye, [W/(m² sr)], linear Rec. 709; SHOW_IRRADIANCE: [W/m²] on the surface, whatever its colour
 //       oSum.a       weighted sum of d, or of the quantity that SHOW_... names
 // model height-field thesis 2017, 3.5
 #include "relief/model.glsl"
 #include "views/surface_pixel.glsl"
+#include "light/occlusion.glsl"
 uniform sampler2D uSum;
+#ifdef USE_FLUX
+uniform sampler2D uFlux;
+#endif
 #ifdef USE_BASE_MAP
 uniform sampler2D uBaseMap;
 #endif
@@ -84,8 +90,19 @@ void main() {
 #ifdef USE_SPECULAR_MAP
     specular *= textureLod(uSpecularMap, uv, 0.0).rgb;
 #endif
+#ifdef SHOW_IRRADIANCE
+    base = vec3(0.0);
+#endif
     vec4 sum = relief.isFirst != 0 ? vec4((1.0 - ks) * base, 0.0)
                                    : texelFetch(uSum, ivec2(gl_FragCoord.xy), 0);
+#ifdef USE_FLUX
+    vec3 flux = texelFetch(uFlux, ivec2(gl_FragCoord.xy), 0).rgb;
+#ifdef SHOW_IRRADIANCE
+    sum.rgb += flux;
+#else
+    sum.rgb += (1.0 - ks) * relief.factor * diffuse * flux;
+#endif
+#endif
 #ifdef USE_TRANSFER
     bool transferred = pixel.face == 1;
     if (transferred && relief.isFirst != 0) {
@@ -109,17 +126,23 @@ void main() {
     for (int i = relief.firstLight; i < end; ++i) {
         Light light = lightAt(i, p);
         int steps;
+        float seen = visibilityOf(i - relief.firstLight, relief.viewSize, relief.columns);
+#ifdef SHOW_IRRADIANCE
+        float cosine = max(dot(p.normal, light.toLight), 0.0);
+        if (cosine > 0.0) sum.rgb += seen * visibility(p, light, steps) * cosine * light.color / relief.factor;
+#else
         float d = illumination(p, light, steps);
         float s = falloff(dot(r, light.toLight), relief.falloffs.x, relief.falloffs.y);
         float f = falloff(dot(v, light.toLight), relief.falloffs.z, relief.falloffs.w);
         vec3 scattered = (1.0 - ks) * ((1.0 - kf) + kf * f) * d * diffuse;
-        sum.rgb += (scattered + ks * s * specular) * light.color;
+        sum.rgb += seen * (scattered + ks * s * specular) * light.color;
 #if defined(SHOW_ITERATIONS)
         sum.a += light.weight * float(steps);
 #elif defined(SHOW_VISIBILITY)
-        sum.a += light.weight * visibility(p, light, steps);
+        sum.a += light.weight * seen * visibility(p, light, steps);
 #else
         sum.a += light.weight * d;
+#endif
 #endif
     }
 #endif

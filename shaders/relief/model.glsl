@@ -1,14 +1,11 @@
 // relief/model.glsl: the illumination d of one point of a height field by one light (height-field thesis 2017, ch. 3,
 // with the corrections in README "Where the thesis is loose").
 //
-// in    uLights   256 lights a row, three texels each:
-//                 world position, or direction to it | kind: 0 a direction, 1 a position, 2 a position whose light fades
-//                 with the square of the distance
-//                 colour | weight
-//                 offset on the lamp's disc, which faces what it lights: m, or tangent of the angle for a direction
+// in    uLights  light/sample.glsl
 #include "lib/quadratic.glsl"
 #include "views/field.glsl"
 #include "lib/shading.glsl"
+#include "light/sample.glsl"
 layout(std140) uniform ReliefBlock {
     Field field;
     vec4 eye;       // object space: position with w = 1, or direction of all eye rays with w = 0
@@ -16,7 +13,7 @@ layout(std140) uniform ReliefBlock {
     vec4 diffuse;   // cD | kf
     vec4 specular;  // cS | t in object space
     vec4 falloffs;  // s_min, s_max, f_min, f_max
-    mat4 objectFromWorld;
+    mat4 objectFromWorld, worldFromObject;
     float metres;   // world metres a metre of object space
     float radius;   // where the thesis's method puts lights that have no place
     int object;
@@ -28,8 +25,11 @@ layout(std140) uniform ReliefBlock {
     int placed;     // lights [0, placed) have no part in what uIrradiance holds; all of them without one
     ivec4 tile;     // of the transfer: see relief/trace.frag
     vec2 grid;      // texels of the transfer
+    ivec2 viewSize; // pixels
+    int columns;    // of light/occlusion.glsl
+    float share;    // of one lamp, or of the environment, in means over the light
+    float factor;   // radiance that a white surface with d = 1 has for an irradiance of 1: 1 / pi, or the share of it
 } relief;
-uniform sampler2D uLights;
 
 // The shading point: on the surface, and moved below it along the real normal (4.3.1 moves along z).
 struct Shading {
@@ -48,30 +48,12 @@ struct Light {
     float weight;
 };
 
-// A place in the plane perpendicular to a unit vector (frame after Duff et al. 2017, which has no pole).
-vec3 across(vec3 n, vec2 place) {
-    float side = n.z >= 0.0 ? 1.0 : -1.0;
-    float a = -1.0 / (side + n.z);
-    float b = n.x * n.y * a;
-    return place.x * vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x) +
-           place.y * vec3(b, side + n.y * n.y * a, -n.y);
-}
-
 Light lightAt(int index, Shading p) {
-    ivec2 at = ivec2(3 * (index % 256), index / 256);
-    vec4 place = texelFetch(uLights, at, 0);
-    vec4 color = texelFetch(uLights, at + ivec2(1, 0), 0);
-    vec2 disc = texelFetch(uLights, at + ivec2(2, 0), 0).xy;
-    vec3 local = (relief.objectFromWorld * vec4(place.xyz, place.w == 0.0 ? 0.0 : 1.0)).xyz;
-    if (place.w == 0.0) {
-        vec3 toLight = normalize(local);
-        return Light(normalize(toLight + across(toLight, disc)), 1e30, color.rgb, color.a);
-    }
-    vec3 way = local - p.position + relief.specular.a * p.normal;
-    way += across(way / max(length(way), 1e-30), disc / relief.metres);
-    float far = max(length(way), 1e-30);
-    float fade = place.w == 1.0 ? 1.0 : 1.0 / max(far * far * relief.metres * relief.metres, 1e-30);
-    return Light(way / far, far, color.rgb * fade, color.a);
+    vec3 below = p.position - relief.specular.a * p.normal;
+    LightSample light = lightSampleAt(index, (relief.worldFromObject * vec4(below, 1.0)).xyz);
+    float distance = light.distance < 1e30 ? light.distance / relief.metres : 1e30;
+    return Light(normalize(mat3(relief.objectFromWorld) * light.toLight), distance, relief.factor * light.irradiance,
+                 relief.share * light.weight);
 }
 
 // Ray from the point moved by `depth` along `inward` towards the light; z is relative to the point.

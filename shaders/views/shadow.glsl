@@ -59,7 +59,7 @@ float lightReaching(vec3 place, vec3 normal) {
     bool perspective = face.eye.w > 0.5;
     float texel = max(length(face.right.xyz), length(face.up.xyz)) * (perspective ? seen.z : 1.0);
     float cosine = max(-dot(normal, perspective ? normalize(v) : face.forward.xyz), 1e-6);
-    float margin = texel * (kFlatMargin + kSteepMargin * sqrt(1.0 - cosine * cosine) / cosine);
+    float margin = texel * (kFlatMargin + kSteepMargin * sqrt(max(1.0 - cosine * cosine, 0.0)) / cosine);
     ivec2 corner = ivec2(number % 3, number / 3) * ivec2(face.size);
     vec2 low = floor(pixel - 0.5);
     vec4 lit;

@@ -18,11 +18,13 @@ struct SurfacePixel {
 
 float packSurface(int object, int face, float coverage) { return float(8 * object + face) + 0.5 * coverage; }
 
-SurfacePixel readSurface() {
-    vec4 texel = texelFetch(uSurface, ivec2(gl_FragCoord.xy), 0);
+SurfacePixel surfaceAt(ivec2 at) {
+    vec4 texel = texelFetch(uSurface, at, 0);
     int code = int(floor(texel.w));
     return SurfacePixel(texel.xy, texel.z, code == 0 ? -1 : code >> 3, code & 7, 2.0 * fract(texel.w));
 }
+
+SurfacePixel readSurface() { return surfaceAt(ivec2(gl_FragCoord.xy)); }
 
 vec3 wallNormal(int face) {
     float side = (face & 1) == 0 ? -1.0 : 1.0;

@@ -87,6 +87,12 @@ Status checkEstimator(const scene::Scene& scene, const TruthOptions& options) {
     return Done{};
 }
 
+truth::Attenuation attenuationOf(const scene::Scene& scene) {
+    const auto& settings = scene.technique.at("relief").as<relief::Settings>();
+    return settings.attenuation == relief::Attenuation::Ratio ? truth::Attenuation::Ratio
+                                                              : truth::Attenuation::Exponential;
+}
+
 Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scene,
                                                         const TruthOptions& options) {
     if (isGlass(options)) {
@@ -94,7 +100,8 @@ Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scen
                                                    {.branching = branchingOf(options),
                                                     .samples = options.samples,
                                                     .antialias = options.antialias,
-                                                    .seed = options.seed});
+                                                    .seed = options.seed,
+                                                    .attenuation = attenuationOf(scene)});
         if (!glass) return glass.error();
         return std::unique_ptr<truth::Estimator>(new truth::GlassEstimator(std::move(*glass)));
     }
@@ -115,9 +122,7 @@ Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scen
         return std::unique_ptr<truth::Estimator>(new truth::LambertEstimator(std::move(*lambert)));
     }
     if (Status known = truth::checkAov(scene.view.show); !known) return known.error();
-    const bool ratio = settings.attenuation == relief::Attenuation::Ratio;
-    const truth::ReliefOptions model{.attenuation =
-                                         ratio ? truth::Attenuation::Ratio : truth::Attenuation::Exponential,
+    const truth::ReliefOptions model{.attenuation = attenuationOf(scene),
                                      .environmentLights = options.directions,
                                      .normalise = settings.normalise,
                                      .discSamples = options.samples,
@@ -134,7 +139,8 @@ Result<truth::Picture> solve(const scene::Scene& scene, const TruthOptions& opti
                                   .branching = branchingOf(options),
                                   .photons = options.photons,
                                   .samples = options.samples,
-                                  .seed = options.seed},
+                                  .seed = options.seed,
+                                  .attenuation = attenuationOf(scene)},
                                  tile, work, interrupted);
     if (options.estimator == "walk")
         return truth::traceWalks(scene, scene.size,

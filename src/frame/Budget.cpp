@@ -32,7 +32,7 @@ constexpr int kFinerBy = 4;                                    // a reference th
 // environment.
 constexpr float kTransferReach = 0.004f;
 
-bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
+using views::hasEnvironment;
 
 bool hasSize(const scene::Light& light) {
     const auto* point = std::get_if<scene::PointLight>(&light);
@@ -170,15 +170,16 @@ Result<Image> Budget::draw(const scene::Scene& scene, const relief::Settings& se
     using relief::Relief;
     Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, images_);
     if (!objects) return objects.error();
-    const std::vector<relief::LightSource> lamps = Relief::lights(scene, settings, 0);
-    std::vector<relief::LightSource> lights;
-    if (part == Part::Lamps) lights = lamps;
-    if (part == Part::Environment) {
-        lights = Relief::lights(scene, settings, settings.environmentLights);
-        lights.erase(lights.begin(), lights.begin() + std::ptrdiff_t(lamps.size()));
-    }
+    std::vector<views::LampPoint> lights;
+    if (part != Part::Nothing)
+        lights = views::lightSamples(scene, {.lamp = settings.lightSamples,
+                                             .directions = settings.environmentLights,
+                                             .environment = settings.environmentSampling});
+    std::erase_if(lights, [&](const views::LampPoint& light) {
+        return light.isEnvironment != (part == Part::Environment);
+    });
     const int count = int(lights.size());
-    const Image table = Relief::lightTable(lights);
+    const Image table = views::sampleTable(lights);
     gl::Device& device = context_.device();
     const graph::Texture lightTable(device, {.size = table.size(), .format = Format::RGBA32F},
                                     "budget.lights");
@@ -201,6 +202,7 @@ Result<Image> Budget::draw(const scene::Scene& scene, const relief::Settings& se
         graph.keep(targetId);
         const relief::Inputs in{.eye = eye,
                                 .objects = *objects,
+                                .scene = scene,
                                 .lights = lights,
                                 .surface = import(surface_),
                                 .sum = import(sum),
@@ -210,7 +212,8 @@ Result<Image> Budget::draw(const scene::Scene& scene, const relief::Settings& se
                                 .end = std::min(count, first + Relief::kMostLightsAtOnce),
                                 .placed = transfers ? 0 : count,
                                 .transferred = std::move(transferred),
-                                .show = scene::Aov::Color};
+                                .show = scene::Aov::Color,
+                                .size = sampleSize_};
         if (Status s = relief_.record(graph, in, settings); !s) return s.error();
         if (Status s = graph.compile(); !s) return s.error();
         graph.execute(pool_);

@@ -23,15 +23,7 @@ TextureId import(graph::FrameGraph& graph, const graph::Texture& texture) {
     return graph.import(texture.handle(), texture.desc(), texture.label());
 }
 
-bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
-
-// Those that the camera does not leave out.
-std::vector<views::PosedMesh> seen(const std::vector<views::PosedMesh>& meshes) {
-    std::vector<views::PosedMesh> list;
-    std::copy_if(meshes.begin(), meshes.end(), std::back_inserter(list),
-                 [](const views::PosedMesh& mesh) { return mesh.drawn.object->visible; });
-    return list;
-}
+using views::hasEnvironment;
 
 struct BackgroundBlock {
     views::ViewBlock view;
@@ -51,21 +43,31 @@ struct BackgroundBlock {
     }
 };
 
-struct FieldLightBlock {
-    vec4 diffuse;
-    vec2 texels;
-    int object, padding = 0;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"diffuse", offsetof(FieldLightBlock, diffuse)},
-                                                             {"texels", offsetof(FieldLightBlock, texels)},
-                                                             {"object", offsetof(FieldLightBlock, object)}};
-        static const graph::BlockLayout layout{"FieldLightBlock", sizeof(FieldLightBlock), members};
-        return layout;
-    }
-};
-
 } // namespace
+
+std::vector<views::PosedMesh> Posed::visible(const std::vector<views::PosedMesh>& meshes) {
+    std::vector<views::PosedMesh> list;
+    std::copy_if(meshes.begin(), meshes.end(), std::back_inserter(list),
+                 [](const views::PosedMesh& mesh) { return mesh.drawn.object->visible; });
+    return list;
+}
+
+Result<Posed> posedOf(graph::FrameGraph& graph, gl::Context& context, const scene::Scene& scene,
+                      views::ImageCache& images, const views::Waters& waters) {
+    Result<std::vector<views::DrawnObject>> fields = views::drawnObjects(scene, images, true);
+    if (!fields) return fields.error();
+    Result<views::DrawnMeshes> meshes = views::drawnMeshes(scene, images, true, &waters);
+    if (!meshes) return meshes.error();
+    Posed posed{std::move(*fields), {}, {}};
+    for (const auto& [drawn, list] :
+         {std::pair{&meshes->solid, &posed.solid}, {&meshes->glass, &posed.glass}}) {
+        Result<std::vector<views::PosedMesh>> stands =
+            views::recordPose(graph, context, *drawn, scene.view.time);
+        if (!stands) return stands.error();
+        *list = std::move(*stands);
+    }
+    return posed;
+}
 
 Result<Drawn> drawnOf(const scene::Scene& scene, views::ImageCache& images, const views::Waters& waters) {
     Result<std::vector<views::DrawnObject>> fields = views::drawnObjects(scene, images);
@@ -201,15 +203,10 @@ Status Compose::record(graph::FrameGraph& graph, const Inputs& in) {
     if (isNumbered(in.scene.view.show)) return recordInside(graph, in, *solids, *glass);
     const TextureId surface = import(graph, in.surface), shown = import(graph, in.shown);
     graph.keep(shown);
-    TextureId flux;
-    if (caustic_)
-        if (Status s = recordCaustics(graph, in, *solids, *glass, surface, flux); !s) return s;
-    if (flux && !in.drawn.fields.empty())
-        if (Status s = recordOnFields(graph, in, surface, flux, shown); !s) return s;
     if (!in.drawn.meshes.solid.empty())
-        if (Status s = recordSolids(graph, in, *solids, *glass, surface, flux, shown); !s) return s;
+        if (Status s = recordSolids(graph, in, *solids, *glass, surface, shown); !s) return s;
     if (!in.drawn.meshes.glass.empty())
-        return recordThrough(graph, in, seen(*solids), seen(*glass), surface, shown);
+        return recordThrough(graph, in, Posed::visible(*solids), Posed::visible(*glass), surface, shown);
     if (replaces(in.scene, in.drawn)) return recordBackground(graph, in, surface, shown);
     return Done{};
 }
@@ -260,7 +257,8 @@ Status Compose::recordInside(graph::FrameGraph& graph, const Inputs& in,
         recordNothing(graph, "nothing that is seen refracts", target);
         return Done{};
     }
-    Result<views::Layers> layers = recordPeeled(graph, in, seen(glass), {}, views::kMostLayers, nullptr);
+    Result<views::Layers> layers =
+        recordPeeled(graph, in, Posed::visible(glass), {}, views::kMostLayers, nullptr);
     return layers ? recordLayerView(graph, context_, *layers, view.layer, view.show, target) : layers.error();
 }
 
@@ -305,136 +303,71 @@ Status Compose::recordBackground(graph::FrameGraph& graph, const Inputs& in, Tex
     return Done{};
 }
 
-Status Compose::recordCaustics(graph::FrameGraph& graph, const Inputs& in,
-                               const std::vector<views::PosedMesh>& solids,
-                               const std::vector<views::PosedMesh>& glass, TextureId surface,
-                               TextureId& flux) {
-    Result<TextureId> irradiance = caustics_.record(graph,
-                                                    {.scene = in.scene,
-                                                     .eye = in.eye,
-                                                     .glass = glass,
-                                                     .solids = solids,
-                                                     .surface = surface,
-                                                     .size = in.shown.desc().size,
-                                                     .fields = in.drawn.fields},
-                                                    *caustic_, causticSettings(in));
-    if (!irradiance) return irradiance.error();
-    flux = *irradiance;
-    return Done{};
+Result<TextureId> Compose::recordCaustics(graph::FrameGraph& graph, const Inputs& in, const Posed& posed,
+                                          TextureId surface) {
+    if (!caustic_) return TextureId{};
+    return caustics_.record(graph,
+                            {.scene = in.scene,
+                             .eye = in.eye,
+                             .glass = posed.glass,
+                             .solids = posed.solid,
+                             .surface = surface,
+                             .size = in.shown.desc().size,
+                             .fields = in.drawn.fields},
+                            *caustic_, causticSettings(in));
 }
 
-// Adds caustics to the light on height fields. Where an image is read and drawn in turn it needs another one.
-Status Compose::recordOnFields(graph::FrameGraph& graph, const Inputs& in, TextureId surface, TextureId flux,
-                               TextureId shown) {
-    if (in.scene.view.show != scene::Aov::Color) return Done{};
-    Result<const gl::Program*> copying = context_.program("frame/field_light", {"COPY"});
-    if (!copying) return copying.error();
-    std::vector<const gl::Program*> lighting;
-    for (const views::DrawnObject& field : in.drawn.fields) {
-        const bool hasMap = field.diffuseMap != graph::TextureHandle::None;
-        Result<const gl::Program*> program = context_.program(
-            "frame/field_light", hasMap ? std::vector<std::string>{"USE_MAP"} : std::vector<std::string>{});
-        if (!program) return program.error();
-        lighting.push_back(*program);
-    }
-    TextureId lit;
-    graph.addPass("frame.fieldLight", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("light of caustics on " + std::to_string(lighting.size()) + " height field(s)");
-        pass.sample(surface);
-        pass.sample(flux);
-        pass.sample(shown);
-        lit = pass.createColor("frame.fieldLight", {.size = in.shown.desc().size, .format = Format::RGBA32F});
-        pass.clear(lit, vec4(0));
-        return [=, fields = in.drawn.fields](const graph::Resources& resources, graph::Commands& commands) {
-            for (std::size_t i = 0; i < fields.size(); ++i) {
-                const scene::Material& material = fields[i].object->material;
-                const FieldLightBlock block{.diffuse = vec4((1 - material.specularity) * material.diffuse, 0),
-                                            .texels =
-                                                fields[i].field->block(fields[i].object->field()).texels,
-                                            .object = fields[i].index};
-                std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
-                                                     {"uFlux", resources[flux]},
-                                                     {"uShown", resources[shown]}};
-                if (fields[i].diffuseMap != graph::TextureHandle::None)
-                    textures.push_back({"uDiffuseMap", fields[i].diffuseMap});
-                commands.draw({.program = lighting[i], .block = block, .textures = std::move(textures)});
-            }
-        };
-    });
-    graph.addPass("frame.keepFieldLight", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("that light, where it belongs");
-        pass.sample(surface);
-        pass.sample(lit);
-        pass.write(shown);
-        return [=, program = *copying](const graph::Resources& resources, graph::Commands& commands) {
-            commands.draw({.program = program,
-                           .textures = {{"uSurface", resources[surface]}, {"uShown", resources[lit]}}});
-        };
-    });
-    return Done{};
-}
-
+// What is not summed up sample by sample: mirrors, and light that is scattered inside.
 Status Compose::recordSolids(graph::FrameGraph& graph, const Inputs& in,
                              const std::vector<views::PosedMesh>& solids,
-                             const std::vector<views::PosedMesh>& glass, TextureId surface, TextureId flux,
-                             TextureId shown) {
+                             const std::vector<views::PosedMesh>& glass, TextureId surface, TextureId shown) {
     const ivec2 size = in.shown.desc().size;
     std::vector<views::PosedMesh> casters = solids;
     casters.insert(casters.end(), glass.begin(), glass.end());
     const scene::Aov show = in.scene.view.show;
-    std::vector<views::PosedMesh> opaque, painted;
-    for (const views::PosedMesh& mesh : seen(solids)) {
-        if (mesh.drawn.paint) painted.push_back(mesh);
-        if (!mesh.drawn.object->material.isScattering()) opaque.push_back(mesh);
-    }
-    TextureId matt;
-    if (show != scene::Aov::Radiosity) {
-        if (Status s = recordSurfaces(graph, in, opaque, casters, flux, surface, shown); !s) return s;
-        // Apart from the others, whose shadows stay as they were before someone painted.
-        if (!painted.empty()) matt = show == scene::Aov::Color ? recordMatt(graph, size) : shown;
-        if (Status s = recordSurfaces(graph, in, painted, casters, flux, surface, matt); !s) return s;
-    }
     const bool isLight = show == scene::Aov::Radiosity || show == scene::Aov::Irradiance;
-    if (scattering_ && (show == scene::Aov::Color || isLight))
-        return recordScattering(graph, in, seen(solids), casters, surface, isLight ? TextureId{} : matt,
-                                shown);
-    return Done{};
+    if (show != scene::Aov::Color && !isLight) return Done{};
+    std::vector<views::PosedMesh> mirrors, seen = Posed::visible(solids);
+    std::copy_if(seen.begin(), seen.end(), std::back_inserter(mirrors),
+                 [](const views::PosedMesh& mesh) { return mesh.drawn.object->material.isMirror(); });
+    Result<graph::TextureHandle> environment = environmentMap(in.scene);
+    if (!environment) return environment.error();
+    if (!isLight)
+        if (Status s = brdf_.recordMirrors(graph, {.scene = in.scene,
+                                                   .eye = in.eye,
+                                                   .size = size,
+                                                   .mirrors = mirrors,
+                                                   .surface = surface,
+                                                   .environment = *environment,
+                                                   .target = shown});
+            !s)
+            return s;
+    if (!scattering_) return Done{};
+    const bool painted = std::any_of(
+        seen.begin(), seen.end(), [](const views::PosedMesh& mesh) { return mesh.drawn.paint.has_value(); });
+    TextureId matt;
+    if (painted && !isLight) {
+        Result<TextureId> copied = recordMatt(graph, shown, size);
+        if (!copied) return copied.error();
+        matt = *copied;
+    }
+    return recordScattering(graph, in, seen, casters, surface, matt, shown);
 }
 
-// Where painted objects are drawn as if they were opaque.
-TextureId Compose::recordMatt(graph::FrameGraph& graph, ivec2 size) {
+// Painted objects as if they were opaque: what is drawn into cannot be read as well.
+Result<TextureId> Compose::recordMatt(graph::FrameGraph& graph, TextureId shown, ivec2 size) {
+    Result<const gl::Program*> program = context_.program("frame/copy");
+    if (!program) return program.error();
     TextureId matt;
     graph.addPass("frame.matt", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("painted objects are matt where they are not translucent");
+        pass.sample(shown);
         matt = pass.createColor("frame.matt", {.size = size, .format = Format::RGBA32F});
-        pass.clear(matt, vec4(0));
-        return [](const graph::Resources&, graph::Commands&) {};
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program, .textures = {{"uShown", resources[shown]}}});
+        };
     });
     return matt;
-}
-
-// What surfaces send to the eye that light does not enter.
-Status Compose::recordSurfaces(graph::FrameGraph& graph, const Inputs& in,
-                               const std::vector<views::PosedMesh>& shaded,
-                               const std::vector<views::PosedMesh>& casters, TextureId flux,
-                               TextureId surface, TextureId target) {
-    Result<graph::TextureHandle> environment = environmentMap(in.scene);
-    if (!environment) return environment.error();
-    auto settings = in.scene.technique.at("brdf").as<brdf::Settings>();
-    if (in.coarse) settings.lightSamples = std::min(settings.lightSamples, kCoarseSamples);
-    return brdf_.record(graph,
-                        {.scene = in.scene,
-                         .eye = in.eye,
-                         .solids = shaded,
-                         .casters = casters,
-                         .surface = surface,
-                         .flux = flux,
-                         .environment = *environment,
-                         .target = target,
-                         .show = in.scene.view.show,
-                         .size = in.shown.desc().size,
-                         .fields = in.drawn.fields},
-                        settings);
 }
 
 Status Compose::recordScattering(graph::FrameGraph& graph, const Inputs& in,

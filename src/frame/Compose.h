@@ -2,9 +2,9 @@
 /// Everything that is no height field: opaque objects and mirrors with the caustics on them, objects in which
 /// light scatters, over the light on the fields, and all of it seen through refractive objects.
 
+#include "frame/SurfaceKey.h"
 #include "techniques/brdf/Brdf.h"
 #include "techniques/caustics/Caustics.h"
-#include "frame/SurfaceKey.h"
 #include "techniques/refract/Refract.h"
 #include "techniques/subsurface/Subsurface.h"
 #include "views/Surface.h"
@@ -19,6 +19,17 @@ struct Drawn {
 
     std::size_t count() const { return fields.size() + meshes.solid.size() + meshes.glass.size(); }
 };
+/// Every object that a picture needs, hidden ones too, as it stands.
+struct Posed {
+    std::vector<views::DrawnObject> fields;
+    std::vector<views::PosedMesh> solid, glass;
+
+    /// Those that the camera does not leave out.
+    static std::vector<views::PosedMesh> visible(const std::vector<views::PosedMesh>& meshes);
+};
+/// Poses all meshes once for all passes of a graph.
+Result<Posed> posedOf(graph::FrameGraph& graph, gl::Context& context, const scene::Scene& scene,
+                      views::ImageCache& images, const views::Waters& waters);
 Result<Drawn> drawnOf(const scene::Scene& scene, views::ImageCache& images, const views::Waters& waters);
 
 class Compose {
@@ -32,7 +43,7 @@ public:
         const views::Eye& eye;
         const Drawn& drawn;
         const graph::Texture& surface; ///< views.surface
-        const graph::Texture& shown;   ///< the light on the height fields; gets that on the other objects
+        const graph::Texture& shown;   ///< the light on matt objects and height fields; gets all else
         bool coarse;                   ///< a first look: few points stand for a lamp
     };
 
@@ -40,6 +51,9 @@ public:
     views::Waters& waters() { return waters_; }
     /// What record() needs to know of the scene before.
     Status prepare(const Inputs& in);
+    /// Irradiance of caustics on each pixel of a surface image; none where no lamp throws any.
+    Result<graph::TextureId> recordCaustics(graph::FrameGraph& graph, const Inputs& in, const Posed& posed,
+                                            graph::TextureId surface);
     /// Adds all passes; nothing where !isNeeded().
     Status record(graph::FrameGraph& graph, const Inputs& in);
     /// Whether record() adds anything: all that is no height field, and caustics on those.
@@ -69,21 +83,11 @@ public:
     void clear();
 
 private:
-    Status recordCaustics(graph::FrameGraph& graph, const Inputs& in,
-                          const std::vector<views::PosedMesh>& solids,
-                          const std::vector<views::PosedMesh>& glass, graph::TextureId surface,
-                          graph::TextureId& flux);
-    Status recordOnFields(graph::FrameGraph& graph, const Inputs& in, graph::TextureId surface,
-                          graph::TextureId flux, graph::TextureId shown);
     Status recordSolids(graph::FrameGraph& graph, const Inputs& in,
                         const std::vector<views::PosedMesh>& solids,
                         const std::vector<views::PosedMesh>& glass, graph::TextureId surface,
-                        graph::TextureId flux, graph::TextureId shown);
-    Status recordSurfaces(graph::FrameGraph& graph, const Inputs& in,
-                          const std::vector<views::PosedMesh>& shaded,
-                          const std::vector<views::PosedMesh>& casters, graph::TextureId flux,
-                          graph::TextureId surface, graph::TextureId target);
-    static graph::TextureId recordMatt(graph::FrameGraph& graph, ivec2 size);
+                        graph::TextureId shown);
+    Result<graph::TextureId> recordMatt(graph::FrameGraph& graph, graph::TextureId shown, ivec2 size);
     Status recordThrough(graph::FrameGraph& graph, const Inputs& in,
                          const std::vector<views::PosedMesh>& solids,
                          const std::vector<views::PosedMesh>& glass, graph::TextureId surface,

@@ -16,10 +16,6 @@ std::string Renderer::State::leftOut(const scene::Scene& scene, const Drawn& dra
     const auto hidden = std::count_if(scene.objects.begin(), scene.objects.end(),
                                       [](const scene::Object& object) { return !object.visible; });
     if (hidden > 0) line(std::to_string(hidden) + " object(s): hidden from the camera");
-    for (std::size_t i = 0; i < scene.lights.size() && !objects.empty(); ++i)
-        if (!std::holds_alternative<scene::PointLight>(scene.lights[i]) &&
-            !std::holds_alternative<scene::DistantLight>(scene.lights[i]))
-            line("light " + std::to_string(i) + ": relief knows point and distant lights only");
     if (drawn.meshes.glass.empty()) line("refract: no object that is seen lets light through");
     const auto& inside = scene.technique.at("subsurface").as<subsurface::Settings>();
     for (const views::DrawnMesh& mesh : drawn.meshes.solid)
@@ -62,14 +58,16 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     }
     graph::FrameGraph graph;
     const TextureDesc screen{.size = size, .format = Format::RGBA8};
-    if (Status r = s.recordSlice(graph, scene, eye, *drawn, int(s.lights.size())); !r) return r.error();
-    s.composed = Compose::replaces(scene, *drawn) && !isGeometric(scene.view.show);
-    if (!isGeometric(scene.view.show)) {
-        const scene::Scene used = s.chosen(scene);
-        const Compose::Inputs in = s.composeInputs(used, eye, *drawn);
+    const bool geometric = isGeometric(scene.view.show);
+    const scene::Scene used = s.chosen(scene);
+    const Compose::Inputs in = s.composeInputs(used, eye, *drawn);
+    if (!geometric)
         if (Status r = s.compose.prepare(in); !r) return r.error();
+    const int shown = std::min(int(s.lights.size()), views::mostSamplesAtOnce(s.context, size));
+    if (Status r = s.recordSlice(graph, scene, eye, *drawn, shown); !r) return r.error();
+    s.composed = Compose::replaces(scene, *drawn) && !geometric;
+    if (!geometric)
         if (Status r = s.compose.record(graph, in); !r) return r.error();
-    }
     if (Status r = s.recordDisplay(graph, scene, graph.import(graph::TextureHandle::Screen, screen, "screen"),
                                    false);
         !r)

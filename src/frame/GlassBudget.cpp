@@ -1,9 +1,9 @@
 #include "frame/GlassBudget.h"
 
 #include "base/Text.h"
-#include "techniques/brdf/Brdf.h"
 #include "frame/Renderer.h"
-#include "light/Lamps.h"
+#include "light/Samples.h"
+#include "techniques/brdf/Brdf.h"
 
 #include <algorithm>
 #include <cmath>

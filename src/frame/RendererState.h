@@ -11,6 +11,8 @@
 #include "frame/Renderer.h"
 #include "frame/SurfaceKey.h"
 #include "graph/FrameGraph.h"
+#include "light/Occlusion.h"
+#include "techniques/brdf/Brdf.h"
 #include "techniques/relief/Relief.h"
 #include "techniques/relief/Transfers.h"
 
@@ -24,6 +26,7 @@ struct Renderer::State {
     static constexpr double kSliceMs = 40;
     static constexpr int kFirstStage = 20; // directions
     static constexpr int kStageFactor = 4;
+    static constexpr int kCoarseLampSamples = 4; // of a first look
 
     struct Stage {
         int directions; // of the environment
@@ -33,13 +36,14 @@ struct Renderer::State {
     enum class Effort { Coarse, Progressive, Final }; // one first look; looks, then all; all at once
 
     explicit State(gl::Context& gl)
-        : context(gl), pool(gl.device()), images(gl), relief(gl), compose(gl, pool, images), transfers(gl),
-          budget(gl, pool, images, relief), glassBudget(gl) {}
+        : context(gl), pool(gl.device()), images(gl), relief(gl), brdf(gl), compose(gl, pool, images),
+          transfers(gl), budget(gl, pool, images, relief), glassBudget(gl) {}
 
     gl::Context& context;
     graph::TexturePool pool;
     views::ImageCache images;
     relief::Relief relief;
+    brdf::Brdf brdf;
     Compose compose;
     graph::Texture surface, shownSurface, shown, sum, scratch, lightTable;
     relief::Transfers transfers;
@@ -55,6 +59,7 @@ struct Renderer::State {
     ivec2 size{0};
     bool started = false, coarse = false;
     bool dragged = false;
+    bool atOnce = false;                             // nobody waits for a look before the picture is complete
     bool planning = false;                           // the settings are still to be chosen
     bool choosing = false;                           // by the budget of relief, too
     relief::Settings settings;                       // that this picture is made with
@@ -63,9 +68,9 @@ struct Renderer::State {
     std::optional<SurfaceKey> shownKey;              // what shownSurface was drawn for
     std::vector<Stage> stages;
     std::size_t stage = 0;
-    std::vector<relief::LightSource> lights; // of this stage
-    int placed = 0;                          // so many of them have a place or a direction of their own
-    int next = 0;                            // light
+    std::vector<views::LampPoint> lights; // of this stage
+    int placed = 0;                       // so many of them have a place or a direction of their own
+    int next = 0;                         // light
     double msPerLight = 0;
     double workMs = 0, planMs = 0;
     int drawsBefore = 0, passes = 0;
@@ -85,13 +90,18 @@ struct Renderer::State {
     Status slice(const scene::Scene& scene);
     Status recordSlice(graph::FrameGraph& graph, const scene::Scene& scene, const views::Eye& eye,
                        const Drawn& drawn, int end);
-    Status recordRelief(graph::FrameGraph& graph, const scene::Scene& scene, const views::Eye& eye,
-                        const Drawn& drawn, graph::TextureId surfaceId, graph::TextureId targetId, int end);
+    views::Sampling samplingOf(const scene::Scene& scene) const;
+    Result<Posed> pose(graph::FrameGraph& graph, const scene::Scene& scene);
+    static void recordClear(graph::FrameGraph& graph, graph::TextureId target);
+    Status recordLight(graph::FrameGraph& graph, const scene::Scene& scene, const views::Eye& eye,
+                       const Drawn& drawn, const Posed& posed, graph::TextureId surfaceId,
+                       graph::TextureId targetId, int end);
+    Result<std::vector<relief::Transferred>> recordTransferred(graph::FrameGraph& graph, const Drawn& drawn);
     Status addOthers(const scene::Scene& scene, const Drawn& drawn);
     Status settle(const scene::Scene& scene);
     Compose::Inputs composeInputs(const scene::Scene& scene, const views::Eye& eye,
                                   const Drawn& drawn) const {
-        return {scene, eye, drawn, shownSurface, shown, coarse || dragged};
+        return {scene, eye, drawn, shownSurface, shown, coarse || dragged || stage + 1 < stages.size()};
     }
     // What quality.maxError chose, for people.
     std::string choiceText() const {
@@ -120,6 +130,9 @@ struct Renderer::State {
         return effort == Effort::Coarse || !composed || !compose.unsettled();
     }
     int sliceEnd() const;
+    static graph::TextureId import(graph::FrameGraph& graph, const graph::Texture& texture) {
+        return graph.import(texture.handle(), texture.desc(), texture.label());
+    }
 };
 
 } // namespace lucent::frame

@@ -14,7 +14,7 @@ using scene::Aov;
 
 namespace {
 
-bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
+using views::hasEnvironment;
 
 // Light itself, which may be found in several ways, not how one of them finds it.
 bool showsLight(const scene::Scene& scene) {
@@ -38,6 +38,11 @@ bool seesWalls(const scene::Scene& scene) {
         const vec3 down = rotationFromDegrees(object.transform.rotate) * vec3(0, 0, -1);
         return object.visible && object.isField() && glm::length(forward - down) > 1e-6f;
     });
+}
+
+// A transfer holds what one field keeps of all directions, not what other objects do.
+bool standsAlone(const scene::Scene& scene) {
+    return scene.objects.size() == 1 && scene.objects.front().isField();
 }
 
 double now() {
@@ -74,6 +79,7 @@ void Renderer::State::start(const scene::Scene& scene, std::uint64_t newRevision
 void Renderer::State::chooseSettings(const scene::Scene& scene, Effort effort) {
     settings = scene.technique.at("relief").as<relief::Settings>();
     dragged = effort == Effort::Coarse;
+    atOnce = effort == Effort::Final;
     const bool glass = limitedGlass(scene);
     planning = (limited(scene) || glass) && !dragged;
     choosing = false;
@@ -99,10 +105,11 @@ void Renderer::State::chooseSettings(const scene::Scene& scene, Effort effort) {
 }
 
 void Renderer::State::addStages(const scene::Scene& scene, Effort effort) {
-    const bool manyLights =
-        relief::Relief::need(scene) && hasEnvironment(scene) && !isGeometric(scene.view.show);
+    const bool manyLights = (relief::Relief::need(scene) || brdf::Brdf::need(scene)) &&
+                            hasEnvironment(scene) && !isGeometric(scene.view.show);
     const int wanted = settings.environmentLights;
-    const bool transfer = manyLights && settings.method == relief::Method::Transfer && showsLight(scene);
+    const bool transfer =
+        manyLights && settings.method == relief::Method::Transfer && showsLight(scene) && standsAlone(scene);
     const bool atOnce = effort == Effort::Final || (transfer && transfers.ready(scene, settings));
     const int summed = transfer ? kFirstStage * kStageFactor : wanted; // while the transfer is made
     for (int count = kFirstStage; manyLights && !atOnce && count * 2 < summed; count *= kStageFactor)
@@ -206,22 +213,23 @@ void Renderer::State::makeTargets() {
 void Renderer::State::startStage(const scene::Scene& scene) {
     next = 0;
     if (stage >= stages.size()) return;
-    lights = relief::Relief::lights(scene, settings, stages[stage].directions);
-    placed = int(relief::Relief::lights(scene, settings, 0).size());
-    const Image table = relief::Relief::lightTable(lights);
+    lights = views::lightSamples(scene, samplingOf(scene));
+    placed = int(std::count_if(lights.begin(), lights.end(),
+                               [](const views::LampPoint& light) { return !light.isEnvironment; }));
+    const Image table = views::sampleTable(lights);
     const TextureDesc desc{.size = table.size(), .format = Format::RGBA32F};
     if (!lightTable || lightTable.desc() != desc)
-        lightTable = graph::Texture(context.device(), desc, "relief.lights");
+        lightTable = graph::Texture(context.device(), desc, "light.samples");
     context.device().upload(lightTable.handle(), 0, table.pixels);
 }
 
 int Renderer::State::sliceEnd() const {
-    const int count = int(lights.size());
+    const int count = int(lights.size()), most = views::mostSamplesAtOnce(context, size);
+    if (atOnce) return std::min(count, next + most);
     const double affordable = msPerLight > 0 ? std::max(1.0, kSliceMs / msPerLight) : 1;
-    const int end =
-        std::min(count, next + int(std::min(affordable, double(relief::Relief::kMostLightsAtOnce))));
+    const int end = std::min(count, next + int(std::min(affordable, double(most))));
     // Every point and distant light belongs to the first look: they are few.
-    return next == 0 ? std::min(count, std::max(end, 4)) : end;
+    return next == 0 ? std::min(count, std::max(end, std::min(4, most))) : end;
 }
 
 Status Renderer::State::runGraph(const std::function<Status(graph::FrameGraph&)>& record) {
@@ -234,64 +242,133 @@ Status Renderer::State::runGraph(const std::function<Status(graph::FrameGraph&)>
     return Done{};
 }
 
-Status Renderer::State::recordSlice(graph::FrameGraph& graph, const scene::Scene& scene,
-                                    const views::Eye& eye, const Drawn& drawn, int end) {
-    const auto import = [&](const graph::Texture& texture) {
-        return graph.import(texture.handle(), texture.desc(), texture.label());
-    };
-    const graph::TextureId surfaceId = import(surfaceShown ? shownSurface : surface);
-    const graph::TextureId targetId = import(next > 0 ? scratch : sum);
-    graph.keep(targetId);
-    std::vector<views::DrawnMesh> meshes = drawn.meshes.solid;
-    if (isGeometric(scene.view.show))
-        meshes.insert(meshes.end(), drawn.meshes.glass.begin(), drawn.meshes.glass.end());
-    Result<std::vector<views::PosedMesh>> solids = views::recordPose(graph, context, meshes, scene.view.time);
-    if (!solids) return solids.error();
-    if (!surfaceDrawn && !solids->empty()) graph.keep(surfaceId); // read after this graph
-    if (!surfaceDrawn)
-        if (Status s = views::recordSurface(graph, context, eye, drawn.fields, *solids, surfaceId, size); !s)
-            return s;
-    if (isGeometric(scene.view.show))
-        return views::recordGeometry(graph, context, eye, drawn.fields, *solids, surfaceId, targetId,
-                                     scene.view.show, size);
-    if (!drawn.fields.empty()) return recordRelief(graph, scene, eye, drawn, surfaceId, targetId, end);
-    graph.addPass("frame.clear", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("no height field draws there");
-        pass.write(targetId);
-        pass.clear(targetId, vec4(0));
-        return [](const graph::Resources&, graph::Commands&) {};
-    });
-    return Done{};
+views::Sampling Renderer::State::samplingOf(const scene::Scene& scene) const {
+    const scene::Scene used = chosen(scene);
+    const bool onFields = relief::Relief::need(scene).has_value();
+    const int own = used.technique.at("brdf").as<brdf::Settings>().lightSamples;
+    const int lamp = onFields ? settings.lightSamples : own;
+    return {.lamp = coarse || dragged ? std::min(lamp, kCoarseLampSamples) : lamp,
+            .directions = stages[stage].directions,
+            .environment = settings.environmentSampling};
 }
 
-Status Renderer::State::recordRelief(graph::FrameGraph& graph, const scene::Scene& scene,
-                                     const views::Eye& eye, const Drawn& drawn, graph::TextureId surfaceId,
-                                     graph::TextureId targetId, int end) {
-    const auto import = [&](const graph::Texture& texture) {
-        return graph.import(texture.handle(), texture.desc(), texture.label());
-    };
-    std::vector<relief::Transferred> transferred;
-    if (stages[stage].transfer) {
-        transferred.resize(drawn.fields.size()); // slices after the first add light to walls only
-        if (next == 0) {
-            auto recorded = transfers.record(graph);
-            if (!recorded) return recorded.error();
-            transferred = std::move(*recorded);
-        }
+Status Renderer::State::recordSlice(graph::FrameGraph& graph, const scene::Scene& scene,
+                                    const views::Eye& eye, const Drawn& drawn, int end) {
+    const graph::TextureId surfaceId = import(graph, surfaceShown ? shownSurface : surface);
+    const graph::TextureId targetId = import(graph, next > 0 ? scratch : sum);
+    graph.keep(targetId);
+    Result<Posed> posed = pose(graph, scene);
+    if (!posed) return posed.error();
+    std::vector<views::PosedMesh> solids = posed->visible(posed->solid);
+    if (isGeometric(scene.view.show)) {
+        const std::vector<views::PosedMesh> glass = posed->visible(posed->glass);
+        solids.insert(solids.end(), glass.begin(), glass.end());
     }
-    const relief::Inputs in{.eye = eye,
-                            .objects = drawn.fields,
-                            .lights = lights,
-                            .surface = surfaceId,
-                            .sum = next > 0 ? import(sum) : graph::TextureId{},
-                            .target = targetId,
-                            .lightTable = import(lightTable),
-                            .first = next,
-                            .end = end,
-                            .placed = placed,
-                            .transferred = std::move(transferred),
-                            .show = scene.view.show};
-    return relief.record(graph, in, settings);
+    if (!surfaceDrawn && !solids.empty()) graph.keep(surfaceId); // read after this graph
+    if (!surfaceDrawn)
+        if (Status s = views::recordSurface(graph, context, eye, drawn.fields, solids, surfaceId, size); !s)
+            return s;
+    if (isGeometric(scene.view.show))
+        return views::recordGeometry(graph, context, eye, drawn.fields, solids, surfaceId, targetId,
+                                     scene.view.show, size);
+    return recordLight(graph, scene, eye, drawn, *posed, surfaceId, targetId, end);
+}
+
+void Renderer::State::recordClear(graph::FrameGraph& graph, graph::TextureId target) {
+    graph.addPass("frame.clear", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("nothing is lit yet");
+        pass.write(target);
+        pass.clear(target, vec4(0));
+        return [](const graph::Resources&, graph::Commands&) {};
+    });
+}
+
+// Light of one slice of the samples on everything that is lit where it is seen.
+Status Renderer::State::recordLight(graph::FrameGraph& graph, const scene::Scene& scene,
+                                    const views::Eye& eye, const Drawn& drawn, const Posed& posed,
+                                    graph::TextureId surfaceId, graph::TextureId targetId, int end) {
+    const std::vector<views::PosedMesh> solids = posed.visible(posed.solid);
+    std::vector<views::PosedMesh> matt = solids;
+    std::erase_if(matt, [](const views::PosedMesh& mesh) {
+        const scene::Material& material = mesh.drawn.object->material;
+        return material.isMirror() || (material.isScattering() && !mesh.drawn.paint);
+    });
+    const bool showsMatt = scene.view.show == Aov::Color || scene.view.show == Aov::Irradiance;
+    if (drawn.fields.empty() && (matt.empty() || !showsMatt)) {
+        recordClear(graph, targetId);
+        return Done{};
+    }
+    graph::TextureId flux;
+    if (next == 0) {
+        const scene::Scene used = chosen(scene);
+        Result<graph::TextureId> caustics =
+            compose.recordCaustics(graph, composeInputs(used, eye, drawn), posed, surfaceId);
+        if (!caustics) return caustics.error();
+        flux = *caustics;
+    }
+    const views::Lit lit{.eye = eye,
+                         .size = size,
+                         .surface = surfaceId,
+                         .fields = drawn.fields,
+                         .solids = solids,
+                         .casters = posed.fields,
+                         .opaque = posed.solid,
+                         .refractive = posed.glass,
+                         .shadowSize = scene.technique.at("brdf").as<brdf::Settings>().shadowSize};
+    const std::span<const views::LampPoint> slice(lights.data() + next, std::size_t(end - next));
+    Result<views::Occlusion> occlusion = views::recordOcclusion(graph, context, lit, slice);
+    if (!occlusion) return occlusion.error();
+    const graph::TextureId before = next > 0 ? import(graph, sum) : graph::TextureId{};
+    const graph::TextureId table = import(graph, lightTable);
+    if (!drawn.fields.empty()) {
+        Result<std::vector<relief::Transferred>> transferred = recordTransferred(graph, drawn);
+        if (!transferred) return transferred.error();
+        const relief::Inputs in{.eye = eye,
+                                .objects = drawn.fields,
+                                .scene = scene,
+                                .lights = lights,
+                                .surface = surfaceId,
+                                .sum = before,
+                                .target = targetId,
+                                .lightTable = table,
+                                .first = next,
+                                .end = end,
+                                .placed = placed,
+                                .transferred = std::move(*transferred),
+                                .show = scene.view.show,
+                                .occlusion = *occlusion,
+                                .flux = flux,
+                                .size = size};
+        if (Status s = relief.record(graph, in, settings); !s) return s;
+    }
+    if (!showsMatt) return Done{};
+    return brdf.record(graph, {.scene = scene,
+                               .eye = eye,
+                               .size = size,
+                               .solids = matt,
+                               .surface = surfaceId,
+                               .lightTable = table,
+                               .first = next,
+                               .end = end,
+                               .occlusion = *occlusion,
+                               .flux = flux,
+                               .sum = before,
+                               .target = targetId,
+                               .show = scene.view.show,
+                               .clears = drawn.fields.empty()});
+}
+
+// What the transfers bring, one for each field; none without them. Slices after the first add light to walls
+// only.
+Result<std::vector<relief::Transferred>> Renderer::State::recordTransferred(graph::FrameGraph& graph,
+                                                                            const Drawn& drawn) {
+    if (!stages[stage].transfer) return std::vector<relief::Transferred>();
+    if (next == 0) return transfers.record(graph);
+    return std::vector<relief::Transferred>(drawn.fields.size());
+}
+
+Result<Posed> Renderer::State::pose(graph::FrameGraph& graph, const scene::Scene& scene) {
+    return posedOf(graph, context, scene, images, compose.waters());
 }
 
 // All that is no height field, over the finished light on the fields.
@@ -302,7 +379,6 @@ Status Renderer::State::addOthers(const scene::Scene& scene, const Drawn& drawn)
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
     const scene::Scene used = chosen(scene);
     const Compose::Inputs in = composeInputs(used, eye, drawn);
-    if (Status prepared = compose.prepare(in); !prepared) return prepared;
     const Status added = runGraph([&](graph::FrameGraph& graph) { return compose.record(graph, in); });
     context.device().wait(picture().handle());
     workMs += now() - before;
@@ -337,6 +413,11 @@ Status Renderer::State::slice(const scene::Scene& scene) {
         if (!ready) return ready.error();
         if (!*ready) return Done{};
     }
+    if (next == 0 && !geometric) {
+        if (!surfaceShown) compose.forget();
+        const scene::Scene used = chosen(scene);
+        if (Status prepared = compose.prepare(composeInputs(used, eye, *drawn)); !prepared) return prepared;
+    }
     const int end = geometric ? int(lights.size()) : sliceEnd();
     const bool more = end < int(lights.size());
     if ((more || next > 0) && !scratch)
@@ -358,7 +439,6 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     if (!surfaceShown) {
         std::swap(surface, shownSurface);
         shownKey = surfaceKey(scene, size, compose.waters().changes());
-        compose.forget();
     }
     surfaceShown = true;
     if (Status added = addOthers(scene, *drawn); !added) return added;

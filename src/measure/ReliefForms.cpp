@@ -2,8 +2,8 @@
 #include "measure/SelfCheck.h"
 
 #include "frame/Renderer.h"
-#include "techniques/relief/Relief.h"
 #include "scene/Environment.h"
+#include "techniques/relief/Relief.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,10 +64,11 @@ Scene sceneOf(Heights heights, float heightScale, float depth) {
     return scene;
 }
 
-// Degrees above the horizon, and from +x towards +y.
+// Degrees above the horizon, and from +x towards +y. A white surface that faces it is 1.
 scene::DistantLight lampAt(double elevation, double azimuth) {
     const double e = elevation * kDegree, a = azimuth * kDegree;
-    return {.direction = -vec3(dvec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)))};
+    return {.direction = -vec3(dvec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e))),
+            .irradiance = kPi};
 }
 
 constexpr int kDirections =
@@ -80,6 +81,7 @@ void addSky(Scene& scene, const Function& radiance) {
         for (int x = 0; x < map->width; ++x)
             std::fill_n(map->at(x, y), 3, float(radiance(x, y)));
     scene.environment.emplace().map = map;
+    scene.environment->intensity = 0.25f; // colours are means of d over the sphere then
     settingsOf(scene).environmentLights = kDirections;
 }
 
@@ -466,8 +468,8 @@ Finding inverseSquare(Studio& studio) {
     scene.camera.height = 1e-3f;
     Finding finding;
     for (const float distance : {0.5f, 2.0f}) {
-        scene.lights = {
-            scene::PointLight{.position = {0, 0, distance}, .falloff = scene::LightFalloff::InverseSquare}};
+        scene.lights = {scene::PointLight{
+            .position = {0, 0, distance}, .intensity = kPi, .falloff = scene::LightFalloff::InverseSquare}};
         const double far = distance + depth; // from the point below the surface
         finding.take(1, far * far * studio.draw(scene, Aov::Color).pixels[0]);
     }

@@ -13,9 +13,15 @@ TruthModel usualTruth(const scene::Scene& scene) {
     if (aov == scene::Aov::Radiosity || (aov == scene::Aov::Color && scatters)) return TruthModel::Dipole;
     if (aov == scene::Aov::Irradiance) return TruthModel::Light;
     if (aov == scene::Aov::Color && frame::need(scene, "caustics")) return TruthModel::Light;
-    const bool fields = std::all_of(scene.objects.begin(), scene.objects.end(),
-                                    [](const scene::Object& object) { return object.isField(); });
-    return fields ? TruthModel::Relief : TruthModel::Glass;
+    const bool alone = std::all_of(scene.objects.begin(), scene.objects.end(),
+                                   [](const scene::Object& object) { return object.isField(); });
+    if (aov == scene::Aov::Illumination) return TruthModel::Relief;
+    const bool shaded = scene.objects.size() > 1 ||
+                        std::any_of(scene.lights.begin(), scene.lights.end(), [](const scene::Light& light) {
+                            return std::holds_alternative<scene::SpotLight>(light) ||
+                                   std::holds_alternative<scene::AreaLight>(light);
+                        });
+    return alone && !shaded ? TruthModel::Relief : TruthModel::Glass;
 }
 
 } // namespace lucent::measure

@@ -7,7 +7,8 @@ namespace lucent::measure {
 
 /// The models that pictures are drawn by, as `src/truth` solves them.
 enum class TruthModel {
-    Relief, ///< height fields alone
+    Relief, ///< one height field alone, by lamps that are points or directions, discs of these, and an
+            ///< environment
     Glass,  ///< what is seen past interfaces and mirrors, and matt things by light that comes straight
     Light,  ///< light of lamps by way of interfaces and mirrors
     Dipole  ///< light inside of what scatters it

@@ -52,7 +52,7 @@ Result<Scene> sceneFromHeights(const std::string& name, std::span<const std::byt
     const vec2 footprint = object.field().footprint();
     scene.camera.height = 1.06f * std::max(footprint.x, footprint.y); // a little air around a square picture
     scene.camera.eye.z = std::max(2.0f, 2 * scene.camera.height);
-    scene.lights.emplace_back(PointLight{});
+    scene.lights.emplace_back(PointLight{.intensity = kPi}); // a white surface that faces it is 1
     Environment& environment = scene.environment.emplace();
     environment.source = "rainbow";
     environment.enabled = false;

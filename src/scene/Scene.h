@@ -204,7 +204,7 @@ enum class LightFalloff : int { None, InverseSquare };
 struct PointLight {
     vec3 position{0.3f, 0.4f, 0.6f}; ///< m
     vec3 color{1};
-    float intensity = 1; ///< plain factor; W/sr with inverse-square falloff
+    float intensity = 1; ///< W/m² on what faces it; W/sr with inverse-square falloff
     LightFalloff falloff = LightFalloff::None;
     float radius = 0; ///< m, >= 0: a disc that faces what it lights; 0: a point
 };
@@ -212,7 +212,7 @@ struct PointLight {
 struct DistantLight {
     vec3 direction{0, 0, -1}; ///< the way the light travels; any length > 0
     vec3 color{1};
-    float irradiance = 1; ///< on a facing surface; plain factor in relief
+    float irradiance = 1; ///< on a facing surface, W/m²
     float angle =
         0; ///< degrees across, [0,90]: an even disc of directions; the sun has 0.53; 0: one direction
 };

@@ -1,7 +1,8 @@
 #include "truth/Glass.h"
 
-#include "truth/ColorMap.h"
 #include "truth/Estimate.h"
+
+#include <algorithm>
 
 namespace lucent::truth {
 
@@ -31,17 +32,6 @@ Media mediaAtEye(const Optics& optics, const scene::Camera& camera) {
     return optics.mediaAt(dvec3(camera.eye), false);
 }
 
-dvec3 shownBy(const Optics& optics, const Hit& hit, const dvec3& irradiance) {
-    const scene::Material& material = optics.object(hit.shape).material;
-    dvec3 base(material.base), diffuse(material.diffuse);
-    if (const auto* block = std::get_if<FieldBlock>(&optics.rays().shape(hit.shape))) {
-        const dvec2 place = block->field->placeOnMap(block->placement.pointFromWorld(hit.position));
-        base *= sampleMap(material.baseMap.get(), place);
-        diffuse *= sampleMap(material.diffuseMap.get(), place);
-    }
-    return base + diffuse * irradiance / std::numbers::pi;
-}
-
 Result<GlassEstimator> GlassEstimator::create(const scene::Scene& scene, ivec2 size, scene::Aov aov,
                                               const GlassOptions& options) {
     if (Status known = checkGlassAov(aov); !known) return known.error();
@@ -53,15 +43,19 @@ Result<GlassEstimator> GlassEstimator::create(const scene::Scene& scene, ivec2 s
 GlassEstimator::GlassEstimator(const scene::Scene& scene, ivec2 size, scene::Aov aov,
                                const GlassOptions& options, Optics optics)
     : eye_(scene.camera, size), size_(size), aov_(aov), options_(options),
-      optics_(std::make_unique<Optics>(std::move(optics))), illumination_(scene, *optics_),
-      atEye_(mediaAtEye(*optics_, scene.camera)) {
+      optics_(std::make_unique<Optics>(std::move(optics))),
+      illumination_(scene, *optics_, options.attenuation), atEye_(mediaAtEye(*optics_, scene.camera)) {
     if (scene.environment && scene.environment->enabled) sky_.emplace(*scene.environment);
+    background_ = sky_ && std::any_of(scene.objects.begin(), scene.objects.end(),
+                                      [](const scene::Object& object) { return !object.isField(); });
 }
 
 dvec3 GlassEstimator::shown(const Arrival& arrival, Random& random) const {
-    if (arrival.at == Arrival::At::Sky && sky_) return sky_->radiance(arrival.direction);
+    if (arrival.at == Arrival::At::Sky && sky_ && (background_ || arrival.surfaces > 0))
+        return sky_->radiance(arrival.direction);
     if (arrival.at != Arrival::At::Opaque) return dvec3(0);
-    return shownBy(*optics_, arrival.hit, illumination_.irradiance(arrival.hit, -arrival.direction, random));
+    const double away = arrival.surfaces == 0 ? eye_.distanceFrom(arrival.hit.position) : kInfinity;
+    return illumination_.radiance(arrival.hit, -arrival.direction, away, random);
 }
 
 /// Of all colours at once; `channel` says whose indices of refraction count.
@@ -72,7 +66,7 @@ dvec3 GlassEstimator::radiance(const Beam& beam, int channel, Random& random, Se
         return arrival.weight * shown(arrival, random);
     };
     const Arrival arrival = follow(*optics_, beam, channel, options_.branching, limits, random);
-    seen.anything |= arrival.at != Arrival::At::Sky || arrival.surfaces > 0 || sky_.has_value();
+    seen.anything |= arrival.at != Arrival::At::Sky || arrival.surfaces > 0 || background_;
     dvec3 sum = light(arrival);
     if (arrival.mirrored)
         sum += light(follow(*optics_, *arrival.mirrored, channel, options_.branching, limits, random));

@@ -20,6 +20,7 @@ struct GlassOptions {
     int samples = 256;      ///< of each pixel in which something is left to chance; > 0
     bool antialias = false; ///< samples lie all over the pixel, else all in its middle
     std::uint64_t seed = 0;
+    Attenuation attenuation = Attenuation::Ratio; ///< of light inside height fields
 };
 
 /// What the eye sees.
@@ -28,11 +29,9 @@ struct GlassOptions {
 /// it meets in the end, times the transmitted shares, plus, by the first interface, the reflected share of
 /// what lies in the mirrored direction (followed as a chain of its own). The tree is the physics of the same
 /// surfaces: at every interface one of both ways, as often as light goes there. Rays to nowhere show the
-/// environment (Sky), opaque objects base + diffuse E / pi with E by Illumination, in which refractive
-/// objects and mirrors stand in the light's way. The model that is drawn adds the environment's part of E as
-/// if nothing stood in its way, smoothed to spherical harmonics of order 2 (brdf/SkyIrradiance.h): that
-/// difference is model error. Light that the chain gives up is black. Coverage is 0 where nothing is met and
-/// there is no environment.
+/// environment (Sky; height fields alone stand before nothing), opaque objects Illumination::radiance(), in
+/// which refractive objects and mirrors stand in the light's way. Light that the chain gives up is black.
+/// Coverage is 0 where nothing is met and no environment shows.
 ///
 /// Direction: the last one of green light by the chain; coverage is 0 where the chain was given up. Layers:
 /// the refractive surfaces that the unbent ray of the eye meets before anything else. Normal (interpolated),
@@ -67,6 +66,7 @@ private:
     std::unique_ptr<Optics> optics_; ///< in one place: the illumination knows it
     Illumination illumination_;
     std::optional<Sky> sky_;
+    bool background_ = false; ///< the eye sees the environment behind everything
     Media atEye_;
 };
 
@@ -77,8 +77,5 @@ Beam beamFrom(const Eye& eye, dvec2 place, const Media& around);
 
 /// The media at the eye, of what it sees.
 Media mediaAtEye(const Optics& optics, const scene::Camera& camera);
-
-/// Radiance of an opaque surface that receives an irradiance; maps colour height fields.
-dvec3 shownBy(const Optics& optics, const Hit& hit, const dvec3& irradiance);
 
 } // namespace lucent::truth

@@ -48,7 +48,10 @@ dvec3 LambertEstimator::sample(const PlacedField& object, const SurfacePoint& po
     dvec3 sum{0};
     for (const LightSource& disc : discs_)
         sum += arriving(pointOnDisc(disc, point.position, placeInDisc(random.nextPair())), object, point);
-    if (sky_) sum += arriving(sky_->choose(random.nextPair()), object, point);
+    if (!sky_) return sum;
+    LightSource direction = sky_->choose(random.nextPair());
+    direction.color *= kMeanToLambert;
+    sum += arriving(direction, object, point);
     return sum;
 }
 

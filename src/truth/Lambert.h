@@ -1,11 +1,9 @@
 #pragma once
 /// Direct light on matt surfaces, ray-traced: the physics that the relief model stands for.
 ///
-/// A point of the surface receives, from every lamp and every direction of the environment that it sees, the
-/// light's colour times the cosine to the normal. Units are those of the relief model, so that the two can be
-/// subtracted: no pi, lamps that do not fade unless they say so, and an environment as the mean over the
-/// whole sphere (solid angle / 4 pi times radiance times intensity), which lights an open level field with a
-/// quarter of its radiance. The difference between the two truths is the relief model's own error.
+/// A point of the surface sends base + diffuse E / pi to the eye, with E the irradiance by every lamp and
+/// every direction of the environment that it sees: the units of the relief model, so that the two can be
+/// subtracted. The difference between the two truths is the relief model's own error.
 
 #include "base/Result.h"
 #include "scene/Scene.h"

@@ -1,5 +1,6 @@
 #include "truth/Lamps.h"
 
+#include "truth/ColorMap.h"
 #include "truth/Interface.h"
 
 #include <algorithm>
@@ -169,8 +170,8 @@ std::optional<dvec3> Lamp::place() const {
     return source_.distant ? std::nullopt : std::optional(source_.place);
 }
 
-Illumination::Illumination(const scene::Scene& scene, const Optics& optics)
-    : optics_(&optics), lamps_(scene.lights.begin(), scene.lights.end()) {
+Illumination::Illumination(const scene::Scene& scene, const Optics& optics, Attenuation attenuation)
+    : optics_(&optics), lamps_(scene.lights.begin(), scene.lights.end()), attenuation_(attenuation) {
     if (const auto environment = shiningEnvironment(scene, false))
         around_.emplace(Around{Sky(*environment), EnvironmentSampler(*environment, Choice::ByLight)});
 }
@@ -191,6 +192,43 @@ dvec3 Illumination::irradiance(const Hit& hit, const dvec3& viewer, Random& rand
     const Entering lobe{normalTowards(hit, viewer), ior};
     const dvec3 lamps = ofLamps(hit, lobe, random);
     return lamps + ofSky(hit, lobe, random);
+}
+
+dvec3 Illumination::radiance(const Hit& hit, const dvec3& viewer, double away, Random& random) const {
+    if (const auto* block = std::get_if<FieldBlock>(&optics_->rays().shape(hit.shape)))
+        return ofRelief(*block, hit, viewer, away, random);
+    return shownBy(*optics_, hit, irradiance(hit, viewer, random));
+}
+
+dvec3 Illumination::ofRelief(const FieldBlock& block, const Hit& hit, const dvec3& viewer, double away,
+                             Random& random) const {
+    const scene::Object& object = optics_->object(hit.shape);
+    const SurfacePoint point{block.placement.pointFromWorld(hit.position),
+                             block.placement.directionFromWorld(hit.normal)};
+    const dvec3 below = hit.position - double(object.material.depth) * hit.normal;
+    const dvec3 eye = away < kInfinity ? glm::normalize(below - (hit.position + away * viewer)) : -viewer;
+    Lighting lighting;
+    const auto add = [&](const LightPath& way, const dvec3& irradiance) {
+        const bool distant = way.distance == kInfinity;
+        const dvec3 place = distant ? way.direction : below + way.distance * way.direction;
+        const LightPath seen = distant ? way : wayTo(place, hit.position);
+        if (optics_->rays().occluded({hit.position, seen.direction, seen.distance}, {hit.shape, kInfinity}))
+            return;
+        lighting.lamps.push_back({.place = distant ? block.placement.directionFromWorld(place)
+                                                   : block.placement.pointFromWorld(place),
+                                  .distant = distant,
+                                  .color = irradiance / std::numbers::pi});
+    };
+    for (const Lamp& lamp : lamps_) {
+        const auto [way, irradiance] = lamp.light(below, lamp.isSampled() ? random.nextPair() : dvec2(0));
+        if (irradiance != dvec3(0)) add(way, irradiance);
+    }
+    if (around_) {
+        const LightSource direction = around_->directions.choose(random.nextPair());
+        add({direction.place, kInfinity}, 2 * kTwoPi * direction.color);
+    }
+    return shade(*block.field, object, point, block.placement.directionFromWorld(eye), lighting, attenuation_)
+        .color;
 }
 
 dvec3 Illumination::mirrored(const Hit& hit, const Facets& facets, Random& random) const {
@@ -228,6 +266,19 @@ dvec3 Illumination::ofSky(const Hit& hit, const auto& lobe, Random& random) cons
         sum += around_->sky.radiance(direction) * (share / density);
     }
     return sum;
+}
+
+dvec3 shownBy(const Optics& optics, const Hit& hit, const dvec3& irradiance) {
+    const scene::Material& material = optics.object(hit.shape).material;
+    dvec3 base(material.base), diffuse(material.diffuse);
+    double matt = 1;
+    if (const auto* block = std::get_if<FieldBlock>(&optics.rays().shape(hit.shape))) {
+        const dvec2 place = block->field->placeOnMap(block->placement.pointFromWorld(hit.position));
+        base *= sampleMap(material.baseMap.get(), place);
+        diffuse *= sampleMap(material.diffuseMap.get(), place);
+        matt = 1 - double(material.specularity);
+    }
+    return matt * (base + diffuse * irradiance / std::numbers::pi);
 }
 
 dvec3 normalTowards(const Hit& hit, const dvec3& viewer) {

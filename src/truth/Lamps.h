@@ -9,6 +9,7 @@
 #include "truth/Optics.h"
 #include "truth/Random.h"
 #include "truth/RayScene.h"
+#include "truth/Relief.h"
 
 #include <optional>
 #include <span>
@@ -75,7 +76,9 @@ private:
 /// for lamps only. What a medium around both lamp and surface absorbs is not counted.
 class Illumination {
 public:
-    Illumination(const scene::Scene& scene, const Optics& optics);
+    /// @param attenuation  of light inside height fields
+    Illumination(const scene::Scene& scene, const Optics& optics,
+                 Attenuation attenuation = Attenuation::Ratio);
 
     const std::vector<Lamp>& lamps() const { return lamps_; }
     /// Whether irradiance() is left to chance.
@@ -86,6 +89,12 @@ public:
     /// @param viewer  unit direction to where it is seen from: that side of the surface is lit
     /// @param ior     only what a smooth boundary to a medium of this index lets through counts; 1: all
     dvec3 irradiance(const Hit& hit, const dvec3& viewer, Random& random, double ior = 1) const;
+    /// Radiance of an opaque surface, W/(m² sr), by as many: of a height field by the thesis's model
+    /// (truth/Relief.h), behind everything else that stands in the light's way; of all else base + diffuse E
+    /// / pi.
+    ///
+    /// @param away  m to where it is seen from, along a straight way; infinite
+    dvec3 radiance(const Hit& hit, const dvec3& viewer, double away, Random& random) const;
     /// Radiance that facets of the surface mirror to where they are seen from, W/(m² sr), by as many. Smooth
     /// ones mirror no lamp: where one that is a point meets the eye it would be infinitely bright.
     dvec3 mirrored(const Hit& hit, const Facets& facets, Random& random) const;
@@ -102,13 +111,19 @@ private:
         EnvironmentSampler directions;
     };
     bool reaches(const Hit& hit, const LightPath& way) const;
+    dvec3 ofRelief(const FieldBlock& block, const Hit& hit, const dvec3& viewer, double away,
+                   Random& random) const;
     dvec3 ofLamps(const Hit& hit, const auto& lobe, Random& random) const;
     dvec3 ofSky(const Hit& hit, const auto& lobe, Random& random) const;
 
     const Optics* optics_;
     std::vector<Lamp> lamps_;
     std::optional<Around> around_;
+    Attenuation attenuation_;
 };
+
+/// Radiance of an opaque surface that receives an irradiance as a matt one does; maps colour height fields.
+dvec3 shownBy(const Optics& optics, const Hit& hit, const dvec3& irradiance);
 
 /// The normal of a surface on the side of a viewer: the smooth one, or where that faces away the geometric.
 dvec3 normalTowards(const Hit& hit, const dvec3& viewer);

@@ -198,9 +198,11 @@ Result<Picture> traceLight(const scene::Scene& scene, ivec2 size, const LightOpt
     const std::uint64_t seed = options.seed + (std::uint64_t(part.index) << 32);
     std::unique_ptr<Estimator> straight;
     if (color) {
-        auto glass = GlassEstimator::create(
-            scene, size, options.aov,
-            {.branching = options.branching, .samples = options.samples, .seed = seed});
+        auto glass = GlassEstimator::create(scene, size, options.aov,
+                                            {.branching = options.branching,
+                                             .samples = options.samples,
+                                             .seed = seed,
+                                             .attenuation = options.attenuation});
         if (!glass) return glass.error();
         straight = std::make_unique<GlassEstimator>(std::move(*glass));
     } else {

@@ -6,6 +6,7 @@
 #include "scene/Scene.h"
 #include "truth/Journey.h"
 #include "truth/Picture.h"
+#include "truth/Relief.h"
 
 #include <atomic>
 #include <cstdint>
@@ -18,6 +19,7 @@ struct LightOptions {
     std::int64_t photons = 1'000'000; ///< of the whole picture, > 0
     int samples = 256;                ///< of each pixel, for light straight from what has a size; > 0
     std::uint64_t seed = 0;
+    Attenuation attenuation = Attenuation::Ratio; ///< of light inside height fields
 };
 
 /// Irradiance, W/m², of the opaque surfaces that the camera sees with nothing before them; coverage is 1

@@ -231,7 +231,7 @@ std::vector<LightSource> worldLamps(const scene::Scene& scene, bool normalise) {
     std::vector<LightSource> lamps;
     for (const scene::Light& light : scene.lights)
         if (auto source = sourceOf(light)) {
-            source->color *= shareOfOneLight(scene, normalise);
+            source->color *= shareOfOneLight(scene, normalise) / std::numbers::pi;
             lamps.push_back(*source);
         }
     return lamps;

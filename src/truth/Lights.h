@@ -60,13 +60,18 @@ std::array<dvec2, 4> mirroredPairs(Random& random);
 /// A point or distant light in world space; nothing for others, which relief does not know.
 std::optional<LightSource> sourceOf(const scene::Light& light);
 
-/// All sourceOf() of a scene.
+/// All sourceOf() of a scene for a surface whose diffuse colour is what it sends back of an irradiance of pi
+/// (Lambert): divided by pi.
 ///
 /// @param normalise  divide their light by the number of lights, an environment counting as one
 std::vector<LightSource> worldLamps(const scene::Scene& scene, bool normalise);
 
-/// The environment if there is one and it shines, with its intensity (divided as that of the lamps).
+/// The environment if there is one and it shines, with its intensity (divided among the lights as theirs).
 std::optional<scene::Environment> shiningEnvironment(const scene::Scene& scene, bool normalise);
+
+/// What the mean of an environment over the sphere is multiplied by to be the irradiance of all its
+/// directions on surfaces that face them, over pi: 4 pi sr / pi.
+inline constexpr double kMeanToLambert = 4;
 
 /// What directions on an environment are chosen for.
 enum class Choice {

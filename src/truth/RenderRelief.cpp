@@ -28,6 +28,8 @@ ReliefEstimator::ReliefEstimator(const scene::Scene& scene, ivec2 size, scene::A
     if (const auto environment = shiningEnvironment(scene, options.normalise)) {
         const Choice choice = aov == scene::Aov::Color ? Choice::ByLight : Choice::Evenly;
         world.environment = environmentLights(*environment, options.environmentLights, choice, options.seed);
+        for (LightSource& light : world.environment)
+            light.color *= kMeanToLambert;
     }
     for (const PlacedField& placed : objects_)
         lighting_.push_back(

@@ -77,11 +77,11 @@ const char* switchFor(scene::Aov aov) {
 
 } // namespace
 
-Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCache& images) {
+Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCache& images, bool hiddenToo) {
     std::vector<DrawnObject> drawn;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
-        if (!object.visible || !object.isField()) continue;
+        if ((!object.visible && !hiddenToo) || !object.isField()) continue;
         DrawnObject one{.object = &object, .index = int(i)};
         Result<const FieldTextures*> field = images.field(object.field().heights);
         if (!field) return field.error();

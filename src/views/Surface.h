@@ -21,8 +21,11 @@ struct DrawnObject {
     graph::TextureHandle specularMap = graph::TextureHandle::None;
 };
 
-/// Looks the textures of a scene's visible height fields up.
-Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCache& images);
+/// Looks the textures of a scene's height fields up.
+///
+/// @param hiddenToo  those that the camera does not see as well
+Result<std::vector<DrawnObject>> drawnObjects(const scene::Scene& scene, ImageCache& images,
+                                              bool hiddenToo = false);
 
 /// Draws one height field with shaders/views/surface.vert.
 ///

@@ -2,6 +2,7 @@
 /// What the tests of opaque surfaces share: matt things, the technique with all that it asks for, and truth.
 
 #include "techniques/brdf/Brdf.h"
+#include "tests/support/Matt.h"
 #include "tests/support/Seen.h"
 #include "truth/Glass.h"
 
@@ -77,10 +78,35 @@ struct Brdf : support::GlTest {
         graph.keep(targetId);
         const support::Seen posed(graph, *context, images, scene, surfaceId, size);
         context->device().checkTargets(true);
-        const Inputs in{scene,  posed.eye,         posed.solids, posed.all, surfaceId,
-                        fluxId, posed.environment, targetId,     show,      size};
-        const Status recorded = brdf::Brdf(*context).record(graph, in, settings);
-        EXPECT_TRUE(recorded.ok());
+        std::vector<views::PosedMesh> matt, mirrors, opaque, glass;
+        for (const views::PosedMesh& mesh : posed.solids)
+            (mesh.drawn.object->material.isMirror() ? mirrors : matt).push_back(mesh);
+        for (const views::PosedMesh& mesh : posed.all)
+            (mesh.drawn.object->material.isRefractive() ? glass : opaque).push_back(mesh);
+        graph::Texture table;
+        support::recordMatt(graph, *context,
+                            {.scene = scene,
+                             .eye = posed.eye,
+                             .size = size,
+                             .surface = surfaceId,
+                             .solids = matt,
+                             .opaque = opaque,
+                             .refractive = glass,
+                             .show = show,
+                             .flux = fluxId},
+                            table, targetId, {.lamp = settings.lightSamples, .directions = 256},
+                            settings.shadowSize);
+        if (show == scene::Aov::Color) {
+            EXPECT_TRUE(brdf::Brdf(*context)
+                            .recordMirrors(graph, {.scene = scene,
+                                                   .eye = posed.eye,
+                                                   .size = size,
+                                                   .mirrors = mirrors,
+                                                   .surface = surfaceId,
+                                                   .environment = posed.environment,
+                                                   .target = targetId})
+                            .ok());
+        }
         return support::finish(graph, pool, *context, target);
     }
     float atMiddle(const scene::Scene& scene, const Settings& settings = {}) {

@@ -1,9 +1,9 @@
 // Shadows on opaque surfaces, of lamps without and with a size, against ray-traced truth.
 #include "techniques/brdf/Brdf.h"
 
-#include "tests/brdf/Stage.h"
-#include "light/Lamps.h"
+#include "light/Samples.h"
 #include "light/ShadowMap.h"
+#include "tests/brdf/Stage.h"
 
 #include <gtest/gtest.h>
 

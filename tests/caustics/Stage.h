@@ -1,9 +1,9 @@
 #pragma once
 /// What the tests of caustics share: floors, the technique with all that it asks for, and sums over pictures.
 
-#include "techniques/brdf/Brdf.h"
 #include "techniques/caustics/Caustics.h"
 #include "tests/support/Gl.h"
+#include "tests/support/Matt.h"
 #include "tests/truth/scenes.h"
 #include "truth/Glass.h"
 #include "truth/LightTracer.h"
@@ -81,9 +81,8 @@ struct Caustics : support::GlTest {
         const auto glass = views::recordPose(graph, *context, stage.drawn.glass, scene.view.time);
         const auto solids = views::recordPose(graph, *context, stage.drawn.solid, scene.view.time);
         const graph::TextureId surface = graph.create("surface", desc);
-        std::vector<views::PosedMesh> seen = *solids, casters = *solids;
+        std::vector<views::PosedMesh> seen = *solids;
         std::erase_if(seen, [](const views::PosedMesh& mesh) { return !mesh.drawn.object->visible; });
-        casters.insert(casters.end(), glass->begin(), glass->end());
         EXPECT_TRUE(views::recordSurface(graph, *context, eye, stage.fields, seen, surface, size).ok());
         const auto light = caustics::Caustics(*context).record(
             graph, {scene, eye, *glass, *solids, surface, size, stage.fields}, stage.plan, settings);
@@ -92,17 +91,18 @@ struct Caustics : support::GlTest {
         graph.keep(targetId);
         scene::Scene lit = scene;
         if (!alsoDirect) lit.lights.clear();
-        const brdf::Inputs shading{lit,
-                                   eye,
-                                   seen,
-                                   casters,
-                                   surface,
-                                   *light,
-                                   graph::TextureHandle::None,
-                                   targetId,
-                                   scene::Aov::Irradiance,
-                                   size};
-        EXPECT_TRUE(brdf::Brdf(*context).record(graph, shading, {}).ok());
+        graph::Texture table;
+        support::recordMatt(graph, *context,
+                            {.scene = lit,
+                             .eye = eye,
+                             .size = size,
+                             .surface = surface,
+                             .solids = seen,
+                             .opaque = *solids,
+                             .refractive = *glass,
+                             .show = scene::Aov::Irradiance,
+                             .flux = *light},
+                            table, targetId, {.lamp = 16, .directions = 0});
         const Status compiled = graph.compile();
         EXPECT_TRUE(compiled.ok()) << compiled.error().message;
         graph.execute(stage.pool);

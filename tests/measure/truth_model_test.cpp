@@ -12,7 +12,11 @@ using test::sceneOf;
 scene::Object field() { return matt(scene::HeightField{}); }
 
 TEST(UsualTruth, IsTheReliefsOwnWhereNothingElseIs) {
-    EXPECT_EQ(usualTruth(sceneOf({field(), field()})), TruthModel::Relief);
+    EXPECT_EQ(usualTruth(sceneOf({field()})), TruthModel::Relief);
+    EXPECT_EQ(usualTruth(sceneOf({field(), field()})), TruthModel::Glass); // they shadow each other
+    scene::Scene spot = sceneOf({field()});
+    spot.lights = {scene::SpotLight{}};
+    EXPECT_EQ(usualTruth(spot), TruthModel::Glass);
     EXPECT_EQ(usualTruth(sceneOf({field(), matt(scene::Sphere{})})), TruthModel::Glass);
 }
 

@@ -61,7 +61,7 @@ TEST_F(Scattering, ABallRunsNoPassOfOpaqueSurfaces) {
     EXPECT_TRUE(runs("subsurface.splat"));
     EXPECT_TRUE(runs("subsurface.shade"));
     EXPECT_TRUE(runs("subsurface.highlight"));
-    EXPECT_FALSE(runs("brdf.shade"));
+    EXPECT_FALSE(runs("brdf.light"));
     EXPECT_FALSE(runs("subsurface.peel")); // no environment
     EXPECT_NE(explained().find("subsurface: light scatters inside object \"ball\""), std::string::npos);
 }
@@ -69,7 +69,7 @@ TEST_F(Scattering, ABallRunsNoPassOfOpaqueSurfaces) {
 TEST_F(Scattering, AFloorBesideItIsShadedAsEverAndABallThatIsHiddenStillCastsItsShadow) {
     scene::Object& floor = add("floor", scene::Plane{{0.04f, 0.04f}}, {0, -0.012f, 0});
     floor.transform.rotate = {60, 0, 0};
-    EXPECT_TRUE(runs("brdf.shade"));
+    EXPECT_TRUE(runs("brdf.light"));
     EXPECT_GT(sumOf(picture()), 0);
     scene.objects[0].visible = false;
     EXPECT_FALSE(runs("subsurface.shade"));

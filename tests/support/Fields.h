@@ -2,8 +2,8 @@
 /// Height fields and scenes that tests share.
 
 #include "frame/Renderer.h"
-#include "techniques/relief/Relief.h"
 #include "scene/Scene.h"
+#include "techniques/relief/Relief.h"
 
 #include <cmath>
 #include <functional>
@@ -77,6 +77,7 @@ inline relief::Settings& reliefSettings(scene::Scene& scene) {
 inline scene::DistantLight distantLight(double elevation, double azimuth) {
     const double e = elevation * std::numbers::pi / 180, a = azimuth * std::numbers::pi / 180;
     scene::DistantLight light;
+    light.irradiance = kPi; // a white surface that faces it is 1
     light.direction = -vec3(glm::dvec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)));
     return light;
 }

@@ -30,6 +30,7 @@ scene::Scene flatScene() {
 
 void addSky(scene::Scene& scene, Image map) {
     scene.environment.emplace();
+    scene.environment->intensity = 0.25f; // 4 pi sr over pi: colours are means over the sphere then
     scene.environment->map = std::make_shared<Image>(std::move(map));
 }
 Image white() {
@@ -196,7 +197,7 @@ TEST(Lambert, LeavesHighlightAndScatteringOutAndKeepsTheirShare) {
     material.diffuse = {0.25f, 0.5f, 1};
     material.specularity = 0.5f;
     material.forwardScatter = 1;
-    scene.lights = {scene::DistantLight{}};
+    scene.lights = {scene::DistantLight{.irradiance = float(std::numbers::pi)}};
     const Picture picture = lambert(scene, {1, 1}, scene::Aov::Color, 1);
     for (int channel = 0; channel < 3; ++channel) // (1 - ks) (cB + cD 1)
         EXPECT_NEAR(picture.values.pixels[std::size_t(channel)],

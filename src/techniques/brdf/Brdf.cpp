@@ -1,161 +1,83 @@
 #include "techniques/brdf/Brdf.h"
 
-#include "techniques/brdf/SkyIrradiance.h"
-#include "light/Lamps.h"
-#include "light/ShadowMap.h"
-
-#include <algorithm>
 #include <cstddef>
 
 namespace lucent::brdf {
 
-using graph::TextureId;
-
 namespace {
 
-struct IrradianceBlock {
+struct Matter {
+    vec4 base, diffuse;
+};
+
+struct MattBlock {
+    static constexpr int kObjects = 256;
+
     views::ViewBlock view;
-    views::ViewBlock faces[views::ShadowViews::kMost];
-    vec4 place{0}, centre{0}, color{0}, axis{0};
-    vec2 cone{0};
-    int faceCount = 0, padding = 0;
+    Matter matter[kObjects] = {};
+    int first = 0, firstLight = 0, endLight = 0, columns = 1;
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
-            auto list = views::viewMembers(offsetof(IrradianceBlock, view));
-            list.insert(list.end(), {{"faces[0].eye", offsetof(IrradianceBlock, faces)},
-                                     {"faces[1].size", offsetof(IrradianceBlock, faces[1].size)},
-                                     {"place", offsetof(IrradianceBlock, place)},
-                                     {"centre", offsetof(IrradianceBlock, centre)},
-                                     {"color", offsetof(IrradianceBlock, color)},
-                                     {"axis", offsetof(IrradianceBlock, axis)},
-                                     {"cone", offsetof(IrradianceBlock, cone)},
-                                     {"faceCount", offsetof(IrradianceBlock, faceCount)}});
+            auto list = views::viewMembers(offsetof(MattBlock, view));
+            list.insert(list.end(), {{"matter[0].base", offsetof(MattBlock, matter)},
+                                     {"matter[1].diffuse", offsetof(MattBlock, matter[1].diffuse)},
+                                     {"first", offsetof(MattBlock, first)},
+                                     {"firstLight", offsetof(MattBlock, firstLight)},
+                                     {"endLight", offsetof(MattBlock, endLight)},
+                                     {"columns", offsetof(MattBlock, columns)}});
             return list;
         }();
-        static const graph::BlockLayout layout{"IrradianceBlock", sizeof(IrradianceBlock), members};
+        static const graph::BlockLayout layout{"MattBlock", sizeof(MattBlock), members};
         return layout;
     }
 };
 
-struct Matter {
-    vec4 base, tint;
-};
-
-struct ShadeBlock {
-    static constexpr int kObjects = 256;
-
+struct MirrorBlock {
     views::ViewBlock view;
     mat4 mapFromWorld{1};
-    vec4 sky[9] = {};
-    Matter matter[kObjects] = {};
-    int first = 0;
+    vec4 reflectance{0};
+    int object = 0;
     float intensity = 0;
     int padding[2] = {};
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
-            auto list = views::viewMembers(offsetof(ShadeBlock, view));
-            list.insert(list.end(), {{"mapFromWorld", offsetof(ShadeBlock, mapFromWorld)},
-                                     {"sky", offsetof(ShadeBlock, sky)},
-                                     {"matter[0].base", offsetof(ShadeBlock, matter)},
-                                     {"matter[1].tint", offsetof(ShadeBlock, matter[1].tint)},
-                                     {"first", offsetof(ShadeBlock, first)},
-                                     {"intensity", offsetof(ShadeBlock, intensity)}});
+            auto list = views::viewMembers(offsetof(MirrorBlock, view));
+            list.insert(list.end(), {{"mapFromWorld", offsetof(MirrorBlock, mapFromWorld)},
+                                     {"reflectance", offsetof(MirrorBlock, reflectance)},
+                                     {"object", offsetof(MirrorBlock, object)},
+                                     {"intensity", offsetof(MirrorBlock, intensity)}});
             return list;
         }();
-        static const graph::BlockLayout layout{"ShadeBlock", sizeof(ShadeBlock), members};
+        static const graph::BlockLayout layout{"MirrorBlock", sizeof(MirrorBlock), members};
         return layout;
     }
 };
 
-IrradianceBlock blockOf(const views::LampPoint& lamp, const views::ShadowViews& shadow, const Inputs& in) {
-    IrradianceBlock block{.view = views::viewBlock(in.eye, in.size),
-                          .faces = {},
-                          .place = lamp.place,
-                          .centre = vec4(lamp.centre, lamp.fades),
-                          .color = vec4(lamp.color, lamp.exponent),
-                          .axis = vec4(lamp.axis, 0),
-                          .cone = lamp.cone,
-                          .faceCount = int(shadow.faces.size())};
-    for (std::size_t i = 0; i < shadow.faces.size(); ++i)
-        block.faces[i] = views::viewBlock(shadow.faces[i], ivec2(shadow.size));
+// Of the objects [first, first + kObjects) of the scene.
+MattBlock mattBlock(const Inputs& in, int first) {
+    MattBlock block{.view = views::viewBlock(in.eye, in.size)};
+    block.first = first;
+    block.firstLight = in.first;
+    block.endLight = in.end;
+    block.columns = in.occlusion.columns;
+    for (const views::PosedMesh& solid : in.solids) {
+        const int place = solid.drawn.index - first;
+        if (place < 0 || place >= MattBlock::kObjects) continue;
+        const scene::Material& material = solid.drawn.object->material;
+        block.matter[place] = {vec4(material.base, 0), vec4(material.diffuse, 1)};
+    }
     return block;
 }
 
-// Adds the light of one point of a lamp.
-//
-// @param before  what the points before it left on each pixel; or none
-Result<TextureId> recordLamp(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
-                             const views::LampPoint& lamp, const views::ShadowViews& views, TextureId shadow,
-                             TextureId before) {
-    std::vector<std::string> defines;
-    if (shadow) defines.push_back("USE_SHADOW");
-    if (before) defines.push_back("USE_BEFORE");
-    Result<const gl::Program*> program = context.program("brdf/irradiance", defines);
-    if (!program) return program.error();
-    TextureId sum;
-    graph.addPass("brdf.irradiance", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("light of one point of a lamp" +
-                    std::string(shadow ? ", and its shadows" : "; nothing casts shadows"));
-        pass.sample(in.surface);
-        if (shadow) pass.sample(shadow);
-        if (before) pass.sample(before);
-        sum = pass.createColor("brdf.irradiance", {.size = in.size, .format = graph::Format::RGBA32F});
-        return [=, surface = in.surface, program = *program, block = blockOf(lamp, views, in)](
-                   const graph::Resources& resources, graph::Commands& commands) {
-            std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
-            if (shadow) textures.push_back({"uShadow", resources[shadow]});
-            if (before) textures.push_back({"uBefore", resources[before]});
-            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
-        };
-    });
-    return sum;
-}
-
-// The light of all lamps on each pixel; none without lamps.
-Result<TextureId> recordLamps(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
-                              const Settings& settings) {
-    const std::vector<views::DrawnObject> fields(in.fields.begin(), in.fields.end());
-    const views::Bounds casters = boundsOfAll(in.casters, fields);
-    const views::Bounds receivers = views::seenBy(in.eye, boundsOfAll(in.solids));
-    TextureId sum;
-    for (const views::LampPoint& lamp : views::lampPoints(in.scene, settings.lightSamples)) {
-        const int size = lamp.isPart ? std::max(16, settings.shadowSize / 2) : settings.shadowSize;
-        const views::ShadowViews views = views::shadowViews(lamp.source, casters, receivers, size);
-        TextureId shadow;
-        if (!views.faces.empty()) {
-            Result<TextureId> drawn =
-                views::recordShadow(graph, context, views, in.casters, receivers, fields);
-            if (!drawn) return drawn.error();
-            shadow = *drawn;
-        }
-        Result<TextureId> added = recordLamp(graph, context, in, lamp, views, shadow, sum);
-        if (!added) return added.error();
-        sum = *added;
-    }
-    return sum;
-}
-
-// Of the objects [first, first + kObjects) of the scene.
-ShadeBlock shadeBlock(const Inputs& in, int first) {
-    ShadeBlock block;
-    block.view = views::viewBlock(in.eye, in.size);
-    block.first = first;
-    if (in.environment != graph::TextureHandle::None) {
-        const scene::Environment& environment = *in.scene.environment;
-        block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(environment.rotation)));
-        block.intensity = environment.intensity;
-        const std::array<vec3, 9> sky = skyIrradiance(environment);
-        std::transform(sky.begin(), sky.end(), block.sky, [](vec3 one) { return vec4(one, 0); });
-    }
-    for (const views::PosedMesh& solid : in.solids) {
-        const int place = solid.drawn.index - first;
-        if (place < 0 || place >= ShadeBlock::kObjects) continue;
-        const scene::Material& material = solid.drawn.object->material;
-        block.matter[place] = material.isMirror() ? Matter{vec4(0, 0, 0, 1), vec4(material.reflectance, 1)}
-                                                  : Matter{vec4(material.base, 0), vec4(material.diffuse, 1)};
-    }
+MirrorBlock mirrorBlock(const MirrorInputs& in, const views::PosedMesh& mesh) {
+    MirrorBlock block{.view = views::viewBlock(in.eye, in.size),
+                      .reflectance = vec4(mesh.drawn.object->material.reflectance, 0),
+                      .object = mesh.drawn.index};
+    if (in.environment == graph::TextureHandle::None) return block;
+    block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.scene.environment->rotation)));
+    block.intensity = in.scene.environment->intensity;
     return block;
 }
 
@@ -201,34 +123,59 @@ std::optional<std::string> Brdf::need(const scene::Scene& scene) {
     return std::nullopt;
 }
 
-Status Brdf::record(graph::FrameGraph& graph, const Inputs& in, const Settings& settings) const {
+Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
     if (in.solids.empty()) return Done{};
-    Result<TextureId> light = recordLamps(graph, context_, in, settings);
-    if (!light) return light.error();
-    const TextureId irradiance = *light, flux = in.flux, surface = in.surface, target = in.target;
-    const bool hasSky = in.environment != graph::TextureHandle::None;
+    const graph::TextureId surface = in.surface, table = in.lightTable, target = in.target;
+    const graph::TextureId occlusion = in.occlusion.texture;
+    const graph::TextureId flux = in.first == 0 ? in.flux : graph::TextureId{};
+    const graph::TextureId sum = in.first > 0 ? in.sum : graph::TextureId{};
     std::vector<std::string> defines;
-    if (irradiance) defines.push_back("USE_LAMPS");
+    if (occlusion) defines.push_back("USE_OCCLUSION");
     if (flux) defines.push_back("USE_FLUX");
-    if (hasSky) defines.push_back("USE_SKY");
     if (in.show == scene::Aov::Irradiance) defines.push_back("SHOW_IRRADIANCE");
-    Result<const gl::Program*> program = context_.program("brdf/shade", defines);
+    Result<const gl::Program*> program = context_.program("brdf/light", defines);
     if (!program) return program.error();
     std::vector<graph::Block> blocks;
-    for (int first = 0; first < int(in.scene.objects.size()); first += ShadeBlock::kObjects)
-        blocks.push_back(shadeBlock(in, first));
-    graph.addPass("brdf.shade", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason(std::to_string(in.solids.size()) + " opaque or mirroring object(s)" +
-                    (hasSky ? "; the environment lights them past everything" : ""));
+    for (int first = 0; first < int(in.scene.objects.size()); first += MattBlock::kObjects)
+        blocks.push_back(mattBlock(in, first));
+    graph.addPass("brdf.light", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("light samples " + std::to_string(in.first) + " to " + std::to_string(in.end - 1) +
+                    " on " + std::to_string(in.solids.size()) + " matt object(s)");
         pass.sample(surface);
-        if (irradiance) pass.sample(irradiance);
-        if (flux) pass.sample(flux);
+        pass.sample(table);
+        for (const graph::TextureId id : {occlusion, flux, sum})
+            if (id) pass.sample(id);
         pass.write(target);
-        return [=, program = *program, environment = in.environment](const graph::Resources& resources,
-                                                                     graph::Commands& commands) {
-            std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
-            if (irradiance) textures.push_back({"uIrradiance", resources[irradiance]});
+        if (in.clears) pass.clear(target, vec4(0));
+        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
+                                                 {"uLights", resources[table]}};
+            if (occlusion) textures.push_back({"uOcclusion", resources[occlusion]});
             if (flux) textures.push_back({"uFlux", resources[flux]});
+            if (sum) textures.push_back({"uSum", resources[sum]});
+            for (const graph::Block& block : blocks)
+                commands.draw({.program = program, .block = block, .textures = textures});
+        };
+    });
+    return Done{};
+}
+
+Status Brdf::recordMirrors(graph::FrameGraph& graph, const MirrorInputs& in) const {
+    if (in.mirrors.empty()) return Done{};
+    const bool hasSky = in.environment != graph::TextureHandle::None;
+    Result<const gl::Program*> program = context_.program(
+        "brdf/mirror", hasSky ? std::vector<std::string>{"USE_SKY"} : std::vector<std::string>{});
+    if (!program) return program.error();
+    std::vector<graph::Block> blocks;
+    for (const views::PosedMesh& mesh : in.mirrors)
+        blocks.push_back(mirrorBlock(in, mesh));
+    graph.addPass("brdf.mirror", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(std::to_string(in.mirrors.size()) + " mirror(s); they show the environment only");
+        pass.sample(in.surface);
+        pass.write(in.target);
+        return [=, surface = in.surface, environment = in.environment,
+                program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
             if (hasSky) textures.push_back({"uEnvironment", environment});
             for (const graph::Block& block : blocks)
                 commands.draw({.program = program, .block = block, .textures = textures});

@@ -1,13 +1,12 @@
 #pragma once
-/// Opaque surfaces and mirrors that are no height fields, shaded in one screen pass over the surface image;
-/// lamps with shadows.
+/// Opaque surfaces and mirrors that are no height fields, shaded in screen passes over the surface image.
 
 #include "graph/FrameGraph.h"
+#include "light/Occlusion.h"
 #include "scene/Scene.h"
 #include "views/Surface.h"
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,30 +17,37 @@ struct Settings {
     int shadowSize = 1024; ///< texels a side of a shadow map; of lamps with a size half as many
 };
 
+/// One slice of the light on matt surfaces.
 struct Inputs {
     const scene::Scene& scene;
     const views::Eye& eye;
-    const std::vector<views::PosedMesh>& solids;  ///< visible opaque objects and mirrors
-    const std::vector<views::PosedMesh>& casters; ///< all that casts shadows, hidden or not: opaque,
-                                                  ///< scattering, mirrors and refractive
-    graph::TextureId surface;                     ///< views.surface
-    graph::TextureId flux;                        ///< irradiance of caustics on each pixel; or none
-    graph::TextureHandle environment;             ///< lat-long map of scene.environment; None without one
-    graph::TextureId target;                      ///< RGBA32F
-    scene::Aov show;                              ///< Color or Irradiance
     ivec2 size;
-    std::span<const views::DrawnObject> fields{}; ///< height fields that cast shadows too
+    const std::vector<views::PosedMesh>& solids; ///< visible matt objects
+    graph::TextureId surface;                    ///< views.surface
+    graph::TextureId lightTable;                 ///< views::sampleTable()
+    int first, end;                              ///< samples of this slice
+    views::Occlusion occlusion;                  ///< of these
+    graph::TextureId flux;                       ///< irradiance of caustics on each pixel; or none
+    graph::TextureId sum;                        ///< what earlier slices summed; not read when first == 0
+    graph::TextureId target;                     ///< the sum with this slice; RGBA32F
+    scene::Aov show;                             ///< Color or Irradiance
+    bool clears = false;                         ///< nobody has drawn into the target yet
 };
 
-/// Radiance of a matt surface: base + diffuse * E / pi, with E of
-/// - the lamps in physical units (views/Lamps.h), past everything that casts shadows: refractive objects cast
-/// full
-///   ones, since the light that they let through is that of caustics;
-/// - the flux of caustics;
-/// - the environment, which nothing stands in the way of (SkyIrradiance.h).
-/// Radiance of a mirror: reflectance times the environment in the mirrored direction, whatever lies there.
-///
-/// A surface is lit on the side that is seen.
+/// What mirrors show.
+struct MirrorInputs {
+    const scene::Scene& scene;
+    const views::Eye& eye;
+    ivec2 size;
+    const std::vector<views::PosedMesh>& mirrors; ///< visible ones
+    graph::TextureId surface;                     ///< views.surface
+    graph::TextureHandle environment;             ///< lat-long map of scene.environment; None without one
+    graph::TextureId target;                      ///< RGBA32F
+};
+
+/// Radiance of a matt surface: base + diffuse * E / pi, with E of all light samples past everything that
+/// stands in their way, and the flux of caustics. Radiance of a mirror: reflectance times the environment in
+/// the mirrored direction, whatever lies there. A surface is lit on the side that is seen.
 class Brdf {
 public:
     static const ParamTable& params();
@@ -50,11 +56,11 @@ public:
 
     explicit Brdf(gl::Context& context) : context_(context) {}
 
-    /// Adds the passes that draw the pixels of `solids` into the target and leave the others as they are:
-    /// linear Rec. 709, or of Irradiance W/m² (0 on mirrors); a: 1.
-    ///
-    /// @return  Error (Fault::Machine) when a shadow map is larger than the GPU's textures
-    Status record(graph::FrameGraph& graph, const Inputs& in, const Settings& settings) const;
+    /// Adds the light of one slice to the pixels of matt objects in the target, and leaves the others as
+    /// they are.
+    Status record(graph::FrameGraph& graph, const Inputs& in) const;
+    /// Draws the pixels of mirrors.
+    Status recordMirrors(graph::FrameGraph& graph, const MirrorInputs& in) const;
 
 private:
     gl::Context& context_;

@@ -4,9 +4,9 @@
 /// sees, and add up in a caustic map, where the pixels of the camera look their irradiance up. Nothing is
 /// precomputed.
 
-#include "light/Lamps.h"
-#include "views/Layers.h"
+#include "light/Samples.h"
 #include "light/ShadowMap.h"
+#include "views/Layers.h"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,6 @@
 #include "techniques/relief/Relief.h"
 
 #include "techniques/relief/ReliefBlock.h"
-#include "light/EnvironmentLights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,41 +27,10 @@ std::vector<std::string> defines(const views::DrawnObject& drawn, const Settings
     if (drawn.specularMap != none) list.push_back("USE_SPECULAR_MAP");
     if (in.show == scene::Aov::Iterations) list.push_back("SHOW_ITERATIONS");
     if (in.show == scene::Aov::Visibility) list.push_back("SHOW_VISIBILITY");
+    if (in.show == scene::Aov::Irradiance) list.push_back("SHOW_IRRADIANCE");
+    if (in.occlusion.texture) list.push_back("USE_OCCLUSION");
+    if (in.flux && in.first == 0) list.push_back("USE_FLUX");
     return list;
-}
-
-bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
-
-// A light that relief knows, and its size.
-struct Lamp {
-    LightSource source;
-    float extent; ///< of its disc: m, or tangent of the angle; 0: none
-};
-
-std::optional<Lamp> lampOf(const scene::Light& light) {
-    if (const auto* point = std::get_if<scene::PointLight>(&light)) {
-        const bool fades = point->falloff == scene::LightFalloff::InverseSquare;
-        return Lamp{{vec4(point->position, fades ? 2 : 1), point->intensity * point->color, 1},
-                    point->radius};
-    }
-    if (const auto* distant = std::get_if<scene::DistantLight>(&light))
-        return Lamp{{vec4(-glm::normalize(distant->direction), 0), distant->irradiance * distant->color, 1},
-                    std::tan(glm::radians(distant->angle / 2))};
-    return std::nullopt;
-}
-
-// Points spread evenly over the lamp's disc on a spiral (Vogel 1979), each with its part of the light.
-void addLamp(std::vector<LightSource>& sources, const Lamp& lamp, int samples) {
-    const int count = lamp.extent > 0 ? samples : 1;
-    const float golden = kPi * (3 - std::sqrt(5.0f));
-    for (int i = 0; i < count; ++i) {
-        LightSource source = lamp.source;
-        const float radius = lamp.extent * std::sqrt((float(i) + 0.5f) / float(count));
-        source.disc = radius * vec2(std::cos(float(i) * golden), std::sin(float(i) * golden));
-        source.color /= float(count);
-        source.weight /= float(count);
-        sources.push_back(source);
-    }
 }
 
 ReliefBlock blockOf(const views::DrawnObject& drawn, const Inputs& in, const Settings& settings) {
@@ -70,10 +38,15 @@ ReliefBlock blockOf(const views::DrawnObject& drawn, const Inputs& in, const Set
     ReliefBlock block = makeBlock(drawn, settings);
     block.eye = in.eye.inObject(worldFromObject);
     block.objectFromWorld = glm::inverse(worldFromObject);
+    block.worldFromObject = worldFromObject;
     block.firstLight = in.first;
     block.endLight = in.end;
     block.isFirst = in.first == 0;
     block.placed = in.placed;
+    block.viewSize = in.size;
+    block.columns = in.occlusion.columns;
+    block.share = Relief::shareOfLight(in.scene);
+    block.factor = (settings.normalise ? block.share : 1) / kPi;
     return block;
 }
 
@@ -89,7 +62,8 @@ ReliefBlock makeBlock(const views::DrawnObject& drawn, const Settings& settings)
     block.diffuse = vec4(material.diffuse, material.forwardScatter);
     block.specular = vec4(material.specular, material.depth / scale);
     block.falloffs = vec4(material.specularFalloff, material.scatterFalloff);
-    block.objectFromWorld = mat4(1);
+    block.objectFromWorld = block.worldFromObject = mat4(1);
+    block.share = block.factor = 1;
     block.metres = scale;
     block.radius = glm::length(object.field().footprint());
     block.object = drawn.index;
@@ -180,41 +154,8 @@ std::optional<std::string> Relief::need(const scene::Scene& scene) {
     return "object \"" + field->name + "\" is a height field";
 }
 
-std::vector<LightSource> Relief::lights(const scene::Scene& scene, const Settings& settings,
-                                        int environmentLights) {
-    std::vector<LightSource> sources;
-    for (const scene::Light& light : scene.lights)
-        if (const std::optional<Lamp> lamp = lampOf(light)) addLamp(sources, *lamp, settings.lightSamples);
-    if (hasEnvironment(scene) && environmentLights > 0) {
-        const auto list = settings.environmentSampling == EnvironmentSampling::Importance
-                              ? views::importanceLights(*scene.environment, environmentLights)
-                              : views::environmentLights(*scene.environment, environmentLights);
-        for (const views::EnvironmentLight& light : list)
-            sources.push_back({vec4(light.direction, 0), light.weight * light.radiance, light.weight});
-    }
-    const float share = shareOfLight(scene);
-    for (LightSource& source : sources) {
-        source.weight *= share;
-        if (settings.normalise) source.color *= share;
-    }
-    return sources;
-}
-
 float Relief::shareOfLight(const scene::Scene& scene) {
-    return 1 / float(std::max<std::size_t>(1, scene.lights.size() + (hasEnvironment(scene) ? 1 : 0)));
-}
-
-Image Relief::lightTable(const std::vector<LightSource>& lights) {
-    const int rows = std::max(1, (int(lights.size()) + kLightsPerRow - 1) / kLightsPerRow);
-    Image table(3 * kLightsPerRow, rows, 4);
-    float* texel = table.pixels.data();
-    for (const LightSource& light : lights) {
-        for (float value :
-             {light.place.x, light.place.y, light.place.z, light.place.w, light.color.r, light.color.g,
-              light.color.b, light.weight, light.disc.x, light.disc.y, 0.0f, 0.0f})
-            *texel++ = value;
-    }
-    return table;
+    return 1 / float(std::max<std::size_t>(1, scene.lights.size() + (views::hasEnvironment(scene) ? 1 : 0)));
 }
 
 Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings& settings) const {
@@ -229,6 +170,8 @@ Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings
         blocks.push_back(blockOf(drawn, in, settings));
     const std::vector<views::DrawnObject> objects = in.objects;
     const graph::TextureId surface = in.surface, sum = in.sum, target = in.target, table = in.lightTable;
+    const graph::TextureId occlusion = in.occlusion.texture;
+    const graph::TextureId flux = in.first == 0 ? in.flux : graph::TextureId{};
     const std::vector<Transferred> transferred = in.transferred;
     const bool readsSum = in.first > 0;
     graph.addPass("relief.light", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -238,6 +181,8 @@ Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings
         pass.sample(surface);
         pass.sample(table);
         if (readsSum) pass.sample(sum);
+        if (occlusion) pass.sample(occlusion);
+        if (flux) pass.sample(flux);
         for (const Transferred& light : transferred)
             if (light.irradiance) pass.sample(light.irradiance);
         pass.write(target);
@@ -249,6 +194,8 @@ Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings
                 textures.push_back({"uSurface", resources[surface]});
                 textures.push_back({"uLights", resources[table]});
                 if (readsSum) textures.push_back({"uSum", resources[sum]});
+                if (occlusion) textures.push_back({"uOcclusion", resources[occlusion]});
+                if (flux) textures.push_back({"uFlux", resources[flux]});
                 if (!transferred.empty() && transferred[i].irradiance) {
                     textures.push_back({"uIrradiance", resources[transferred[i].irradiance]});
                     textures.push_back({"uGloss", transferred[i].gloss});

@@ -3,6 +3,7 @@
 /// (height-field thesis 2017, ch. 3), with the corrections that the README lists.
 
 #include "graph/FrameGraph.h"
+#include "light/Occlusion.h"
 #include "scene/Scene.h"
 #include "views/Surface.h"
 
@@ -14,7 +15,7 @@ namespace lucent::relief {
 
 enum class Method : int { Hierarchy, March, Counting, Transfer };
 enum class Attenuation : int { Ratio, Exponential };
-enum class EnvironmentSampling : int { Equal, Importance };
+using views::EnvironmentSampling;
 
 inline constexpr int kMostTerms = 128; ///< of a transfer
 
@@ -29,14 +30,6 @@ struct Settings {
     bool normalise = false; ///< divide the light by the number of lights
 };
 
-/// One light as the shader reads it.
-struct LightSource {
-    vec4 place;   ///< world: direction to the light, w 0; or position, w 1, or 2 with inverse-square falloff
-    vec3 color;   ///< times intensity
-    float weight; ///< share in the mean of d
-    vec2 disc{0}; ///< offset on the lamp's disc, which faces what it lights: m, or tangent of the angle
-};
-
 /// What a transfer leaves to the light pass: for one object.
 struct Transferred {
     graph::TextureId irradiance; ///< relief/gather.frag; nothing in slices after the first
@@ -46,15 +39,19 @@ struct Transferred {
 struct Inputs {
     const views::Eye& eye;
     const std::vector<views::DrawnObject>& objects;
-    const std::vector<LightSource>& lights;
-    graph::TextureId surface; ///< views.surface
-    graph::TextureId sum;     ///< what earlier slices summed; not read when first == 0
-    graph::TextureId target;  ///< the sum with this slice
-    graph::TextureId lightTable;
+    const scene::Scene& scene;
+    const std::vector<views::LampPoint>& lights;
+    graph::TextureId surface;             ///< views.surface
+    graph::TextureId sum;                 ///< what earlier slices summed; not read when first == 0
+    graph::TextureId target;              ///< the sum with this slice
+    graph::TextureId lightTable;          ///< views::sampleTable(lights)
     int first, end;                       ///< lights of this slice
     int placed;                           ///< lights [placed, ...) are the environment's
     std::vector<Transferred> transferred; ///< one for each object, or none
-    scene::Aov show;                      ///< Color, Illumination, Visibility or Iterations
+    scene::Aov show;                      ///< Color, Illumination, Visibility, Iterations or Irradiance
+    views::Occlusion occlusion{};         ///< of this slice
+    graph::TextureId flux{};              ///< irradiance of caustics on each pixel; or none
+    ivec2 size{0};                        ///< of the view
 };
 
 class Relief {
@@ -65,16 +62,8 @@ public:
 
     explicit Relief(gl::Context& context) : context_(context) {}
 
-    /// Lights of a scene: its point and distant lights, those with a size as `lightSamples` each, then the
-    /// environment as about `environmentLights` directions (0: leaves it out). With `normalise` the colours
-    /// are divided by the number of lights, an environment counting as one.
-    static std::vector<LightSource> lights(const scene::Scene& scene, const Settings& settings,
-                                           int environmentLights);
     /// What each light, or the environment, counts in means over the lights: one over their number.
     static float shareOfLight(const scene::Scene& scene);
-    /// The lights as the shader reads them: RGBA32F rows of kLightsPerRow lights, three texels each.
-    static Image lightTable(const std::vector<LightSource>& lights);
-    static constexpr int kLightsPerRow = 256;
     /// More lights than these go into several slices: llvmpipe ends a shader's loops, without a word, after
     /// 65535 rounds in all, and no draw should hold a desktop up.
     static constexpr int kMostLightsAtOnce = 64;

@@ -10,11 +10,15 @@ namespace lucent::relief {
 struct ReliefBlock {
     views::FieldBlock field;
     vec4 eye, base, diffuse, specular, falloffs;
-    mat4 objectFromWorld;
+    mat4 objectFromWorld, worldFromObject;
     float metres, radius;
     int object, firstLight, endLight, isFirst, exponential, steps, placed, padding[3];
     ivec4 tile;
-    vec2 grid, padding2;
+    vec2 grid;
+    ivec2 viewSize;
+    int columns;
+    float share, factor;
+    int padding2;
 
     static const graph::BlockLayout& layout() {
         static const auto members = [] {
@@ -25,6 +29,7 @@ struct ReliefBlock {
                                      {"specular", offsetof(ReliefBlock, specular)},
                                      {"falloffs", offsetof(ReliefBlock, falloffs)},
                                      {"objectFromWorld", offsetof(ReliefBlock, objectFromWorld)},
+                                     {"worldFromObject", offsetof(ReliefBlock, worldFromObject)},
                                      {"metres", offsetof(ReliefBlock, metres)},
                                      {"radius", offsetof(ReliefBlock, radius)},
                                      {"object", offsetof(ReliefBlock, object)},
@@ -35,7 +40,11 @@ struct ReliefBlock {
                                      {"steps", offsetof(ReliefBlock, steps)},
                                      {"placed", offsetof(ReliefBlock, placed)},
                                      {"tile", offsetof(ReliefBlock, tile)},
-                                     {"grid", offsetof(ReliefBlock, grid)}});
+                                     {"grid", offsetof(ReliefBlock, grid)},
+                                     {"viewSize", offsetof(ReliefBlock, viewSize)},
+                                     {"columns", offsetof(ReliefBlock, columns)},
+                                     {"share", offsetof(ReliefBlock, share)},
+                                     {"factor", offsetof(ReliefBlock, factor)}});
             return list;
         }();
         static const graph::BlockLayout layout{"ReliefBlock", sizeof(ReliefBlock), members};

@@ -1,7 +1,7 @@
 #include "techniques/relief/Transfer.h"
 
-#include "techniques/relief/ReliefBlock.h"
 #include "light/EnvironmentLights.h"
+#include "techniques/relief/ReliefBlock.h"
 
 #include <algorithm>
 #include <chrono>
@@ -66,13 +66,16 @@ int columnsFor(ivec2 grid, int images, int largest) {
 int roundUp(int value, int step) { return (value + step - 1) / step * step; }
 
 Image directionTable(const std::vector<vec3>& cells, const std::vector<vec3>& sensors) {
-    std::vector<LightSource> lights;
+    std::vector<views::LampPoint> lights;
+    const auto add = [&](vec3 direction) {
+        lights.push_back({.place = vec4(direction, 0), .color = vec3(1), .source = {}});
+    };
     for (vec3 direction : cells)
-        lights.push_back({vec4(direction, 0), vec3(1), 1});
+        add(direction);
     lights.resize(std::size_t(roundUp(int(cells.size()), 4)), lights.back());
     for (vec3 direction : sensors)
-        lights.push_back({vec4(direction, 0), vec3(1), 1});
-    return Relief::lightTable(lights);
+        add(direction);
+    return views::sampleTable(lights);
 }
 
 // Falloff as the shader has it (lib/shading.glsl), for tables that are made here.
@@ -97,7 +100,9 @@ std::vector<SmallLight> smallLights(const scene::Scene& scene, const Settings& s
     std::vector<SmallLight> lights;
     const float share = Relief::shareOfLight(scene);
     for (const views::EnvironmentLight& light : views::environmentLights(*scene.environment, kSmallLights))
-        lights.push_back({light.direction, light.weight * (settings.normalise ? share : 1) * light.radiance,
+        // Irradiance over pi, as every light counts: 4 pi times the weight is a solid angle.
+        lights.push_back({light.direction,
+                          4 * light.weight * (settings.normalise ? share : 1) * light.radiance,
                           light.weight * share});
     return lights;
 }

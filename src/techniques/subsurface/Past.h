@@ -3,8 +3,8 @@
 /// to picture. In place of the dissertation's 6.5.2, which splats points of the picture before: a picture's
 /// points are then those of the one before it, and change as much, one picture late.
 
+#include "light/Samples.h"
 #include "techniques/subsurface/Splatting.h"
-#include "light/Lamps.h"
 #include "views/ObjectKey.h"
 
 namespace lucent::subsurface {

@@ -2,7 +2,7 @@
 /// The surface of an object as a light sees it, or along an axis, as points that hold the light that entered
 /// there (shaders/subsurface/points.glsl).
 
-#include "light/Lamps.h"
+#include "light/Samples.h"
 #include "views/Meshes.h"
 
 #include <array>

@@ -5,8 +5,8 @@
 
 #include "diffusion/Profile.h"
 #include "graph/FrameGraph.h"
+#include "light/Samples.h"
 #include "scene/Scene.h"
-#include "light/Lamps.h"
 #include "views/ObjectKey.h"
 #include "views/Surface.h"
 

@@ -1,8 +1,10 @@
 #pragma once
-/// The lamps of a scene as points that shine, in physical units.
+/// The light of a scene as one list of samples, in physical units: who shades reads it by
+/// shaders/light/sample.glsl.
 
-#include "scene/Scene.h"
+#include "light/EnvironmentLights.h"
 #include "light/ShadowMap.h"
+#include "scene/Scene.h"
 
 #include <vector>
 
@@ -20,6 +22,10 @@ struct LampPoint {
     float exponent = 1;  ///< this
     bool isPart = false; ///< the lamp has a size and several points
     ShadowSource source; ///< the same point as what shadows are seen from
+    float weight = 1;    ///< its share of the light that it is a part of
+    bool isEnvironment = false;
+    float extent =
+        0; ///< sine of the angle by which the directions spread that it stands for; of an environment
 };
 
 /// Lamps with a size (a point light's ball, a distant light's disc of directions, an area) are so many points
@@ -32,5 +38,25 @@ struct LampPoint {
 ///
 /// @param samples  > 0
 std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples);
+
+/// Where the directions are that stand for an environment: evenly all around, or more where the map is
+/// bright.
+enum class EnvironmentSampling : int { Equal, Importance };
+
+/// How finely the light of a scene is sampled.
+struct Sampling {
+    int lamp = 32;        ///< of each lamp that has a size, > 0
+    int directions = 256; ///< of the environment, about; 0: leaves it out
+    EnvironmentSampling environment = EnvironmentSampling::Equal;
+};
+
+bool hasEnvironment(const scene::Scene& scene);
+
+/// All light of a scene: lampPoints(), then directions of its environment, whose irradiance on a surface that
+/// faces them is radiance times solid angle: together the integral over the sphere.
+std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling);
+
+/// The samples as shaders read them, RGBA32F.
+Image sampleTable(const std::vector<LampPoint>& samples);
 
 } // namespace lucent::views

@@ -1,5 +1,6 @@
-#include "light/Lamps.h"
+#include "light/Samples.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lucent::views {
@@ -39,7 +40,8 @@ void add(std::vector<LampPoint>& points, const scene::PointLight& light, int sam
                           .fades = light.falloff == scene::LightFalloff::InverseSquare,
                           .color = light.intensity / float(count) * light.color,
                           .isPart = count > 1,
-                          .source = {.place = vec4(place, 1)}});
+                          .source = {.place = vec4(place, 1)},
+                          .weight = 1 / float(count)});
     }
 }
 
@@ -55,7 +57,8 @@ void add(std::vector<LampPoint>& points, const scene::DistantLight& light, int s
         points.push_back({.place = place,
                           .color = light.irradiance / float(count) * light.color,
                           .isPart = count > 1,
-                          .source = {.place = place}});
+                          .source = {.place = place},
+                          .weight = 1 / float(count)});
     }
 }
 
@@ -91,7 +94,8 @@ void add(std::vector<LampPoint>& points, const scene::AreaLight& light, int samp
                           .axis = across / area,
                           .cone = {1, 0},
                           .isPart = samples > 1,
-                          .source = {.place = vec4(place, 1)}});
+                          .source = {.place = vec4(place, 1)},
+                          .weight = 1 / float(samples)});
     }
 }
 
@@ -102,6 +106,49 @@ std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples) {
     for (const scene::Light& light : scene.lights)
         std::visit([&](const auto& one) { add(points, one, samples); }, light);
     return points;
+}
+
+bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
+
+std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling) {
+    std::vector<LampPoint> samples = lampPoints(scene, sampling.lamp);
+    if (!hasEnvironment(scene) || sampling.directions == 0) return samples;
+    const bool isEven =
+        sampling.environment == EnvironmentSampling::Equal; // others stand for small lights, too
+    const auto directions = sampling.environment == EnvironmentSampling::Importance
+                                ? importanceLights(*scene.environment, sampling.directions)
+                                : environmentLights(*scene.environment, sampling.directions);
+    for (const EnvironmentLight& light : directions) {
+        const vec4 place(light.direction, 0);
+        const float cosine = 1 - 2 * light.weight; // of a cone of that solid angle
+        samples.push_back({.place = place,
+                           .color = 4 * kPi * light.weight * light.radiance,
+                           .isPart = true,
+                           .source = {.place = place},
+                           .weight = light.weight,
+                           .isEnvironment = true,
+                           .extent = isEven ? std::sqrt(std::max(0.0f, 1 - cosine * cosine)) : 0});
+    }
+    return samples;
+}
+
+Image sampleTable(const std::vector<LampPoint>& samples) {
+    constexpr int kTexels = 5, kSamplesPerRow = 128;
+    const int rows = std::max(1, (int(samples.size()) + kSamplesPerRow - 1) / kSamplesPerRow);
+    Image table(kTexels * kSamplesPerRow, rows, 4);
+    float* texel = table.pixels.data();
+    const auto write = [&](const vec4& value) {
+        for (int i = 0; i < 4; ++i)
+            *texel++ = value[i];
+    };
+    for (const LampPoint& sample : samples) {
+        write(sample.place);
+        write(vec4(sample.centre, sample.fades ? 1 : 0));
+        write(vec4(sample.color, sample.exponent));
+        write(vec4(sample.axis, sample.weight));
+        write(vec4(sample.cone, sample.extent, 0));
+    }
+    return table;
 }
 
 } // namespace lucent::views

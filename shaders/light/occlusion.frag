@@ -1,0 +1,44 @@
+// light/occlusion.frag: how much of one light sample is kept from what each pixel of a view shows.
+//
+// in    uSurface    the visible points (views/surface_pixel.glsl)
+//       uShadow     views/shadow.glsl
+// out   oOcclusion  1 - visibility, in one channel; added to what the others hold
+//
+// OF_FIELD: of one height field, whose shadow on itself is left to whoever walks through it: the plane that its point is
+// compared by faces the light. Else of all other shapes.
+#include "views/view.glsl"
+layout(std140) uniform OcclusionBlock {
+    View view;
+    View faces[6];
+    mat4 worldFromObject; // OF_FIELD: this and the rest
+    vec4 source;          // world: position, 1; or unit direction to the light, 0
+    vec4 channel;         // 1 in the one that is drawn
+    vec2 corner;          // of the copy of the view that is drawn, pixels
+    vec2 texels;
+    float texelSize;
+    int object;
+    int faceCount;
+    int padding;
+} light;
+#include "lib/octahedral.glsl"
+#include "views/surface_pixel.glsl"
+#include "views/shadow.glsl"
+layout(location = 0) out vec4 oOcclusion;
+
+void main() {
+    vec2 at = gl_FragCoord.xy - light.corner;
+    SurfacePixel pixel = surfaceAt(ivec2(at));
+#ifdef OF_FIELD
+    if (pixel.object != light.object) discard;
+    vec2 p = (pixel.g - 0.5 - 0.5 * light.texels) * light.texelSize;
+    vec3 place = (light.worldFromObject * vec4(p.x, -p.y, pixel.z, 1.0)).xyz;
+    vec3 normal = normalize(light.source.xyz - (light.source.w == 0.0 ? vec3(0.0) : place));
+#else
+    if (pixel.face != kMeshFace) discard;
+    vec3 place = light.view.eye.xyz + placeFrom(light.view, at, pixel.z);
+    vec3 normal = fromOctahedral(pixel.g);
+    vec3 toLight = light.source.xyz - (light.source.w == 0.0 ? vec3(0.0) : place);
+    if (dot(normal, toLight) <= 0.0) discard; // faces away
+#endif
+    oOcclusion = (1.0 - lightReaching(place, normal)) * light.channel;
+}

@@ -1,0 +1,51 @@
+// light/sample.glsl: the light samples that stand for all lamps and the environment.
+//
+// in    uLights   128 samples a row, five texels each:
+//                 world position, 1; or unit direction to the light, 0
+//                 centre of the lamp [m] | 1: its light falls off with the square of the distance
+//                 irradiance on what faces it [W/m²], or that at 1 m | exponent of the cone
+//                 unit direction of the cone's axis | share in means over the light
+//                 scale and offset of the cosine to the axis | extent
+// model the disc of a lamp faces what it lights, so each of its samples counts as the one beside the lamp's middle that is
+//       seen in its place
+uniform sampler2D uLights;
+
+struct LightSample {
+    vec3 toLight;    // unit, world
+    float distance;  // m; 1e30: without a place
+    vec3 irradiance; // on what faces it, nothing in its way [W/m²]
+    float weight;
+    float extent;    // sine of the angle by which its directions spread; 0: one direction
+};
+
+LightSample lightSampleAt(int index, vec3 place) {
+    ivec2 at = ivec2(5 * (index % 128), index / 128);
+    vec4 source = texelFetch(uLights, at, 0);
+    vec4 color = texelFetch(uLights, at + ivec2(2, 0), 0);
+    vec4 axis = texelFetch(uLights, at + ivec2(3, 0), 0);
+    vec4 cone = texelFetch(uLights, at + ivec2(4, 0), 0);
+    if (source.w == 0.0) return LightSample(source.xyz, 1e30, color.rgb, axis.w, cone.z);
+    vec4 centre = texelFetch(uLights, at + ivec2(1, 0), 0);
+    vec3 way = centre.xyz - place;
+    vec3 towards = way / max(length(way), 1e-30);
+    vec3 beside = source.xyz - centre.xyz;
+    way += beside - dot(beside, towards) * towards;
+    float distance = length(way);
+    if (distance == 0.0) return LightSample(vec3(0.0, 1.0, 0.0), 1e-30, vec3(0.0), axis.w, 0.0);
+    vec3 toLight = way / distance;
+    float inCone = pow(clamp(cone.y - cone.x * dot(toLight, axis.xyz), 0.0, 1.0), color.a);
+    float falloff = centre.w > 0.5 ? 1.0 / max(distance * distance, 1e-30) : 1.0;
+    return LightSample(toLight, distance, inCone * falloff * color.rgb, axis.w, 0.0);
+}
+
+// Mean cosine, 0 below the horizon, over the cone of directions of a sample whose middle has this cosine: above the
+// horizon the cone's mean direction is (1 + cos) / 2 long; where the horizon cuts it, a quadratic in place of the segment
+// of a disc, and the factor gives both the same mean at the horizon itself.
+float cosineOf(float cosine, float extent) {
+    float reach = 0.85 * extent;
+    float mean = 0.5 + 0.5 * sqrt(1.0 - extent * extent);
+    if (cosine >= reach) return mean * cosine;
+    if (cosine <= -reach) return 0.0;
+    float above = cosine + reach;
+    return mean * above * above / (4.0 * reach);
+}

@@ -1,0 +1,42 @@
+#pragma once
+/// Visibility of light samples from what a view shows: one definition for all who shade.
+
+#include "light/Samples.h"
+
+#include <span>
+#include <string>
+
+namespace lucent::views {
+
+/// What a view shows, and what stands in the way of light.
+struct Lit {
+    const Eye& eye;
+    ivec2 size;
+    graph::TextureId surface;                 ///< views.surface
+    const std::vector<DrawnObject>& fields;   ///< visible ones
+    const std::vector<PosedMesh>& solids;     ///< visible opaque objects
+    const std::vector<DrawnObject>& casters;  ///< all height fields, hidden ones too
+    const std::vector<PosedMesh>& opaque;     ///< all that lets nothing through, hidden or not
+    const std::vector<PosedMesh>& refractive; ///< all that bends light: what lamps send through is light of
+                                              ///< caustics; light of an environment passes straight on
+    int shadowSize;                           ///< texels a side of a lamp's shadow view
+};
+
+/// 1 - visibility of some samples at each pixel; see shaders/light/occlusion.glsl.
+struct Occlusion {
+    graph::TextureId texture; ///< none: nothing stands in the way of any
+    int columns = 1;
+};
+
+/// Samples that one recordOcclusion() can take.
+int mostSamplesAtOnce(const gl::Context& context, ivec2 size);
+
+/// Draws a shadow view for each sample, one more for each height field that something else may shade: its
+/// shadow on itself is left to its technique.
+///
+/// @param samples  at most mostSamplesAtOnce()
+/// @return         Error (Fault::Machine) when a shadow view is larger than this GPU's textures
+Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const Lit& in,
+                                  std::span<const LampPoint> samples);
+
+} // namespace lucent::views
