@@ -277,7 +277,8 @@ Command addTruth(CLI::App& program) {
                                    ->check(CLI::Range(1, 1 << 20))
                                    ->capture_default_str();
     parser
-        ->add_option("--seed", options->seed, "Other points and directions; threads and tiles change nothing")
+        ->add_option("--seed", options->seed,
+                     "Other points and directions; threads and tiles of rows change nothing")
         ->type_name("NUMBER")
         ->capture_default_str();
     parser

@@ -34,6 +34,13 @@ Media behind(const Hits& hits, const dvec3& direction, const Media& before) {
     return after;
 }
 
+/// Whether light of any colour is bent or reflected between two media.
+bool changes(const Optics& optics, int here, int there) {
+    for (int channel = 0; channel < 3; ++channel)
+        if (optics.ior(here, channel) != optics.ior(there, channel)) return true;
+    return false;
+}
+
 /// The normal that bends light, against the direction.
 dvec3 facingNormal(const Hit& hit, const dvec3& direction) {
     const double side = glm::dot(hit.normal, direction) < 0 ? 1 : -1;
@@ -110,7 +117,7 @@ private:
         const dvec3 normal = facingNormal(hit, beam_.direction);
         const double relative = optics_.ior(here, channel_) / optics_.ior(there, channel_);
         const auto onwards = refracted(beam_.direction, normal, relative);
-        ++end_.bends;
+        end_.bends += changes(optics_, here, there) ? 1 : 0;
         if (!onwards) {
             if (totalReflections_++ == limits_.totalReflections) return finish(Arrival::At::Lost);
             beam_.direction = mirrored(beam_.direction, normal);
@@ -162,6 +169,32 @@ private:
 Arrival follow(const Optics& optics, Beam beam, int channel, Branching branching, const Limits& limits,
                Random& random) {
     return Journey(optics, std::move(beam), channel, branching, limits, random).run();
+}
+
+dvec3 straightTransmittance(const Optics& optics, WorldRay ray, const Leaving& leaving) {
+    if (!optics.rays().occluded(ray, leaving)) return dvec3(1);
+    if (!optics.hasIndexOfOne()) return dvec3(0);
+    Media media = optics.mediaAt(ray.origin, true);
+    dvec3 kept(1);
+    double from = 0;
+    const auto absorb = [&](double to) {
+        const dvec3 sigma = optics.absorption(media.medium());
+        if (sigma != dvec3(0)) kept *= glm::exp(-sigma * (to - from));
+        from = to;
+    };
+    for (Hits hits = optics.rays().meet(ray, leaving); hits.count > 0;
+         hits = optics.rays().meet(ray, leaving)) {
+        if (opaqueOf(hits, optics) || mirrorOf(hits, optics)) return dvec3(0);
+        absorb(hits.at[0].distance);
+        const int here = media.medium();
+        media = behind(hits, ray.direction, media);
+        const int there = media.medium();
+        if (changes(optics, here, there)) return dvec3(0);
+        if (there > here) kept *= double(optics.object(there).material.transmission);
+        ray.begin = hits.at[0].distance + optics.rays().gap();
+    }
+    if (ray.length < std::numeric_limits<double>::infinity()) absorb(ray.length);
+    return kept;
 }
 
 } // namespace lucent::truth

@@ -46,7 +46,7 @@ struct Arrival {
     double firstDistance = 0;     ///< m to the first surface
     double length = 0;            ///< m, of the whole way to the last surface
     int surfaces = 0;             ///< met before, those that changed nothing included
-    int bends = 0;                ///< interfaces between different media, total reflections and mirrors
+    int bends = 0;                ///< interfaces between unequal indices, total reflections and mirrors
     std::optional<Beam> mirrored; ///< what the first interface reflects, as `weight` says; chain only
 };
 
@@ -65,5 +65,13 @@ struct Arrival {
 /// @param random   of the tree; not asked by the chain
 Arrival follow(const Optics& optics, Beam beam, int channel, Branching branching, const Limits& limits,
                Random& random);
+
+/// What is left of light that goes straight along a ray, [0,1] of each colour: 0 past anything opaque,
+/// mirrors and interfaces that bend it. Where an object has the index of vacuum, interfaces between equal
+/// indices let light pass, with what `transmission` and absorption leave of it; a way that meets no surface
+/// loses nothing.
+///
+/// @param ray  towards the light or from it; meets what the eye does not see
+dvec3 straightTransmittance(const Optics& optics, WorldRay ray, const Leaving& leaving);
 
 } // namespace lucent::truth

@@ -2,6 +2,7 @@
 
 #include "truth/ColorMap.h"
 #include "truth/Interface.h"
+#include "truth/Journey.h"
 
 #include <algorithm>
 #include <cmath>
@@ -212,12 +213,13 @@ dvec3 Illumination::ofRelief(const FieldBlock& block, const Hit& hit, const dvec
         const bool distant = way.distance == kInfinity;
         const dvec3 place = distant ? way.direction : below + way.distance * way.direction;
         const LightPath seen = distant ? way : wayTo(place, hit.position);
-        if (optics_->rays().occluded({hit.position, seen.direction, seen.distance}, {hit.shape, kInfinity}))
-            return;
+        const dvec3 passed = straightTransmittance(*optics_, {hit.position, seen.direction, seen.distance},
+                                                   {hit.shape, kInfinity});
+        if (passed == dvec3(0)) return;
         lighting.lamps.push_back({.place = distant ? block.placement.directionFromWorld(place)
                                                    : block.placement.pointFromWorld(place),
                                   .distant = distant,
-                                  .color = irradiance / std::numbers::pi});
+                                  .color = passed * irradiance / std::numbers::pi});
     };
     for (const Lamp& lamp : lamps_) {
         const auto [way, irradiance] = lamp.light(below, lamp.isSampled() ? random.nextPair() : dvec2(0));
@@ -236,9 +238,9 @@ dvec3 Illumination::mirrored(const Hit& hit, const Facets& facets, Random& rando
     return lamps + ofSky(hit, facets, random);
 }
 
-bool Illumination::reaches(const Hit& hit, const LightPath& way) const {
-    const Leaving leaving = leavingFrom(*optics_, hit, way.direction);
-    return !optics_->rays().occluded({hit.position, way.direction, way.distance}, leaving);
+dvec3 Illumination::passed(const Hit& hit, const LightPath& way) const {
+    return straightTransmittance(*optics_, {hit.position, way.direction, way.distance},
+                                 leavingFrom(*optics_, hit, way.direction));
 }
 
 /// Light times the lobe's share of its direction.
@@ -248,7 +250,7 @@ dvec3 Illumination::ofLamps(const Hit& hit, const auto& lobe, Random& random) co
         const auto [way, irradiance] =
             lamp.light(hit.position, lamp.isSampled() ? random.nextPair() : dvec2(0));
         const double share = lobe.share(way.direction);
-        if (share > 0 && irradiance != dvec3(0) && reaches(hit, way)) sum += share * irradiance;
+        if (share > 0 && irradiance != dvec3(0)) sum += share * irradiance * passed(hit, way);
     }
     return sum;
 }
@@ -261,9 +263,11 @@ dvec3 Illumination::ofSky(const Hit& hit, const auto& lobe, Random& random) cons
     const dvec3 byLobe = lobe.choose(random.nextPair());
     for (const dvec3& direction : {around_->directions.choose(random.nextPair()).place, byLobe}) {
         const double share = lobe.share(direction);
-        if (!(share > 0) || !reaches(hit, {direction, kInfinity})) continue;
+        if (!(share > 0)) continue;
+        const dvec3 light = passed(hit, {direction, kInfinity});
+        if (light == dvec3(0)) continue;
         const double density = around_->directions.density(direction) + lobe.density(direction);
-        sum += around_->sky.radiance(direction) * (share / density);
+        sum += around_->sky.radiance(direction) * light * (share / density);
     }
     return sum;
 }

@@ -73,7 +73,8 @@ private:
 
 /// All lamps of a scene and its environment shining on opaque surfaces, past everything that stands in their
 /// way, mirrors and refractive objects included: what those send on is light of caustics, which is followed
-/// for lamps only. What a medium around both lamp and surface absorbs is not counted.
+/// for lamps only. What bends nothing stands in no way (straightTransmittance()). What a medium around both
+/// lamp and surface absorbs is not counted.
 class Illumination {
 public:
     /// @param attenuation  of light inside height fields
@@ -110,7 +111,7 @@ private:
         Sky sky;
         EnvironmentSampler directions;
     };
-    bool reaches(const Hit& hit, const LightPath& way) const;
+    dvec3 passed(const Hit& hit, const LightPath& way) const;
     dvec3 ofRelief(const FieldBlock& block, const Hit& hit, const dvec3& viewer, double away,
                    Random& random) const;
     dvec3 ofLamps(const Hit& hit, const auto& lobe, Random& random) const;

@@ -64,7 +64,8 @@ public:
         : optics_(optics), indirectly_(indirectly), lamps_(illumination.lamps()), eye_(eye), size_(size),
           options_(options), limits_(options.branching == Branching::Tree ? kPhysics : Limits{.mirrors = 1}) {
         for (const int number : optics.optical())
-            targets_.push_back(optics.rays().around(number));
+            if (optics.object(number).material.isMirror() || !optics.bendsNothing())
+                targets_.push_back(optics.rays().around(number));
         for (const Lamp& lamp : lamps_)
             media_.push_back(lamp.place() ? optics.mediaAt(*lamp.place(), true) : Media{});
     }
@@ -116,7 +117,8 @@ private:
         const double growth = emission.fades ? 1 : arrival.firstDistance * arrival.firstDistance;
         const dvec3 flux = growth * colors * emission.flux;
         brought.strongest = glm::max(brought.strongest, flux);
-        if (arrival.surfaces == 0) return; // not by way of anything
+        // Direct light, which passes what bends nothing as straightTransmittance() says.
+        if (arrival.surfaces == 0 || (arrival.bends == 0 && optics_.hasIndexOfOne())) return;
         EnergyBook& energy = brought.energy;
         energy.met += flux;
         energy.absorbed += flux * arrival.absorbed;

@@ -28,8 +28,8 @@ struct LightOptions {
 /// two pixels (SeenPlaces). Two parts, added:
 ///
 /// - Light straight from the lamps and the environment, in the pixel's middle (Illumination).
-/// - Light by way of refractive and mirroring objects, as the mean over the pixel. Each ray is aimed at a
-/// ball
+/// - Light that refractive and mirroring objects turned aside, as the mean over the pixel. Each ray is aimed
+/// at a ball
 ///   around one of these objects, chosen by chance; where it meets something else first it is not counted.
 ///   The flux that it brings to an opaque surface goes to the pixel that shows the place, over the area that
 ///   a pixel covers there (Eye::areaOfPixel): exact for surfaces of any shape and for edges inside a pixel,

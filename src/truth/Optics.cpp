@@ -228,7 +228,11 @@ Optics::Optics(const scene::Scene& scene, RayScene rays) : scene_(&scene), rays_
     for (int i = 0; i < int(scene.objects.size()); ++i) {
         if (isOpaque(i)) continue;
         optical_.push_back(i);
-        disperses_ |= object(i).material.isRefractive() && object(i).material.dispersion > 0;
+        if (!object(i).material.isRefractive()) continue;
+        disperses_ |= object(i).material.dispersion > 0;
+        const bool one = object(i).material.ior == 1; // whatever its dispersion
+        hasIndexOfOne_ |= one;
+        bendsNothing_ &= one;
     }
 }
 

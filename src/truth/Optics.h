@@ -51,6 +51,10 @@ public:
     /// Objects that bend or mirror light.
     const std::vector<int>& optical() const { return optical_; }
     bool disperses() const { return disperses_; }
+    /// Whether some refractive object has the index of vacuum: it bends and reflects nothing there.
+    bool hasIndexOfOne() const { return hasIndexOfOne_; }
+    /// Whether all of them have.
+    bool bendsNothing() const { return bendsNothing_; }
 
     /// Index of refraction of a medium for red, green or blue light.
     double ior(int medium, int channel) const;
@@ -69,7 +73,7 @@ private:
     const scene::Scene* scene_;
     RayScene rays_;
     std::vector<int> optical_;
-    bool disperses_ = false;
+    bool disperses_ = false, hasIndexOfOne_ = false, bendsNothing_ = true;
 };
 
 /// Index of refraction at the Fraunhofer lines C (656.3 nm, for red), d (587.6 nm) and F (486.1 nm): Cauchy's

@@ -156,6 +156,28 @@ TEST(Glass, ClearObjectsCastFullShadows) {
     EXPECT_NEAR(middle(scene, scene::Aov::Color).value.g, double(0.8f) / kPi * std::sqrt(0.5), 1e-7);
 }
 
+TEST(Glass, WhatBendsNothingCastsTheShadowOfWhatItAbsorbs) {
+    scene::Scene scene = sceneOf({matt(scene::Plane{{9, 9}}), glass(scene::Sphere{0.5f}, 1, {0, 2, 0})});
+    scene.objects[1].visible = false;
+    lookDown(scene);
+    const double unshadowed = double(0.8f) / kPi;
+    scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
+    EXPECT_NEAR(middle(scene, scene::Aov::Color).value.g, unshadowed, 1e-12);
+    // Half of the light is left after 1 m, the ball's diameter, and of that `transmission`.
+    scene.objects[1].material.attenuationColor = vec3(0.5f);
+    scene.objects[1].material.attenuationDistance = 1;
+    scene.objects[1].material.transmission = 0.25f;
+    EXPECT_NEAR(middle(scene, scene::Aov::Color).value.g, 0.125 * unshadowed, 1e-12);
+    // A wall above it shadows as before.
+    scene.objects.push_back(matt(scene::Box{{1, 0.1f, 1}}, {0, 4, 0}));
+    scene.objects[2].visible = false;
+    EXPECT_EQ(middle(scene, scene::Aov::Color).value, dvec3(0));
+    // In water it is a bubble, which bends light.
+    scene.objects[2] = glass(scene::Box{{8, 1.5f, 8}}, 1.33f, {0, 2, 0});
+    scene.objects[2].visible = false;
+    EXPECT_EQ(middle(scene, scene::Aov::Color).value, dvec3(0));
+}
+
 /// The green radiance of `count` x `count` pixels.
 struct Looks {
     std::vector<Pixel> pixels;

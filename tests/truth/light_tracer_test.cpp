@@ -110,8 +110,40 @@ TEST(LightTracer, AGlassBallLightsTheFloorAsTheSumOverItsBranches) {
     EXPECT_NEAR(picture.energy->met.g, 2 * kPi, 1e-9);
 }
 
-TEST(LightTracer, AnIndexOfOneLightsTheFloorAsIfNothingWereThere) {
+/// Light that passes it comes by rays, and in direction and strength hardly changed.
+scene::Object almostNothing(scene::Shape shape, vec3 centre) {
+    scene::Object object = glass(std::move(shape), 1.0001f, centre);
+    object.material.fresnel = false;
+    return object;
+}
+
+TEST(LightTracer, AnIndexOfOneIsThePictureWithoutTheObjectToTheBit) {
     scene::Scene scene = floorUnder(glass(scene::Sphere{0.5f}, 1, {0.2f, 0.8f, 0.1f}), 3);
+    scene.lights = {scene::PointLight{.position = {0.3f, 2, 0.5f}}};
+    scene::Scene empty = scene;
+    empty.objects.resize(1);
+    const ivec2 size(16, 16);
+    for (const scene::Aov aov : {scene::Aov::Irradiance, scene::Aov::Color}) {
+        const LightOptions options{.aov = aov, .photons = 20000};
+        const Picture plain = traced(empty, size, options), picture = traced(scene, size, options);
+        EXPECT_EQ(picture.values.pixels, plain.values.pixels);
+        EXPECT_EQ(picture.errors.pixels, plain.errors.pixels);
+        EXPECT_EQ(picture.energy->met, dvec3(0)); // direct light passes it: rays bring none twice
+    }
+}
+
+TEST(LightTracer, LightThatPassesAnIndexOfOneIsNotBroughtTwiceBesideGlass) {
+    // A second ball that bends light makes rays aim at both.
+    scene::Scene scene = floorUnder(glass(scene::Sphere{0.3f}, 1, {-0.5f, 0.8f, 0}), 3);
+    scene.objects.push_back(glass(scene::Sphere{0.3f}, 1.5f, {20, 0.8f, 0}));
+    scene.lights = {scene::DistantLight{.direction = {0, -1, 0}, .irradiance = 2}};
+    const Picture picture = traced(scene, {16, 16}, {.photons = 20000});
+    for (int i = 0; i < 256; ++i)
+        EXPECT_NEAR(picture.values.at(i % 16, i / 16)[1], 2, 1e-6);
+}
+
+TEST(LightTracer, AnIndexOfAlmostOneLightsTheFloorAsIfNothingWereThere) {
+    scene::Scene scene = floorUnder(almostNothing(scene::Sphere{0.5f}, {0.2f, 0.8f, 0.1f}), 3);
     scene.camera.type = scene::Camera::Type::Perspective;
     scene.camera.eye = {2, 3, 1};
     scene.lights = {scene::PointLight{.position = {0.3f, 2, 0.5f},
@@ -135,7 +167,7 @@ TEST(LightTracer, AnIndexOfOneLightsTheFloorAsIfNothingWereThere) {
         return chiSquare(picture, [&](int x, int y) { return double(plain.values.at(x, y)[1]); });
     };
     // A ball and a block: where a shadow ends inside a pixel its middle is not its mean, so the sum counts.
-    scene::Object block = glass(scene::Box{{0.6f, 0.3f, 0.6f}}, 1, {-0.7f, 0.2f, 0});
+    scene::Object block = almostNothing(scene::Box{{0.6f, 0.3f, 0.6f}}, {-0.7f, 0.2f, 0});
     block.visible = false;
     scene.objects.push_back(block);
     double found = 0, wanted = 0;
@@ -144,14 +176,14 @@ TEST(LightTracer, AnIndexOfOneLightsTheFloorAsIfNothingWereThere) {
     // A pane over everything that is seen: every pixel. A spot's edge has no place in it.
     scene.objects.resize(1);
     scene.lights.resize(1);
-    scene.objects.push_back(glass(scene::Box{{6, 0.3f, 6}}, 1, {0, 0.5f, 0}));
+    scene.objects.push_back(almostNothing(scene::Box{{6, 0.3f, 6}}, {0, 0.5f, 0}));
     scene.objects[1].visible = false;
     found = wanted = 0;
     EXPECT_NEAR(compare(found, wanted), 1, 0.25); // 576 pixels: sqrt(2 / 576) = 0.06 by chance
     EXPECT_NEAR(found, wanted, 0.01 * wanted);
 }
 
-TEST(LightTracer, LightsWithASizeShineThroughAnIndexOfOneAsIfNothingWereThere) {
+TEST(LightTracer, LightsWithASizeShineThroughAnIndexOfAlmostOneAsIfNothingWereThere) {
     // The rays of a lamp and the light of its points are two estimates of one thing.
     const scene::Light lights[] = {
         scene::AreaLight{
@@ -167,7 +199,7 @@ TEST(LightTracer, LightsWithASizeShineThroughAnIndexOfOneAsIfNothingWereThere) {
                          .innerAngle = 10,
                          .outerAngle = 40}};
     for (const scene::Light& light : lights) {
-        scene::Scene scene = floorUnder(glass(scene::Box{{2, 0.125f, 2}}, 1, {0, 0.4f, 0}), 1);
+        scene::Scene scene = floorUnder(almostNothing(scene::Box{{2, 0.125f, 2}}, {0, 0.4f, 0}), 1);
         scene.lights = {light};
         scene::Scene empty = scene;
         empty.objects.resize(1);
@@ -303,7 +335,7 @@ TEST(LightTracer, APlaceThatNoRayMetMayStillBeLit) {
     // A pane lets all light through, as if it were not there. Rays are spread over a disc around it; a pixel
     // is met by four on average, so that one in e⁴ = 55 is not. Three of them would be
     // 3 / photons disc / pixel E.
-    scene::Scene scene = floorUnder(glass(scene::Box{{2, 0.5f, 2}}, 1, {0, 1, 0}), 1);
+    scene::Scene scene = floorUnder(almostNothing(scene::Box{{2, 0.5f, 2}}, {0, 1, 0}), 1);
     scene.lights = {scene::DistantLight{.direction = {0, -1, 0}, .irradiance = 2}};
     constexpr int kSize = 48;
     const double disc = kPi * (1 + 1 + 0.25 * 0.25), pixel = 1.0 / (kSize * kSize);
