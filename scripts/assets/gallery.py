@@ -75,7 +75,8 @@ def truth_of(program: Path, scene: Path, truth: Path, _facts: Path) -> None:
     content = json.loads(scene.read_text())
     if is_relief(content):
         side, directions = TRUTH_UNDER_SKY if "environment" in content else TRUTH_UNDER_LAMPS
-        options = ["--directions", directions]
+        alone = len(content["objects"]) == 1 # others are solved with what each keeps from the others
+        options = ["--directions" if alone else "--samples", directions]
     elif scatters(content):
         side, lines = TRUTH_OF_DIPOLES
         options = ["--estimator", "dipole", "--samples", lines]

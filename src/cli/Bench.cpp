@@ -1,5 +1,6 @@
 // lucent bench: speed against error, side by side in one run.
 #include "cli/Command.h"
+#include "cli/ComposeReport.h"
 #include "cli/Files.h"
 #include "cli/ProgressBar.h"
 #include "cli/ReportPage.h"
@@ -45,11 +46,11 @@ struct BenchOptions {
 };
 
 constexpr std::string_view kParts[] = {"relief",     "environment", "scaling",    "hard",   "all",
-                                       "refraction", "caustics",    "subsurface", "budget", "budget-glass"};
+                                       "refraction", "caustics",    "subsurface", "budget", "budget-glass", "compose"};
 
 struct Parts {
     measure::ReliefParts relief;
-    bool refraction = false, caustics = false, subsurface = false, glassBudget = false;
+    bool refraction = false, caustics = false, subsurface = false, glassBudget = false, compose = false;
 };
 
 // --- the machine
@@ -105,6 +106,7 @@ Result<Parts> parseParts(const std::vector<std::string>& names) {
         parts.refraction |= name == "refraction";
         parts.caustics |= name == "caustics";
         parts.subsurface |= name == "subsurface";
+        parts.compose |= name == "compose";
     }
     return parts;
 }
@@ -356,6 +358,8 @@ Status bench(const BenchOptions& options) {
         if (Status proved = proveCaustics(**context, options, report); !proved) return proved;
     if (parts->subsurface)
         if (Status proved = proveSubsurface(**context, options, solveOnce, report); !proved) return proved;
+    if (parts->compose)
+        if (Status proved = benchCompose(**context, options.output, options.quick); !proved) return proved;
     report.ratios.push_back({"MB resident with a relief of 512^2 texels", peakMB, 256, false});
     std::fputs(report.text().c_str(), stdout);
     // The figures first: minutes of measuring are not lost with a page that cannot be made.
@@ -375,7 +379,7 @@ Command addBench(CLI::App& program) {
     const auto options = std::make_shared<BenchOptions>();
     parser->add_option("NAMES", options->parts,
                        "Parts: relief, environment, scaling, hard, all of them without; refraction; "
-                       "caustics; subsurface; budget; budget-glass");
+                       "caustics; subsurface; budget; budget-glass; compose: every lamp past everything on everything");
     parser->add_flag("--quick", options->quick, "Smaller scenes, fewer repeats: two minutes without a GPU");
     parser->add_option("-o,--output", options->output, "Folder for bench.json and report.html")
         ->required()
@@ -398,6 +402,7 @@ Command addBench(CLI::App& program) {
                    "  lucent bench refraction --quick -o build/bench-refraction\n"
                    "  lucent bench caustics --quick -o build/bench-caustics\n"
                    "  lucent bench subsurface --quick -o build/bench-subsurface\n"
+                   "  lucent bench compose -o build/compose   # the matrix of everything on everything\n"
                    "  lucent bench budget -o build/budget   # proves quality.maxError: half an hour\n"
                    "  lucent bench budget-glass -o build/budget-glass   # the same for light through glass");
     return {parser, [options] { return bench(*options); }};

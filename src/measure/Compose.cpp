@@ -1,0 +1,256 @@
+#include "measure/Compose.h"
+
+#include "base/JsonWriter.h"
+#include "frame/Renderer.h"
+#include "measure/Metrics.h"
+#include "measure/SubsurfaceTruth.h"
+#include "measure/TruthModel.h"
+#include "truth/Glass.h"
+#include "truth/LightTracer.h"
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+
+namespace lucent::measure {
+
+namespace {
+
+constexpr std::string_view kLamps[] = {"point", "spot", "distant", "area", "environment"};
+constexpr std::string_view kBetween[] = {"nothing",    "matt box",        "relief",      "mirror",
+                                         "glass ball", "absorbing glass", "marble ball", "water"};
+constexpr std::string_view kReceivers[] = {"matt plane",       "matt mesh",   "relief 3 %",
+                                           "relief 0",         "marble slab", "floor through glass",
+                                           "floor in a mirror"};
+constexpr int kSize = 64;                 // pixels a side
+constexpr int kSamples = 512;             // of the truth, a pixel
+constexpr std::int64_t kRays = 4'000'000; // of light, where it comes by way of glass or mirrors
+constexpr int kCell = 5;                  // pixels a side over which caustics may lie where they like
+
+scene::Object objectOf(const char* name, scene::Shape shape, vec3 place = vec3(0)) {
+    scene::Object object;
+    object.name = name;
+    object.shape = std::move(shape);
+    object.transform.translate = place;
+    object.material.diffuse = {0.8f, 0.7f, 0.6f};
+    return object;
+}
+
+scene::HeightField waves(float width, float heightScale) {
+    auto heights = std::make_shared<Image>(64, 64, 1);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            *heights->at(x, y) = 0.5f + 0.3f * std::sin(0.31f * float(x)) * std::cos(0.23f * float(y) + 1);
+    scene::HeightField field;
+    field.width = width;
+    field.heightScale = heightScale;
+    field.heights = std::move(heights);
+    return field;
+}
+
+scene::Object reliefOf(const char* name, float width, float heightScale, float depth, vec3 place = vec3(0)) {
+    scene::Object relief = objectOf(name, waves(width, heightScale), place);
+    relief.transform.rotate = {-90, 0, 0};
+    relief.material.depth = depth;
+    return relief;
+}
+
+// Mean free paths of some millimetres: a few pixels.
+void makeMarble(scene::Material& material) {
+    material.scattering = {220, 260, 300};
+    material.setAbsorption({0.2f, 0.4f, 0.7f});
+    material.ior = 1.5f;
+}
+
+void makeGlass(scene::Material& material, vec3 absorption = vec3(0)) {
+    material.transmission = 1;
+    material.ior = 1.5f;
+    if (absorption != vec3(0)) material.setAbsorption(absorption);
+}
+
+// Light from a bright window above and a dim rest.
+std::shared_ptr<const Image> windowMap() {
+    auto map = std::make_shared<Image>(64, 32, 3);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x)
+            std::fill_n(map->at(x, y), 3, y >= 3 && y < 10 && x >= 36 && x < 48 ? 8.0f : 0.3f);
+    return map;
+}
+
+void addLamp(scene::Scene& scene, std::string_view lamp) {
+    const vec3 place(0.5f, 2.5f, 0.3f);
+    if (lamp == "point")
+        scene.lights.push_back(scene::PointLight{
+            .position = place, .intensity = 20, .falloff = scene::LightFalloff::InverseSquare});
+    else if (lamp == "spot")
+        scene.lights.push_back(scene::SpotLight{
+            .position = place, .direction = -place, .intensity = 20, .innerAngle = 16, .outerAngle = 22});
+    else if (lamp == "distant")
+        scene.lights.push_back(scene::DistantLight{.direction = -place, .irradiance = 3, .angle = 3});
+    else if (lamp == "area")
+        scene.lights.push_back(scene::AreaLight{.corner = place - vec3(0.15f, 0, 0.15f),
+                                                .edgeU = {0.3f, 0, 0},
+                                                .edgeV = {0, 0, 0.3f},
+                                                .radiance = 200});
+    else
+        scene.environment.emplace().map = windowMap();
+}
+
+void addBetween(scene::Scene& scene, std::string_view between) {
+    const vec3 place(0.1f, 0.55f, 0.05f);
+    if (between == "nothing") return;
+    scene::Object object = objectOf("between", scene::Sphere{0.16f}, place);
+    if (between == "matt box") object.shape = scene::Box{vec3(0.25f)};
+    if (between == "relief") object = reliefOf("between", 0.4f, 0.05f, 0.01f, place);
+    if (between == "mirror") {
+        object.shape = scene::Box{{0.3f, 0.02f, 0.3f}};
+        object.transform.rotate = {0, 0, 50};
+        object.material.reflectance = vec3(0.9f);
+    }
+    if (between == "glass ball") makeGlass(object.material);
+    if (between == "absorbing glass") makeGlass(object.material, {1, 3, 8});
+    if (between == "marble ball") makeMarble(object.material);
+    if (between == "water") {
+        object.shape = scene::Water{.size = {0.9f, 0.9f}, .amplitude = 0.006f, .wavelength = 0.3f};
+        makeGlass(object.material);
+        object.material.ior = 1.33f;
+    }
+    object.visible = false;
+    scene.objects.push_back(std::move(object));
+}
+
+void addReceiver(scene::Scene& scene, std::string_view receiver) {
+    scene::Object object = objectOf("receiver", scene::Plane{{2, 2}});
+    if (receiver == "matt mesh") object.shape = scene::Torus{0.35f, 0.15f};
+    if (receiver == "relief 3 %") object = reliefOf("receiver", 1.3f, 0.08f, 0.039f);
+    if (receiver == "relief 0") object = reliefOf("receiver", 1.3f, 0.08f, 1e-6f);
+    if (receiver == "marble slab") {
+        object.shape = scene::Box{{1, 0.2f, 1}};
+        object.transform.translate.y = -0.1f;
+        makeMarble(object.material);
+    }
+    scene.objects.push_back(std::move(object));
+    if (receiver == "floor through glass") {
+        scene::Object pane = objectOf("pane", scene::Box{{1.4f, 0.05f, 1.4f}}, {0, 0.2f, 0});
+        makeGlass(pane.material);
+        scene.objects.push_back(std::move(pane));
+    }
+}
+
+bool bends(std::string_view between) {
+    return between == "mirror" || between == "glass ball" || between == "absorbing glass" ||
+           between == "water";
+}
+
+// Pairs that no technique draws, and why.
+std::string notDrawn(std::string_view lamp, std::string_view between, std::string_view receiver) {
+    if (receiver == "floor in a mirror") return "mirrors show the environment only";
+    const bool glass = bends(between) || receiver == "floor through glass";
+    if (lamp == "environment" && glass)
+        return "caustics of an environment: its light passes glass straight on";
+    if (receiver != "marble slab") return "";
+    if (bends(between)) return "light of caustics on what scatters";
+    if (lamp == "environment" && between != "nothing")
+        return "an environment lights what scatters past everything";
+    return "";
+}
+
+double targetOf(std::string_view between, std::string_view receiver) {
+    if (receiver == "marble slab") return 0.03;
+    return bends(between) || receiver == "floor through glass" ? 0.02 : 0.01;
+}
+
+Result<truth::Picture> solve(const scene::Scene& scene) {
+    const std::atomic<bool> cancel = false;
+    const TruthModel model = usualTruth(scene);
+    if (model == TruthModel::Light)
+        return truth::traceLight(scene, scene.size,
+                                 {.aov = scene::Aov::Color, .photons = kRays, .samples = kSamples}, {}, {},
+                                 cancel);
+    if (model == TruthModel::Dipole) {
+        truth::DipoleOptions options = dipoleOptionsOf(scene);
+        options.aov = scene::Aov::Color;
+        options.samples = kSamples;
+        const auto dipole = truth::DipoleEstimator::create(scene, scene.size, options);
+        return dipole ? truth::render(*dipole, scene.size, {}, {}, cancel) : dipole.error();
+    }
+    const auto exact =
+        truth::GlassEstimator::create(scene, scene.size, scene::Aov::Color, {.samples = kSamples});
+    return exact ? truth::render(*exact, scene.size, {}, {}, cancel) : exact.error();
+}
+
+} // namespace
+
+std::span<const std::string_view> composeLamps() { return kLamps; }
+std::span<const std::string_view> composeBetween() { return kBetween; }
+std::span<const std::string_view> composeReceivers() { return kReceivers; }
+
+scene::Scene composeScene(std::string_view lamp, std::string_view between, std::string_view receiver) {
+    scene::Scene scene;
+    scene.size = ivec2(kSize);
+    scene.camera.eye = {0, 4, 0};
+    scene.camera.up = {0, 0, -1};
+    for (const ParamTable* table : frame::techniques())
+        scene.technique.emplace(std::string(table->name), Settings(*table));
+    addReceiver(scene, receiver);
+    addBetween(scene, between);
+    addLamp(scene, lamp);
+    return scene;
+}
+
+ComposeCell measureCompose(gl::Context& context, std::string_view lamp, std::string_view between,
+                           std::string_view receiver) {
+    ComposeCell cell{
+        .lamp = std::string(lamp), .between = std::string(between), .receiver = std::string(receiver)};
+    cell.target = targetOf(between, receiver);
+    cell.notDrawn = notDrawn(lamp, between, receiver);
+    if (!cell.notDrawn.empty()) return cell;
+    const scene::Scene scene = composeScene(lamp, between, receiver);
+    frame::Renderer renderer(context);
+    const auto start = std::chrono::steady_clock::now();
+    if (Status drawn = renderer.finish(scene, 1, scene.size); !drawn) {
+        cell.message = drawn.error().message;
+        return cell;
+    }
+    Result<Image> picture = renderer.read(scene, scene::Aov::Color);
+    cell.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    Result<truth::Picture> exact = solve(scene);
+    if (!picture || !exact) {
+        cell.message = picture ? exact.error().message : picture.error().message;
+        return cell;
+    }
+    const bool spread = bends(between) || receiver == "floor through glass" || receiver == "marble slab";
+    const FluxErrors errors = compareFlux(*picture, exact->values, exact->errors, spread ? kCell : 1);
+    double drawn = 0, wanted = 0;
+    for (std::size_t i = 0; i < picture->pixels.size(); ++i) {
+        if (i % 4 == 3) continue;
+        drawn += double(picture->pixels[i]);
+        wanted += double(exact->values.pixels[i]);
+    }
+    cell.misplaced = errors.misplaced;
+    cell.byNoise = errors.byNoise;
+    cell.flux = drawn / wanted;
+    cell.picture = std::move(*picture);
+    cell.truth = std::move(exact->values);
+    return cell;
+}
+
+std::string composeJson(std::span<const ComposeCell> cells) {
+    JsonWriter json;
+    json.beginObject().key("cells").beginArray();
+    for (const ComposeCell& cell : cells) {
+        json.beginObject().key("lamp").value(cell.lamp).key("between").value(cell.between);
+        json.key("receiver").value(cell.receiver);
+        if (!cell.notDrawn.empty()) json.key("notDrawn").value(cell.notDrawn);
+        if (!cell.message.empty()) json.key("message").value(cell.message);
+        if (cell.isMeasured()) {
+            json.key("misplaced").value(cell.misplaced).key("byNoise").value(cell.byNoise);
+            json.key("flux").value(cell.flux).key("target").value(cell.target).key("met").value(cell.isMet());
+            json.key("seconds").value(cell.seconds);
+        }
+        json.end();
+    }
+    return json.end().end().text();
+}
+
+} // namespace lucent::measure

@@ -1,0 +1,35 @@
+// The matrix of everything on everything: cells that were wrong while reliefs and all else had lights of
+// their own.
+#include "measure/Compose.h"
+
+#include "tests/support/Gl.h"
+
+#include <gtest/gtest.h>
+
+namespace lucent::measure {
+namespace {
+
+struct Compose : support::GlTest {};
+
+TEST_F(Compose, ABoxAReliefAndAFloorShadeEachOtherWithinTheTarget) {
+    for (const auto& [lamp, between, receiver] : {std::array{"distant", "matt box", "relief 3 %"},
+                                                  {"spot", "relief", "relief 0"},
+                                                  {"area", "matt box", "matt mesh"}}) {
+        const ComposeCell cell = measureCompose(*context, lamp, between, receiver);
+        EXPECT_TRUE(cell.isMet()) << cell.name() << ": " << cell.misplaced << ", flux " << cell.flux;
+        EXPECT_LT(cell.byNoise, cell.target / 4) << cell.name();
+    }
+}
+
+TEST_F(Compose, ACellWithoutAFigureSaysWhy) {
+    EXPECT_EQ(measureCompose(*context, "point", "nothing", "floor in a mirror").notDrawn,
+              "mirrors show the environment only");
+    const ComposeCell cell = measureCompose(*context, "environment", "glass ball", "matt plane");
+    EXPECT_FALSE(cell.isMeasured());
+    const std::string json = composeJson({&cell, 1});
+    EXPECT_NE(json.find("its light passes glass straight on"), std::string::npos);
+    EXPECT_EQ(json.find("misplaced"), std::string::npos);
+}
+
+} // namespace
+} // namespace lucent::measure
