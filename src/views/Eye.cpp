@@ -19,7 +19,7 @@ vec4 Eye::inObject(const mat4& worldFromObject) const {
 namespace {
 
 Bounds fieldBounds(const scene::HeightField& field) {
-    const HeightRange range = heightRange(*field.heights);
+    const HeightRange range = heightRange(field.heights);
     const vec2 half = 0.5f * field.footprint();
     Bounds bounds;
     bounds.add({-half, std::min(range.lowest, 0.0f) * field.heightScale});

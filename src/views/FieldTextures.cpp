@@ -20,24 +20,31 @@ std::vector<graph::BlockLayout::Member> fieldMembers(std::size_t offset) {
             {"field.topLevel", offset + offsetof(FieldBlock, topLevel)}};
 }
 
-HeightRange heightRange(const Image& heights) {
-    // Asked for several times a frame for the same few maps; the first and last texel guard a reused address.
+namespace {
+
+HeightRange rangeOf(const Image& heights) {
+    const auto [lowest, highest] = std::minmax_element(heights.pixels.begin(), heights.pixels.end());
+    return {*lowest, *highest};
+}
+
+} // namespace
+
+HeightRange heightRange(const std::shared_ptr<const Image>& heights) {
+    // Asked for several times a frame for the same few maps. A weak pointer tells maps apart by their owners:
+    // an address may be reused.
     struct Known {
-        const float* pixels;
-        std::size_t count;
-        float first, last;
+        std::weak_ptr<const Image> map;
         HeightRange range;
     };
+    constexpr std::size_t kKept = 8;
     static std::vector<Known> known;
-    const auto& pixels = heights.pixels;
-    for (const Known& one : known)
-        if (one.pixels == pixels.data() && one.count == pixels.size() && one.first == pixels.front() &&
-            one.last == pixels.back())
-            return one.range;
-    const auto [lowest, highest] = std::minmax_element(pixels.begin(), pixels.end());
-    if (known.size() == 8) known.erase(known.begin());
-    known.push_back({pixels.data(), pixels.size(), pixels.front(), pixels.back(), {*lowest, *highest}});
-    return known.back().range;
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const Known& one) { return one.map.lock() == heights; });
+    if (found != known.end()) return found->range;
+    const HeightRange range = rangeOf(*heights);
+    if (known.size() == kKept) known.erase(known.begin());
+    known.push_back({heights, range});
+    return range;
 }
 
 namespace {
@@ -53,7 +60,7 @@ int levelCount(ivec2 cells) {
 
 // The finest level: blocks of 2 x 2 cells, that is 3 x 3 samples, clamped at the border.
 PyramidLevel finestLevel(const Image& heights, int levels) {
-    const HeightRange range = heightRange(heights);
+    const HeightRange range = rangeOf(heights);
     const double unit = (double(range.highest) - range.lowest) / 65535.0;
     const auto quantised = [&](float height, bool up) -> std::uint16_t {
         if (unit == 0) return 0;
@@ -140,7 +147,7 @@ Atlas packPyramid(const std::vector<PyramidLevel>& levels) {
 } // namespace
 
 FieldTextures::FieldTextures(gl::Context& context, std::shared_ptr<const Image> heights)
-    : source_(std::move(heights)), range_(heightRange(*source_)) {
+    : source_(std::move(heights)), range_(heightRange(source_)) {
     gl::Device& device = context.device();
     heights_ = graph::Texture(device, {.size = source_->size(), .format = Format::R32F}, "views.heights");
     device.upload(heights_.handle(), 0, source_->pixels);

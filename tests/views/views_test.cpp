@@ -1,6 +1,6 @@
 // Views without GL: the min-max pyramid and the environment as lights.
-#include "tests/support/Fields.h"
 #include "light/EnvironmentLights.h"
+#include "tests/support/Fields.h"
 #include "views/Eye.h"
 #include "views/FieldTextures.h"
 
@@ -18,7 +18,7 @@ INSTANTIATE_TEST_SUITE_P(Pyramid, Sizes,
 
 TEST_P(Sizes, EveryBlockBoundsTheHeightsOfItsCells) {
     const auto map = support::noise(GetParam());
-    const HeightRange range = heightRange(*map);
+    const HeightRange range = heightRange(map);
     const double unit = (double(range.highest) - range.lowest) / 65535;
     const auto levels = buildPyramid(*map);
     for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -37,6 +37,17 @@ TEST_P(Sizes, EveryBlockBoundsTheHeightsOfItsCells) {
             }
         }
     }
+}
+
+// Memory is reused: the same place, size and border say nothing about what lies between.
+TEST(HeightRange, IsThatOfTheMapThatNowHoldsItsMemory) {
+    const auto first = std::make_shared<Image>(3, 3, 1);
+    *first->at(1, 1) = 1;
+    EXPECT_EQ(heightRange(first).highest, 1);
+    const auto second = std::make_shared<Image>();
+    std::swap(*first, *second);
+    *second->at(1, 1) = 5;
+    EXPECT_EQ(heightRange(second).highest, 5);
 }
 
 TEST_P(Sizes, LevelsHalveExactlyAsTexturesDo) {
