@@ -59,10 +59,14 @@ truth::Branching branchingOf(const TruthOptions& options) {
     return tree ? truth::Branching::Tree : truth::Branching::Chain;
 }
 
-/// The name of what a scene is solved by unless it is said.
-std::string chosenEstimator(const scene::Scene& scene) {
+/// The name of what a scene is solved by unless it is said. Of colours of height fields glass takes the mean
+/// over each pixel; relief knows its middle only.
+std::string chosenEstimator(const scene::Scene& scene, bool antialias) {
     constexpr const char* kNames[] = {"relief", "glass", "light", "dipole"}; // as measure::TruthModel
-    return kNames[std::size_t(measure::usualTruth(scene))];
+    const measure::TruthModel usual = measure::usualTruth(scene);
+    const bool spread =
+        antialias && scene.view.show == scene::Aov::Color && usual == measure::TruthModel::Relief;
+    return spread ? "glass" : kNames[std::size_t(usual)];
 }
 
 /// Irradiance is of light alone, radiosity of what scatters inside; the estimators of height fields leave out
@@ -140,7 +144,8 @@ Result<truth::Picture> solve(const scene::Scene& scene, const TruthOptions& opti
                                   .photons = options.photons,
                                   .samples = options.samples,
                                   .seed = options.seed,
-                                  .attenuation = attenuationOf(scene)},
+                                  .attenuation = attenuationOf(scene),
+                                  .antialias = options.antialias},
                                  tile, work, interrupted);
     if (options.estimator == "walk")
         return truth::traceWalks(scene, scene.size,
@@ -195,8 +200,9 @@ Status checkOptions(const TruthOptions& options) {
     if (!isByRays(options) && options.photonsGiven->count() > 0)
         return Error{"--photons: is of light, light-tree and walk; must be --samples for " +
                      options.estimator};
-    if (!isGlass(options) && options.antialias)
-        return Error{"--antialias: is of the glass estimators; must be left out for " + options.estimator};
+    if (!isGlass(options) && !isLight(options) && options.antialias)
+        return Error{"--antialias: is of glass, glass-tree, light and light-tree; must be left out for " +
+                     options.estimator};
     return Done{};
 }
 
@@ -214,7 +220,7 @@ Status makeTruth(TruthOptions options) {
     if (Status kept = options.output.checkNotAmong(*read); !kept) return kept;
     const Result<scene::Scene> scene = options.scene.load();
     if (!scene) return scene.error();
-    if (options.estimator.empty()) options.estimator = chosenEstimator(*scene);
+    if (options.estimator.empty()) options.estimator = chosenEstimator(*scene, options.antialias);
     if (Status possible = checkOptions(options); !possible) return possible;
     if (Status possible = checkEstimator(*scene, options); !possible) return possible;
     const Result<truth::Tile> tile = tileOf(*scene, options);
@@ -269,8 +275,10 @@ Command addTruth(CLI::App& program) {
         parser->add_option("--photons", options->photons, "Light rays of light, light-tree and walk")
             ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 40))
             ->capture_default_str();
-    parser->add_flag("--antialias", options->antialias,
-                     "With glass and glass-tree: samples all over each pixel, not in its middle");
+    parser->add_flag(
+        "--antialias", options->antialias,
+        "With glass, glass-tree, light and light-tree: colours as the mean over each pixel, not in its "
+        "middle");
     options->directionsGiven = parser
                                    ->add_option("--directions", options->directions,
                                                 "Directions that stand for the environment in relief")

@@ -203,6 +203,7 @@ Result<Picture> traceLight(const scene::Scene& scene, ivec2 size, const LightOpt
         auto glass = GlassEstimator::create(scene, size, options.aov,
                                             {.branching = options.branching,
                                              .samples = options.samples,
+                                             .antialias = options.antialias,
                                              .seed = seed,
                                              .attenuation = options.attenuation});
         if (!glass) return glass.error();

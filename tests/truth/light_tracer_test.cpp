@@ -448,6 +448,24 @@ TEST(LightTracer, ColoursAreThoseOfGlassWithCausticsDirectlyAndThroughIt) {
               "truth: AOV depth is not traced by light; must be irradiance or color");
 }
 
+TEST(LightTracer, AntialiasedColoursAreTheMeanOverThePixel) {
+    // Half of the only pixel shows the floor, its middle included; what is beside it is black.
+    scene::Scene scene = sceneOf({matt(scene::Plane{{0.5f, 2}})});
+    scene.camera.eye = {0, 2, 0};
+    scene.camera.target = {0, 0, 0};
+    scene.camera.up = {0, 0, -1};
+    scene.camera.height = 1;
+    scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
+    const double lit = double(0.8f) / kPi;
+    LightOptions options{.aov = scene::Aov::Color, .photons = 1, .samples = 10000};
+    EXPECT_NEAR(traced(scene, {1, 1}, options).values.pixels[1], lit, 1e-6);
+    options.antialias = true;
+    const Picture picture = traced(scene, {1, 1}, options);
+    const double error = lit * 0.5 / std::sqrt(10000.0); // of a share of a half
+    EXPECT_NEAR(double(picture.values.pixels[1]), lit / 2, 4 * error);
+    EXPECT_NEAR(double(picture.errors.pixels[1]), error, 0.01 * error);
+}
+
 TEST(LightTracer, TheTreeBringsWhatIsReflectedInsideASlabAsWell) {
     // (1 - F)² (1 + F² + F⁴ + ...) = (1 - F) / (1 + F) of the light.
     scene::Scene scene = floorUnder(glass(scene::Box{{2, 0.5f, 2}}, 1.5f, {0, 2, 0}), 1);
