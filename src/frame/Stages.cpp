@@ -45,6 +45,11 @@ bool standsAlone(const scene::Scene& scene) {
     return scene.objects.size() == 1 && scene.objects.front().isField();
 }
 
+// Of which a first look takes fewer samples.
+bool hasLargeLamp(const scene::Scene& scene) {
+    return views::lampPoints(scene, 2).size() > views::lampPoints(scene, 1).size();
+}
+
 double now() {
     using namespace std::chrono;
     return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
@@ -118,8 +123,8 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort) {
         stages.push_back({seesWalls(scene) ? wanted : 0, true});
     else
         stages.push_back({manyLights ? wanted : 0, false});
-    coarse = effort == Effort::Coarse &&
-             (stages.size() > 1 || limited(scene) || need(scene, "brdf") || need(scene, "subsurface"));
+    coarse = effort == Effort::Coarse && (stages.size() > 1 || limited(scene) || hasLargeLamp(scene) ||
+                                          need(scene, "brdf") || need(scene, "subsurface"));
     if (coarse) stages.resize(1);
 }
 

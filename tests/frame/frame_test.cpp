@@ -113,6 +113,17 @@ TEST_F(Frame, ACoarseLookIsTheFirstStageAlone) {
     EXPECT_FALSE(renderer.advance(scene, 1, {40, 30}, false)->complete); // letting go refines
 }
 
+TEST_F(Frame, ACoarseLookAtALargeLampIsRefined) {
+    scene.lights.push_back(scene::PointLight{.radius = 0.3f});
+    Renderer coarse(*context), whole(*context);
+    while (!coarse.advance(scene, 1, {40, 30}, true)->complete)
+        ;
+    while (!coarse.advance(scene, 1, {40, 30}, false)->complete)
+        ;
+    ASSERT_TRUE(whole.finish(scene, 1, {40, 30}).ok());
+    EXPECT_EQ(coarse.read(scene, scene::Aov::Color)->pixels, whole.read(scene, scene::Aov::Color)->pixels);
+}
+
 TEST_F(Frame, NormaliseDividesByTheNumberOfLights) {
     addEnvironment(20);
     scene.lights.push_back(scene::PointLight{});
