@@ -95,7 +95,7 @@ TEST_F(OnThisMachine, BenchWritesAReportWithEveryHardCase) {
 
 TEST_F(OnThisMachine, BenchRefusesUnknownPartsAndFoldersThatCannotBe) {
     expectRefusal("bench speed -o bench", "NAMES: is \"speed\"; must be one of relief, environment, scaling, "
-                                          "hard, all, refraction, caustics, subsurface, budget, budget-glass");
+                                          "hard, all, refraction, caustics, subsurface, budget, budget-glass, compose");
     expectRefusal("bench hard", "--output is required; see lucent bench --help");
     const std::size_t before = fileCount();
     const Outcome outcome = run("bench hard --gallery none -o bump.pfm/bench");
