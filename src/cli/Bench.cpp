@@ -19,6 +19,7 @@
 #include "measure/SubsurfacePlan.h"
 #include "scene/Load.h"
 #include "scene/readers/Readers.h"
+#include "technique/Technique.h"
 
 #include <algorithm>
 #include <chrono>
@@ -45,8 +46,9 @@ struct BenchOptions {
     std::string commit = LUCENT_COMMIT;
 };
 
-constexpr std::string_view kParts[] = {"relief",     "environment", "scaling",    "hard",   "all",
-                                       "refraction", "caustics",    "subsurface", "budget", "budget-glass", "compose"};
+constexpr std::string_view kParts[] = {"relief", "environment",  "scaling",  "hard",
+                                       "all",    "refraction",   "caustics", "subsurface",
+                                       "budget", "budget-glass", "compose"};
 
 struct Parts {
     measure::ReliefParts relief;
@@ -126,7 +128,7 @@ std::shared_ptr<const Image> thinned(std::shared_ptr<const Image> heights, int s
 // The heights of a gallery scene's first height field, for a field 1 m wide with at most `side` texels a
 // side.
 Result<measure::BenchField> fieldOf(const std::string& path, int side) {
-    const Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), frame::techniques());
+    const Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), technique::tables());
     if (!scene) return scene.error();
     for (const scene::Object& object : scene->objects)
         if (const auto* field = std::get_if<scene::HeightField>(&object.shape))
@@ -173,7 +175,7 @@ Result<std::optional<measure::BenchMesh>> meshOf(const std::string& path) {
     }
     const Result<Bytes> bytes = scene::plainFiles()(path);
     if (!bytes) return bytes.error();
-    const Result<scene::Scene> scene = scene::sceneFromMesh(path, *bytes, frame::techniques());
+    const Result<scene::Scene> scene = scene::sceneFromMesh(path, *bytes, technique::tables());
     if (!scene) return scene.error();
     return std::optional(
         measure::BenchMesh{name, std::get<scene::MeshShape>(scene->objects.front().shape).mesh});
@@ -377,9 +379,10 @@ Command addBench(CLI::App& program) {
     CLI::App* parser =
         program.add_subcommand("bench", "Measures speed against error, all methods in one run");
     const auto options = std::make_shared<BenchOptions>();
-    parser->add_option("NAMES", options->parts,
-                       "Parts: relief, environment, scaling, hard, all of them without; refraction; "
-                       "caustics; subsurface; budget; budget-glass; compose: every lamp past everything on everything");
+    parser->add_option(
+        "NAMES", options->parts,
+        "Parts: relief, environment, scaling, hard, all of them without; refraction; "
+        "caustics; subsurface; budget; budget-glass; compose: every lamp past everything on everything");
     parser->add_flag("--quick", options->quick, "Smaller scenes, fewer repeats: two minutes without a GPU");
     parser->add_option("-o,--output", options->output, "Folder for bench.json and report.html")
         ->required()

@@ -5,6 +5,7 @@
 #include "scene/Keys.h"
 #include "scene/Load.h"
 #include "scene/readers/Readers.h"
+#include "technique/Technique.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -50,7 +51,7 @@ Result<scene::Aov> parseAov(const std::string& text) {
 } // namespace
 
 Result<scene::Scene> SceneOptions::load() const {
-    Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), frame::techniques());
+    Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), technique::tables());
     if (!scene) return scene;
     for (const std::string& set : sets)
         if (Status applied = applySet(*scene, set); !applied) return applied.error();

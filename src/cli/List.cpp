@@ -8,6 +8,7 @@
 #include "scene/Keys.h"
 #include "scene/Scene.h"
 #include "scene/Translucency.h"
+#include "technique/Technique.h"
 
 #include <cstddef>
 #include <cstdio>
@@ -27,7 +28,7 @@ struct Section {
 
 std::vector<Section> sections() {
     std::vector<Section> all;
-    for (const ParamTable* table : frame::techniques())
+    for (const ParamTable* table : technique::tables())
         all.push_back(
             {"technique " + std::string(table->name), "technique." + std::string(table->name), table});
     for (const scene::TypeKeys& shape : scene::shapeTypes())

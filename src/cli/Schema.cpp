@@ -3,6 +3,7 @@
 
 #include "frame/Renderer.h"
 #include "scene/Load.h"
+#include "technique/Technique.h"
 
 #include <cstdio>
 
@@ -13,7 +14,7 @@ Command addSchema(CLI::App& program) {
     parser->footer("Example:\n"
                    "  lucent schema > lucent.schema.json");
     return {parser, []() -> Status {
-                std::fputs(scene::jsonSchema(frame::techniques()).c_str(), stdout);
+                std::fputs(scene::jsonSchema(technique::tables()).c_str(), stdout);
                 return Done{};
             }};
 }

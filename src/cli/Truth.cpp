@@ -7,7 +7,7 @@
 #include "base/Text.h"
 #include "measure/SubsurfaceTruth.h"
 #include "measure/TruthModel.h"
-#include "techniques/relief/Relief.h"
+#include "technique/Technique.h"
 #include "truth/Dipole.h"
 #include "truth/Glass.h"
 #include "truth/Lambert.h"
@@ -91,44 +91,39 @@ Status checkEstimator(const scene::Scene& scene, const TruthOptions& options) {
     return Done{};
 }
 
-truth::Attenuation attenuationOf(const scene::Scene& scene) {
-    const auto& settings = scene.technique.at("relief").as<relief::Settings>();
-    return settings.attenuation == relief::Attenuation::Ratio ? truth::Attenuation::Ratio
-                                                              : truth::Attenuation::Exponential;
-}
-
 Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scene,
                                                         const TruthOptions& options) {
+    const truth::Model drawn = technique::modelOf(scene);
     if (isGlass(options)) {
         auto glass = truth::GlassEstimator::create(scene, scene.size, scene.view.show,
                                                    {.branching = branchingOf(options),
                                                     .samples = options.samples,
                                                     .antialias = options.antialias,
                                                     .seed = options.seed,
-                                                    .attenuation = attenuationOf(scene)});
+                                                    .attenuation = drawn.attenuation});
         if (!glass) return glass.error();
         return std::unique_ptr<truth::Estimator>(new truth::GlassEstimator(std::move(*glass)));
     }
     if (options.estimator == "dipole") {
-        truth::DipoleOptions model = measure::dipoleOptionsOf(scene);
+        truth::DipoleOptions model = drawn.dipole;
+        model.aov = scene.view.show;
         model.samples = options.samples;
         model.seed = options.seed;
         auto dipole = truth::DipoleEstimator::create(scene, scene.size, model);
         if (!dipole) return dipole.error();
         return std::unique_ptr<truth::Estimator>(new truth::DipoleEstimator(std::move(*dipole)));
     }
-    const auto& settings = scene.technique.at("relief").as<relief::Settings>();
     if (options.estimator == "lambert") {
         auto lambert = truth::LambertEstimator::create(
             scene, scene.size, scene.view.show,
-            {.samples = options.samples, .normalise = settings.normalise, .seed = options.seed});
+            {.samples = options.samples, .normalise = drawn.normalise, .seed = options.seed});
         if (!lambert) return lambert.error();
         return std::unique_ptr<truth::Estimator>(new truth::LambertEstimator(std::move(*lambert)));
     }
     if (Status known = truth::checkAov(scene.view.show); !known) return known.error();
-    const truth::ReliefOptions model{.attenuation = attenuationOf(scene),
+    const truth::ReliefOptions model{.attenuation = drawn.attenuation,
                                      .environmentLights = options.directions,
-                                     .normalise = settings.normalise,
+                                     .normalise = drawn.normalise,
                                      .discSamples = options.samples,
                                      .seed = options.seed};
     return std::unique_ptr<truth::Estimator>(
@@ -144,7 +139,7 @@ Result<truth::Picture> solve(const scene::Scene& scene, const TruthOptions& opti
                                   .photons = options.photons,
                                   .samples = options.samples,
                                   .seed = options.seed,
-                                  .attenuation = attenuationOf(scene),
+                                  .attenuation = technique::modelOf(scene).attenuation,
                                   .antialias = options.antialias},
                                  tile, work, interrupted);
     if (options.estimator == "walk")

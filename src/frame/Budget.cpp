@@ -1,397 +1,224 @@
 #include "frame/Budget.h"
 
 #include "base/Text.h"
-#include "techniques/relief/Transfer.h"
-#include "views/Surface.h"
+#include "frame/Renderer.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <span>
 
 namespace lucent::frame {
 
-using graph::Format;
-using graph::TextureDesc;
-using relief::EnvironmentSampling;
-
 namespace {
 
-// By so much may the error of the whole picture exceed the sample's: lucent bench budget.
-constexpr float kSafety = 1.25f;
+using technique::Knob;
+using technique::KnobOf;
 
-constexpr int kSamplePixels = 900;
-constexpr int kFewestCovered = 256; // fewer say too little
-// Steps of a factor of the square root of two.
-constexpr int kDirections[] = {8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256, 362, 512, 724, 1024, 1448, 2048};
-constexpr int kLampSamples[] = {1, 2, 3, 4, 6, 8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256};
-constexpr int kMostDirections = 4096, kMostLampSamples = 1024; // of the reference
-constexpr int kFinerBy = 4;                                    // a reference than what is held against it
+constexpr float kFinerHas =
+    2; // the finer value has half the error: what it changes, times this, is all of it
 
-// A transfer that keeps less is rare, and finding that out costs more than directions do: lucent bench
-// environment.
-constexpr float kTransferReach = 0.004f;
+struct Place {
+    const Param* param;
+    void* data;
+};
 
-using views::hasEnvironment;
-
-bool hasSize(const scene::Light& light) {
-    const auto* point = std::get_if<scene::PointLight>(&light);
-    const auto* distant = std::get_if<scene::DistantLight>(&light);
-    return (point && point->radius > 0) || (distant && distant->angle > 0);
+// Where a parameter lives in a scene.
+Place placeOf(scene::Scene& scene, std::string_view table, std::string_view id) {
+    Settings& settings = scene.technique.at(std::string(table));
+    const auto& params = settings.table().params;
+    const auto found =
+        std::find_if(params.begin(), params.end(), [id](const Param& param) { return param.id == id; });
+    assert(found != params.end() && "a knob names no parameter of its table");
+    return {&*found, static_cast<std::byte*>(settings.data()) + found->offset};
 }
 
-bool hasLargeLamp(const scene::Scene& scene) {
-    return std::any_of(scene.lights.begin(), scene.lights.end(), hasSize);
+void set(scene::Scene& scene, const KnobOf& of, double value) {
+    const auto store = [&](std::string_view id, double number) {
+        const Place place = placeOf(scene, of.table, id);
+        setComponent(*place.param, place.data, 0, number);
+    };
+    store(of.knob->id, value);
+    if (!of.knob->tied.empty()) store(of.knob->tied, of.knob->factor * value);
 }
 
-const relief::Settings& settingsOf(const scene::Scene& scene) {
-    return scene.technique.at("relief").as<relief::Settings>();
+bool covered(const Image& image, std::size_t pixel) { return image.pixels[4 * pixel + 3] > 0; }
+
+// RMSE over the mean of the finer picture, over what it covers.
+float differenceOf(const Image& coarse, const Image& fine) {
+    double squares = 0, mean = 0;
+    for (std::size_t i = 0; i < fine.pixels.size() / 4; ++i)
+        for (std::size_t c = 4 * i; c < 4 * i + 3 && covered(fine, i); ++c) {
+            const double d = double(coarse.pixels[c]) - double(fine.pixels[c]);
+            squares += d * d;
+            mean += double(fine.pixels[c]);
+        }
+    double count = 0;
+    for (std::size_t i = 0; i < fine.pixels.size() / 4; ++i)
+        count += covered(fine, i) ? 3 : 0;
+    return count > 0 && mean > 0 ? float(std::sqrt(squares / count) / (mean / count)) : 0;
 }
 
-// Lights whose own error is a small part of the wanted one: error falls about as the number rises.
-int referenceCount(float wanted, int most) { return std::clamp(int(6 / wanted), most / 32, most); }
-
-// About `count` pixels in the picture's shape; odd numbers keep in step with few patterns.
-ivec2 sampleSizeFor(ivec2 size, int count) {
-    const double aspect = double(size.x) / size.y;
-    return ivec2(int(std::sqrt(count * aspect)), int(std::sqrt(count / aspect))) | 1;
+// Median angle between directions where both pictures know one and glass is seen, degrees.
+float medianAngle(const Image& coarse, const Image& fine, const Image& layers) {
+    std::vector<float> angles;
+    for (std::size_t i = 0; i < fine.pixels.size() / 4; ++i) {
+        if (layers.pixels[4 * i] == 0 || !covered(fine, i)) continue;
+        const auto direction = [&](const Image& image) {
+            return vec3(image.pixels[4 * i], image.pixels[4 * i + 1], image.pixels[4 * i + 2]);
+        };
+        const vec3 a = direction(coarse), b = direction(fine);
+        angles.push_back(covered(coarse, i)
+                             ? glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)))
+                             : 180);
+    }
+    if (angles.empty()) return 0;
+    const auto middle = angles.begin() + std::ptrdiff_t(angles.size() / 2);
+    std::nth_element(angles.begin(), middle, angles.end());
+    return *middle;
 }
-
-// The number half-way, by ratio, between one that does not keep the error and the next that does.
-int between(int fewer, int more) { return int(std::lround(std::sqrt(double(fewer) * more))); }
 
 } // namespace
 
-std::string Budget::Choice::text() const {
-    const bool equal = settings.environmentSampling == EnvironmentSampling::Equal;
-    std::string text;
-    if (environment && settings.method == relief::Method::Transfer)
-        text = "transfer, ";
-    else if (environment)
-        text = std::to_string(settings.environmentLights) + " directions " +
-               (equal ? "evenly, " : "by importance, ");
-    if (largeLamp) text += std::to_string(settings.lightSamples) + " points a lamp, ";
-    text += "error about " + shortest(std::round(predicted * 1e4f) / 100) + " %";
-    return kept ? text : text + ": nothing keeps the wanted error";
+void turnDown(scene::Scene& scene) {
+    for (const KnobOf& of : technique::knobs(scene)) {
+        const Place place = placeOf(scene, of.table, of.knob->id);
+        const double own = getComponent(*place.param, place.data, 0), coarse = of.knob->coarse;
+        setComponent(*place.param, place.data, 0,
+                     of.knob->costsLess ? std::max(own, coarse) : std::min(own, coarse));
+    }
 }
 
-bool Budget::matters(const scene::Scene& scene) {
-    return relief::Relief::need(scene) && (hasEnvironment(scene) || hasLargeLamp(scene));
+Budget::Budget(gl::Context& context) : context_(context) {}
+Budget::~Budget() = default;
+
+// Those that have something to choose.
+std::vector<KnobOf> Budget::knobsOf(const scene::Scene& scene) const {
+    std::vector<KnobOf> list = technique::knobs(scene);
+    std::erase_if(list, [this](const KnobOf& of) {
+        return of.knob->steps.empty() || (of.isSampling && leavesSampling_);
+    });
+    return list;
 }
 
-void Budget::start(const scene::Scene& scene, ivec2 size) {
-    wanted_ = scene.quality.maxError / kSafety;
-    size_ = size;
-    sampleSize_ = sampleSizeFor(size, kSamplePixels);
-    choice_ = {settingsOf(scene), 0, true, hasEnvironment(scene), hasLargeLamp(scene)};
-    choice_.settings.method = relief::Method::Hierarchy;
-    reference_ = choice_.settings;
-    reference_.environmentSampling = EnvironmentSampling::Importance; // nearer for the same number
-    reference_.environmentLights = referenceCount(wanted_, kMostDirections);
-    reference_.lightSamples = hasLargeLamp(scene) ? referenceCount(wanted_, kMostLampSamples) : 1;
+bool Budget::matters(const scene::Scene& scene) const {
+    return scene.view.show == scene::Aov::Color && !knobsOf(scene).empty();
+}
+
+void Budget::start(const scene::Scene& scene, ivec2 size, bool dragged) {
+    limited_ = true;
+    if (dragged) return;
+    const float longer = float(std::max(size.x, size.y));
+    size_ = glm::max(ivec2(vec2(size) * std::min(1.0f, float(kMostSide) / longer)), ivec2(1));
+    turned_.clear();
+    for (const KnobOf& of : knobsOf(scene)) {
+        scene::Scene own = scene;
+        const Param& param = *placeOf(own, of.table, of.knob->id).param;
+        turned_.push_back({of, 0, of.knob->isExactAtMost ? param.max : of.knob->steps[0]});
+    }
     next_ = 0;
-    lampDifference_.clear();
-    mayTransfer_ = wanted_ >= kTransferReach;
-    phase_ = matters(scene) ? Phase::Surface : Phase::Done;
+    finer_ = Image();
+    predicted_ = 0;
+    kept_ = true;
+    wanted_ = scene.quality.maxError / std::sqrt(float(std::max<std::size_t>(1, turned_.size())));
+}
+
+void Budget::forget() {
+    limited_ = false;
+    turned_.clear();
+    next_ = 0;
+    trial_.reset();
 }
 
 Status Budget::step(const scene::Scene& scene) {
-    switch (phase_) {
-    case Phase::Surface:
-        return drawSurface(scene);
-    case Phase::Reference:
-        return drawReference(scene);
-    case Phase::Lamps:
-        return tryLamps(scene);
-    case Phase::Environment:
-        return tryEnvironment(scene);
-    case Phase::Done:
+    Turned& turned = turned_[next_];
+    return turned.of.knob->isExactAtMost ? tryFewer(scene, turned) : tryNext(scene, turned);
+}
+
+// The scene with what is chosen so far; for trials, which keep no error themselves.
+scene::Scene Budget::trialOf(const scene::Scene& scene) const {
+    scene::Scene trial = scene;
+    apply(trial);
+    trial.quality.maxError = 0;
+    return trial;
+}
+
+void Budget::apply(scene::Scene& scene) const {
+    if (!limited_) return;
+    for (const Turned& turned : turned_)
+        set(scene, turned.of, turned.value);
+}
+
+Result<Image> Budget::draw(scene::Scene trial, scene::Aov show) {
+    if (!trial_) trial_ = std::make_unique<Renderer>(context_);
+    trial.view.show = show;
+    if (Status finished = trial_->finish(trial, ++trials_, size_); !finished) return finished.error();
+    return trial_->read(trial, show);
+}
+
+// A knob is as it stays; its error joins the others'.
+void Budget::finish(float error) {
+    predicted_ = std::sqrt(predicted_ * predicted_ + error * error);
+    if (error > wanted_) kept_ = false;
+    finer_ = Image();
+    if (++next_ == turned_.size()) trial_.reset();
+}
+
+Status Budget::tryNext(const scene::Scene& scene, Turned& turned) {
+    const auto& steps = turned.of.knob->steps;
+    if (finer_.pixels.empty()) {
+        Result<Image> image = draw(trialOf(scene), scene::Aov::Color);
+        if (!image) return image.error();
+        finer_ = std::move(*image);
+    }
+    scene::Scene finer = trialOf(scene);
+    set(finer, turned.of, steps[turned.step + 1]);
+    Result<Image> image = draw(std::move(finer), scene::Aov::Color);
+    if (!image) return image.error();
+    const float error = kFinerHas * differenceOf(finer_, *image);
+    if (error > wanted_ && turned.step + 2 < steps.size()) {
+        turned.value = steps[++turned.step];
+        finer_ = std::move(*image);
+        return Done{};
+    }
+    finish(error);
+    return Done{};
+}
+
+// The most is the exact picture: what has fewer must keep the directions and the light.
+Status Budget::tryFewer(const scene::Scene& scene, Turned& turned) {
+    Image exact[3], fewer[2];
+    const scene::Aov shown[] = {scene::Aov::Color, scene::Aov::Direction, scene::Aov::Layers};
+    for (int i = 0; i < 3; ++i) {
+        Result<Image> image = draw(trialOf(scene), shown[i]);
+        if (!image) return image.error();
+        exact[i] = std::move(*image);
+    }
+    float kept = 0;
+    for (const double value : turned.of.knob->steps) {
+        scene::Scene trial = trialOf(scene);
+        set(trial, turned.of, value);
+        for (int i = 0; i < 2; ++i) {
+            Result<Image> image = draw(trial, shown[i]);
+            if (!image) return image.error();
+            fewer[i] = std::move(*image);
+        }
+        const float error = differenceOf(fewer[0], exact[0]),
+                    degrees = medianAngle(fewer[1], exact[1], exact[2]);
+        if (error > wanted_ || degrees > kDegrees * scene.quality.maxError) continue;
+        turned.value = value;
+        kept = error;
         break;
     }
+    finish(kept);
     return Done{};
 }
 
-// --- samples
-
-Status Budget::drawSurface(const scene::Scene& scene) {
-    Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, images_);
-    if (!objects) return objects.error();
-    const TextureDesc desc{.size = sampleSize_, .format = Format::RGBA32F};
-    if (!surface_ || surface_.desc() != desc)
-        surface_ = graph::Texture(context_.device(), desc, "budget.surface");
-    graph::FrameGraph graph;
-    const graph::TextureId target = graph.import(surface_.handle(), desc, surface_.label());
-    graph.keep(target);
-    const views::Eye eye = views::makeEye(scene, float(size_.x) / float(size_.y));
-    if (Status s = views::recordSurface(graph, context_, eye, *objects, {}, target, sampleSize_); !s)
-        return s;
-    if (Status s = graph.compile(); !s) return s;
-    graph.execute(pool_);
-    if (std::string error = context_.takeError(); !error.empty()) return Error{error, Fault::Machine};
-    const Image surface = context_.device().read(surface_.handle());
-    covered_.clear();
-    for (std::size_t i = 0; i < surface.pixels.size() / 4; ++i)
-        if (surface.pixels[4 * i + 3] > 0) covered_.push_back(i);
-    if (covered_.empty()) {
-        phase_ = Phase::Done; // nothing is seen, or too little to matter
-    } else if (covered_.size() < kFewestCovered && sampleSize_.x * 2 < size_.x) {
-        sampleSize_ = sampleSize_ * 2 + 1;
-    } else {
-        phase_ = Phase::Reference;
-    }
-    return Done{};
-}
-
-double Budget::meanOf(const Image& image) const {
-    double sum = 0;
-    for (std::size_t pixel : covered_)
-        for (std::size_t c = 0; c < 3; ++c)
-            sum += image.pixels[4 * pixel + c];
-    return sum / (3.0 * double(covered_.size()));
-}
-
-Status Budget::drawReference(const scene::Scene& scene) {
-    const Result<Image> base = draw(scene, reference_, Part::Nothing);
-    if (!base) return base.error();
-    mean_ = meanOf(*base);
-    for (const Part part : {Part::Lamps, Part::Environment}) {
-        Result<Image> image = draw(scene, reference_, part);
-        if (!image) return image.error();
-        mean_ += meanOf(*image) - meanOf(*base);
-        exact_[int(part)] = std::move(*image);
-    }
-    phase_ = hasLargeLamp(scene) ? Phase::Lamps : Phase::Environment;
-    return Done{};
-}
-
-// The sample of the picture by one part of the lights.
-Result<Image> Budget::draw(const scene::Scene& scene, const relief::Settings& settings, Part part,
-                           const RecordTransfers* transfers) {
-    using relief::Relief;
-    Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, images_);
-    if (!objects) return objects.error();
-    std::vector<views::LampPoint> lights;
-    if (part != Part::Nothing)
-        lights = views::lightSamples(scene, {.lamp = settings.lightSamples,
-                                             .directions = settings.environmentLights,
-                                             .environment = settings.environmentSampling});
-    std::erase_if(lights, [&](const views::LampPoint& light) {
-        return light.isEnvironment != (part == Part::Environment);
-    });
-    const int count = int(lights.size());
-    const Image table = views::sampleTable(lights);
-    gl::Device& device = context_.device();
-    const graph::Texture lightTable(device, {.size = table.size(), .format = Format::RGBA32F},
-                                    "budget.lights");
-    device.upload(lightTable.handle(), 0, table.pixels);
-    const TextureDesc desc{.size = sampleSize_, .format = Format::RGBA32F};
-    graph::Texture sum(device, desc, "budget.sum"), target(device, desc, "budget.target");
-    const views::Eye eye = views::makeEye(scene, float(size_.x) / float(size_.y));
-    for (int first = 0; first == 0 || first < count; first += Relief::kMostLightsAtOnce) {
-        graph::FrameGraph graph;
-        const auto import = [&](const graph::Texture& texture) {
-            return graph.import(texture.handle(), texture.desc(), texture.label());
-        };
-        std::vector<relief::Transferred> transferred(transfers ? objects->size() : 0);
-        if (transfers && first == 0) {
-            auto recorded = (*transfers)(graph);
-            if (!recorded) return recorded.error();
-            transferred = std::move(*recorded);
-        }
-        const graph::TextureId targetId = import(target);
-        graph.keep(targetId);
-        const relief::Inputs in{.eye = eye,
-                                .objects = *objects,
-                                .scene = scene,
-                                .lights = lights,
-                                .surface = import(surface_),
-                                .sum = import(sum),
-                                .target = targetId,
-                                .lightTable = import(lightTable),
-                                .first = first,
-                                .end = std::min(count, first + Relief::kMostLightsAtOnce),
-                                .placed = transfers ? 0 : count,
-                                .transferred = std::move(transferred),
-                                .show = scene::Aov::Color,
-                                .size = sampleSize_};
-        if (Status s = relief_.record(graph, in, settings); !s) return s.error();
-        if (Status s = graph.compile(); !s) return s.error();
-        graph.execute(pool_);
-        std::swap(sum, target);
-    }
-    Image image = device.read(sum.handle());
-    if (std::string error = context_.takeError(); !error.empty()) return Error{error, Fault::Machine};
-    return image;
-}
-
-// What a sample of one part of the lights differs by from the exact one.
-Result<std::vector<float>> Budget::differenceOf(const scene::Scene& scene, const relief::Settings& settings,
-                                                Part part, const RecordTransfers* transfers) {
-    const Result<Image> image = draw(scene, settings, part, transfers);
-    if (!image) return image.error();
-    const Image& exact = exact_[int(part)];
-    std::vector<float> difference;
-    for (std::size_t pixel : covered_)
-        for (std::size_t c = 4 * pixel; c < 4 * pixel + 3; ++c)
-            difference.push_back(image->pixels[c] - exact.pixels[c]);
-    return difference;
-}
-
-// RMSE over the mean of all light; that of the environment with what the lamps chosen before it leave.
-Result<float> Budget::errorOf(const scene::Scene& scene, const relief::Settings& settings, Part part,
-                              const RecordTransfers* transfers) {
-    Result<std::vector<float>> difference = differenceOf(scene, settings, part, transfers);
-    if (!difference) return difference.error();
-    double sum = 0;
-    for (std::size_t i = 0; i < difference->size(); ++i) {
-        const double d = double((*difference)[i]) + (lampDifference_.empty() ? 0 : lampDifference_[i]);
-        sum += d * d / double(difference->size());
-    }
-    return float(std::sqrt(sum) / std::max(mean_, 1e-20));
-}
-
-Result<float> Budget::errorOfTransfer(const scene::Scene& scene, const relief::Settings& settings,
-                                      const RecordTransfers& record) {
-    while (phase_ == Phase::Surface || phase_ == Phase::Reference)
-        if (Status stepped = step(scene); !stepped) return stepped.error();
-    if (covered_.empty()) return 0.0f;
-    // As fine as the sum of directions that a transfer stands for.
-    if (Status refined = refine(scene, Part::Environment, reference_.environmentLights,
-                                std::min(kMostDirections / kFinerBy, int(3 / wanted_)), kMostDirections);
-        !refined)
-        return refined.error();
-    return errorOf(scene, settings, Part::Environment, &record);
-}
-
-// --- candidates, cheapest first
-
-Status Budget::tryLamps(const scene::Scene& scene) {
-    // Beside an environment they leave it half the squared error.
-    const float wanted = hasEnvironment(scene) ? wanted_ / std::sqrt(2.0f) : wanted_;
-    const auto attempt = [&](int count) -> Result<float> {
-        if (Status refined = refine(scene, Part::Lamps, reference_.lightSamples, count, kMostLampSamples);
-            !refined)
-            return refined.error();
-        relief::Settings settings = reference_;
-        settings.lightSamples = count;
-        return errorOf(scene, settings, Part::Lamps);
-    };
-    const int count = kLampSamples[next_];
-    Result<float> error = attempt(count);
-    if (!error) return error.error();
-    const bool last = next_ + 1 == std::size(kLampSamples);
-    if (*error > wanted && !last) {
-        ++next_;
-        return Done{};
-    }
-    choice_.settings.lightSamples = count;
-    choice_.kept = *error <= wanted;
-    const int fewer = next_ > 0 ? between(kLampSamples[next_ - 1], count) : count;
-    if (choice_.kept && fewer < count && fewer > kLampSamples[next_ - 1]) {
-        const Result<float> less = attempt(fewer);
-        if (!less) return less.error();
-        if (*less <= wanted) {
-            choice_.settings.lightSamples = fewer;
-            error = less;
-        }
-    }
-    choice_.predicted = *error * kSafety;
-    next_ = 0;
-    phase_ = Phase::Done;
-    if (!hasEnvironment(scene)) return Done{};
-    relief::Settings settings = reference_;
-    settings.lightSamples = choice_.settings.lightSamples;
-    auto difference = differenceOf(scene, settings, Part::Lamps);
-    if (!difference) return difference.error();
-    lampDifference_ = std::move(*difference);
-    phase_ = Phase::Environment;
-    return Done{};
-}
-
-// The better of the two ways to place `count` directions. @return its error
-Result<float> Budget::tryDirections(const scene::Scene& scene, int count, EnvironmentSampling& better) {
-    if (Status refined =
-            refine(scene, Part::Environment, reference_.environmentLights, count, kMostDirections);
-        !refined)
-        return refined.error();
-    float best = std::numeric_limits<float>::infinity();
-    for (EnvironmentSampling sampling : {EnvironmentSampling::Equal, EnvironmentSampling::Importance}) {
-        relief::Settings settings = reference_;
-        settings.environmentSampling = sampling;
-        settings.environmentLights = count;
-        const Result<float> error = errorOf(scene, settings, Part::Environment);
-        if (!error) return error.error();
-        if (*error >= best) continue;
-        best = *error;
-        better = sampling;
-    }
-    return best;
-}
-
-Status Budget::tryEnvironment(const scene::Scene& scene) {
-    // What a transfer costs at once, more and more directions would cost as well.
-    const double pixels =
-        double(size_.x) * size_.y * double(covered_.size()) / (sampleSize_.x * sampleSize_.y);
-    const int directions = kDirections[next_];
-    if (mayTransfer_ && directions * pixels > transferRays(scene)) {
-        choice_.settings.method = relief::Method::Transfer;
-        choice_.settings.terms = relief::kMostTerms;
-        choice_.predicted = wanted_ * kSafety; // it takes the terms that keep it
-        phase_ = Phase::Done;
-        return Done{};
-    }
-    relief::Settings& chosen = choice_.settings;
-    Result<float> error = tryDirections(scene, directions, chosen.environmentSampling);
-    if (!error) return error.error();
-    const bool last = next_ + 1 == std::size(kDirections);
-    if (*error > wanted_ && !last) {
-        ++next_;
-        return Done{};
-    }
-    chosen.environmentLights = directions;
-    choice_.kept = *error <= wanted_;
-    if (choice_.kept && next_ > 0) {
-        const int fewer = between(kDirections[next_ - 1], directions);
-        EnvironmentSampling sampling = chosen.environmentSampling;
-        const Result<float> less = tryDirections(scene, fewer, sampling);
-        if (!less) return less.error();
-        if (*less <= wanted_) {
-            chosen.environmentLights = fewer;
-            chosen.environmentSampling = sampling;
-            error = less;
-        }
-    }
-    choice_.predicted = *error * kSafety;
-    phase_ = Phase::Done;
-    return Done{};
-}
-
-void Budget::refuseTransfer() {
-    mayTransfer_ = false;
-    next_ = 0;
-    choice_.settings.method = relief::Method::Hierarchy;
-    choice_.predicted = 0;
-    lampDifference_.clear();
-    phase_ = Phase::Surface;
-}
-
-// Makes the reference of a part finer than a candidate by far, so that none is held against the like of
-// itself.
-Status Budget::refine(const scene::Scene& scene, Part part, int& count, int candidate, int most) {
-    if (count >= std::min(most, kFinerBy * candidate)) return Done{};
-    count = std::min(most, 2 * kFinerBy * candidate);
-    Result<Image> image = draw(scene, reference_, part);
-    if (!image) return image.error();
-    exact_[int(part)] = std::move(*image);
-    return Done{};
-}
-
-double Budget::transferRays(const scene::Scene& scene) const {
-    double rays = 0;
-    for (const scene::Object& object : scene.objects)
-        if (object.visible && object.isField())
-            rays += relief::transferRays(object.field().texels(), relief::kMostTerms);
-    return rays;
+std::optional<technique::Chooser::Choice> Budget::choice() const {
+    if (turned_.empty() || !done()) return std::nullopt;
+    std::string text;
+    for (const Turned& turned : turned_)
+        text += shortest(turned.value) + " " + std::string(turned.of.knob->words) + ", ";
+    text += "error about " + shortest(std::round(predicted_ * 1e4f) / 100) + " %";
+    return Choice{kept_ ? text : text + ": nothing keeps the wanted error", predicted_};
 }
 
 } // namespace lucent::frame

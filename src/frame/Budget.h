@@ -1,93 +1,71 @@
 #pragma once
-/// Which settings keep a wanted error at the least cost.
+/// Which values of the techniques' knobs keep a wanted error at the least cost.
 ///
-/// A few hundred pixels of the very picture are drawn with many lights, then with few and more until the
-/// difference is small enough: what is predicted is measured on the scene at hand, not on others like it.
-/// What was learned from others is how far such a sample can err (kSafety).
+/// The very picture is drawn, no larger than kMostSide, with the cheapest value of a knob and then with the
+/// next ones, until what the finer one changes is small enough. Twice that change stands for the error: each
+/// step has four times as many samples, or twice as many rays a side, and halves the error at least where it
+/// falls with the square root of the samples and in proportion to the rays' distance.
 
-#include "techniques/relief/Relief.h"
-#include "views/FieldTextures.h"
+#include "base/Image.h"
+#include "gl/Context.h"
+#include "technique/Guest.h"
+#include "technique/Technique.h"
 
-#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace lucent::frame {
 
-class Budget {
+class Renderer;
+
+/// Turns every knob down to what a first look has.
+void turnDown(scene::Scene& scene);
+
+class Budget : public technique::Chooser {
 public:
-    /// A transfer may take this part of the wanted error on the texels it was tried on: between texels, on
-    /// half floats and for a finite number of directions it errs a little more.
-    static constexpr float kTransferShare = 0.8f;
+    static constexpr int kMostSide = 512; ///< pixels
+    /// Median angle [degrees] between directions of refracted rays that an error of 1 stands for.
+    static constexpr float kDegrees = 10;
 
-    using RecordTransfers = std::function<Result<std::vector<relief::Transferred>>(graph::FrameGraph& graph)>;
+    explicit Budget(gl::Context& context);
+    ~Budget() override;
 
-    /// Settings for one picture.
-    struct Choice {
-        relief::Settings settings;
-        float predicted = 0; ///< RMSE over the mean
-        bool kept = true;    ///< false: nothing at hand keeps the wanted error; the settings come nearest
-        bool environment = false, largeLamp = false; ///< what there is to choose for
+    /// Whoever else chooses how finely lamps are sampled: then this one does not.
+    void leaveSampling(bool leave) { leavesSampling_ = leave; }
 
-        /// "45 directions by importance, error about 0.8 %", for people.
-        std::string text() const;
-    };
-
-    Budget(gl::Context& context, graph::TexturePool& pool, views::ImageCache& images, relief::Relief& relief)
-        : context_(context), pool_(pool), images_(images), relief_(relief) {}
-
-    /// Whether any setting of this scene's techniques trades error for time.
-    static bool matters(const scene::Scene& scene);
-
-    /// Begins anew for a scene with quality.maxError > 0.
-    void start(const scene::Scene& scene, ivec2 size);
-    bool done() const { return phase_ == Phase::Done; }
-    /// Draws one more sample.
-    Status step(const scene::Scene& scene);
-    /// After the last step.
-    const Choice& choice() const { return choice_; }
-    /// RMSE over the mean of a transfer, on the sample of the picture.
-    ///
-    /// @param record  adds what the light pass needs of the transfers to a graph
-    Result<float> errorOfTransfer(const scene::Scene& scene, const relief::Settings& settings,
-                                  const RecordTransfers& record);
-    /// The transfer that was chosen does not keep the error: goes on among directions.
-    void refuseTransfer();
+    bool matters(const scene::Scene& scene) const override;
+    void start(const scene::Scene& scene, ivec2 size, bool dragged) override;
+    void forget() override;
+    bool done() const override { return next_ >= turned_.size(); }
+    Status step(const scene::Scene& scene) override;
+    void apply(scene::Scene& scene) const override;
+    std::optional<Choice> choice() const override;
 
 private:
-    enum class Phase { Surface, Reference, Lamps, Environment, Done };
-    Status drawSurface(const scene::Scene& scene);
-    enum class Part : int { Lamps, Environment, Nothing }; ///< light adds up, so each can be tried alone
-    Status drawReference(const scene::Scene& scene);
-    Result<Image> draw(const scene::Scene& scene, const relief::Settings& settings, Part part,
-                       const RecordTransfers* transfers = nullptr);
-    Result<std::vector<float>> differenceOf(const scene::Scene& scene, const relief::Settings& settings,
-                                            Part part, const RecordTransfers* transfers = nullptr);
-    Result<float> errorOf(const scene::Scene& scene, const relief::Settings& settings, Part part,
-                          const RecordTransfers* transfers = nullptr);
-    double meanOf(const Image& image) const;
-    Status refine(const scene::Scene& scene, Part part, int& count, int candidate, int most);
-    Status tryLamps(const scene::Scene& scene);
-    Result<float> tryDirections(const scene::Scene& scene, int count, relief::EnvironmentSampling& better);
-    Status tryEnvironment(const scene::Scene& scene);
-    double transferRays(const scene::Scene& scene) const;
+    struct Turned {
+        technique::KnobOf of;
+        std::size_t step = 0; ///< of the knob's
+        double value = 0;     ///< that is chosen so far
+    };
+    std::vector<technique::KnobOf> knobsOf(const scene::Scene& scene) const;
+    scene::Scene trialOf(const scene::Scene& scene) const;
+    Status tryNext(const scene::Scene& scene, Turned& turned);
+    Status tryFewer(const scene::Scene& scene, Turned& turned);
+    Result<Image> draw(scene::Scene trial, scene::Aov show);
+    void finish(float error);
 
     gl::Context& context_;
-    graph::TexturePool& pool_;
-    views::ImageCache& images_;
-    relief::Relief& relief_;
-    Phase phase_ = Phase::Done;
-    ivec2 size_{0}, sampleSize_{0};
-    graph::Texture surface_;
-    std::vector<std::size_t> covered_; ///< pixels of the sample that show an object
-    float wanted_ = 0;                 ///< RMSE over the mean, on the sample
-    relief::Settings reference_;
-    Image exact_[2];                    ///< lamps alone, environment alone
-    double mean_ = 0;                   ///< of both together
-    std::vector<float> lampDifference_; ///< of the chosen lamp samples, beside an environment
-    std::size_t next_ = 0;              ///< candidate
-    bool mayTransfer_ = true;
-    Choice choice_;
+    std::unique_ptr<Renderer> trial_;
+    std::uint64_t trials_ = 0;
+    bool leavesSampling_ = false, limited_ = false;
+    std::vector<Turned> turned_;
+    std::size_t next_ = 0; ///< of them
+    ivec2 size_{0};
+    float wanted_ = 0; ///< of each knob: their squares add up
+    Image finer_;      ///< of the value before: the next one's own picture
+    float predicted_ = 0;
+    bool kept_ = true; ///< false: nothing at hand keeps the wanted error
 };
 
 } // namespace lucent::frame

@@ -8,80 +8,91 @@ namespace lucent::frame {
 using graph::Format;
 using graph::TextureDesc;
 
-std::string Renderer::State::leftOut(const scene::Scene& scene, const Drawn& drawn) const {
-    const std::vector<views::DrawnObject>& objects = drawn.fields;
+namespace {
+
+std::string linesOf(const std::vector<std::string>& lines, const char* none) {
     std::string text;
-    const auto line = [&](const std::string& what) { text += "  " + what + "\n"; };
-    if (drawn.count() < 2) line("views.depth: one visible object cannot hide another");
+    for (const std::string& line : lines)
+        text += "  " + line + "\n";
+    return text.empty() ? std::string("  ") + none + "\n" : text;
+}
+
+} // namespace
+
+std::vector<std::string> Renderer::State::leftOut(const technique::Picture& picture) const {
+    const scene::Scene& scene = picture.scene;
+    std::vector<std::string> lines;
+    if (picture.drawn.count() < 2) lines.push_back("views.depth: one visible object cannot hide another");
     const auto hidden = std::count_if(scene.objects.begin(), scene.objects.end(),
                                       [](const scene::Object& object) { return !object.visible; });
-    if (hidden > 0) line(std::to_string(hidden) + " object(s): hidden from the camera");
-    if (drawn.meshes.glass.empty()) line("refract: no object that is seen lets light through");
-    const auto& inside = scene.technique.at("subsurface").as<subsurface::Settings>();
-    for (const views::DrawnMesh& mesh : drawn.meshes.solid)
-        if (mesh.paint && mesh.paint->isBlurred() && inside.method == subsurface::Method::Diffusion)
-            line("blur painted on object \"" + mesh.object->name +
-                 "\": method diffusion spreads light as the material says");
-    if (std::none_of(objects.begin(), objects.end(),
-                     [](const auto& o) { return o.alpha != graph::TextureHandle::None; }))
-        line("alpha: no object has an alpha image");
+    if (hidden > 0) lines.push_back(std::to_string(hidden) + " object(s): hidden from the camera");
+    for (const Member& member : members)
+        for (std::string& line : member.guest->leftOut(picture))
+            lines.push_back(std::move(line));
     if (!scene.environment)
-        line("environment: the scene names none");
+        lines.push_back("environment: the scene names none");
     else if (!scene.environment->enabled)
-        line("environment: switched off");
-    if (scene.lights.empty()) line("point and distant lights: the scene names none");
-    if (scene.quality.maxError > 0 && !Budget::matters(scene) && !GlassBudget::matters(scene))
-        line("quality.maxError: every light is a point or a direction, and hierarchy is exact for them");
-    return text;
+        lines.push_back("environment: switched off");
+    if (scene.lights.empty()) lines.push_back("point and distant lights: the scene names none");
+    const bool chooses =
+        std::any_of(choosers.begin(), choosers.end(),
+                    [&](const technique::Chooser* chooser) { return chooser->matters(scene); });
+    if (scene.quality.maxError > 0 && !chooses)
+        lines.push_back("quality.maxError: no setting of this scene trades error for time");
+    return lines;
+}
+
+// Settings that are chosen, and bakes that are there: how many coefficients are used shows only then.
+Result<Renderer::State::Moment> Renderer::State::readyMoment(const scene::Scene& scene) {
+    for (;;) {
+        while (planning)
+            if (Status planned = plan(scene); !planned) return planned.error();
+        Result<Moment> moment = momentOf(scene);
+        if (!moment) return moment.error();
+        const Result<bool> baked = ready(*moment);
+        if (!baked) return baked.error();
+        if (*baked) return moment;
+    }
 }
 
 Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     State& s = *state_;
     s.shownKey.reset(); // explained as if nothing were there yet
     s.start(scene, s.revision + 1, size, State::Effort::Final);
-    while (s.planning)
-        if (Status planned = s.plan(scene); !planned) return planned.error();
     for (bool still = false; !still;) {
-        const Result<bool> advanced = s.compose.waters().advance(scene);
+        const Result<bool> advanced = s.waters.advance(scene);
         if (!advanced) return advanced.error();
         still = *advanced;
     }
-    Result<Drawn> drawn = drawnOf(scene, s.images, s.compose.waters());
-    if (!drawn) return drawn.error();
-    const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
-    while (s.stages.back().transfer) { // how many coefficients are used shows once they are there
-        const Result<bool> ready = s.makeTransfers(drawn->fields);
-        if (!ready) return ready.error();
-        if (!*ready) continue;
-        s.lightTransfers(scene, drawn->fields);
-        break;
-    }
+    const Result<State::Moment> moment = s.readyMoment(scene);
+    if (!moment) return moment.error();
+    const technique::Picture picture = s.pictureOf(*moment);
     graph::FrameGraph graph;
     const TextureDesc screen{.size = size, .format = Format::RGBA8};
-    const bool geometric = isGeometric(scene.view.show);
-    const scene::Scene used = s.chosen(scene);
-    const Compose::Inputs in = s.composeInputs(used, eye, *drawn);
+    const bool geometric = views::isGeometric(scene.view.show);
     if (!geometric)
-        if (Status r = s.compose.prepare(in); !r) return r.error();
+        if (Status r = s.prepare(picture); !r) return r.error();
     const int shown = std::min(int(s.lights.size()), views::mostSamplesAtOnce(s.context, size));
-    if (Status r = s.recordSlice(graph, scene, eye, *drawn, shown); !r) return r.error();
-    s.composed = Compose::replaces(scene, *drawn) && !geometric;
+    if (Status r = s.recordSlice(graph, picture, shown); !r) return r.error();
+    s.composed = s.replaces(picture);
     if (!geometric)
-        if (Status r = s.compose.record(graph, in); !r) return r.error();
+        if (Status r = s.recordRest(graph, picture); !r) return r.error();
     if (Status r = s.recordDisplay(graph, scene, graph.import(graph::TextureHandle::Screen, screen, "screen"),
                                    false);
         !r)
         return r.error();
     if (Status compiled = graph.compile(); !compiled) return compiled.error();
     s.started = false;
-    s.compose.forgetRecorded();
+    s.triangles.current = false;
+    for (const State::Member& member : s.members)
+        member.guest->forgetRecorded();
 
     const std::string chose = s.choiceText();
     std::string text = chose.empty() ? "" : "quality.maxError chose\n  " + chose + "\n";
     text += "techniques\n";
-    for (const char* technique : {"relief", "caustics", "brdf", "subsurface", "refract"})
-        if (const auto reason = need(scene, technique))
-            text += std::string("  ") + technique + ": " + *reason + "\n";
+    for (const State::Member& member : s.members)
+        if (const auto reason = member.technique->need(scene))
+            text += "  " + std::string(member.technique->name) + ": " + *reason + "\n";
     text += "passes, in the order they run\n" + graph.dump();
     text += "textures that stay\n";
     const auto line = [&](const std::string& label, std::size_t bytes) {
@@ -92,10 +103,11 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
                  std::to_string(texture->desc().size.y) + " " + graph::name(texture->desc().format),
              texture->desc().bytes());
     line("heights, pyramids, meshes and maps of the objects", s.images.bytes());
-    if (s.transfers.bytes() > 0)
-        line("relief.coefficients, the transfers of all objects", s.transfers.bytes());
-    const std::string left = s.leftOut(scene, *drawn);
-    return text + "left out\n" + (left.empty() ? "  nothing\n" : left);
+    for (const State::Member& member : s.members)
+        for (const auto& [label, bytes] : member.guest->bytes())
+            line(label, bytes);
+    text += "left out\n" + linesOf(s.leftOut(picture), "nothing");
+    return text + "not drawn\n" + linesOf(technique::notDrawn(scene), "nothing that the scene asks for");
 }
 
 } // namespace lucent::frame

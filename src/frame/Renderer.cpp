@@ -47,9 +47,8 @@ Status Renderer::present(const scene::Scene& scene, const Beside& beside) {
 }
 
 bool Renderer::drop(int object, const views::WaterDrop& drop) {
-    views::Waters& waters = state_->compose.waters();
-    if (!waters.of(object)) return false;
-    waters.fall(object, drop);
+    if (!state_->waters.of(object)) return false;
+    state_->waters.fall(object, drop);
     return true;
 }
 
@@ -77,30 +76,39 @@ Result<Image> Renderer::readDisplay(const scene::Scene& scene) {
     return image;
 }
 
-Result<std::optional<caustics::Energy>> Renderer::energy(const scene::Scene& scene) {
-    const Drawn drawn; // the maps show what is hidden as well
-    const views::Eye eye = views::makeEye(scene, float(state_->size.x) / float(state_->size.y));
-    const scene::Scene used = state_->chosen(scene);
-    return state_->compose.energy(state_->composeInputs(used, eye, drawn));
+Result<technique::Balance> Renderer::balance(const scene::Scene& scene, std::string_view technique) {
+    State& s = *state_;
+    const auto found = std::find_if(s.members.begin(), s.members.end(), [&](const State::Member& member) {
+        return member.technique->name == technique;
+    });
+    if (found == s.members.end()) return technique::Balance{};
+    Result<State::Moment> moment = s.momentOf(scene);
+    if (!moment) return moment.error();
+    moment->drawn = {}; // maps show what is hidden as well
+    return found->guest->balance(s.pictureOf(*moment));
 }
 
 Stats Renderer::stats() const {
     Stats stats = state_->stats;
     stats.bytes = state_->context.device().textureBytes() + state_->context.device().indexBytes();
     stats.settings = state_->choiceText();
-    stats.predicted = std::max(state_->choice ? state_->choice->predicted : 0,
-                               state_->glassChoice ? state_->glassChoice->predicted : 0);
+    stats.predicted = 0;
+    for (const technique::Chooser* chooser : state_->choosers)
+        if (const auto choice = chooser->choice())
+            stats.predicted = std::max(stats.predicted, double(choice->predicted));
     return stats;
 }
 
 void Renderer::release() {
     State& s = *state_;
     for (graph::Texture* texture :
-         {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable, &s.truth})
+         {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable, &s.through, &s.truth})
         *texture = graph::Texture();
     s.shownKey.reset();
-    s.compose.clear();
-    s.transfers.clear();
+    s.triangles = {};
+    s.waters.clear();
+    for (const State::Member& member : s.members)
+        member.guest->clear();
     s.images.clear();
     s.pool.trim();
     s.pool.trim();

@@ -4,9 +4,9 @@
 #include "base/Image.h"
 #include "base/Param.h"
 #include "base/Result.h"
-#include "techniques/caustics/Caustics.h"
 #include "gl/Context.h"
 #include "scene/Scene.h"
+#include "technique/Guest.h"
 #include "views/Water.h"
 
 #include <cstdint>
@@ -17,11 +17,6 @@
 #include <string>
 
 namespace lucent::frame {
-
-/// Parameter tables of all techniques, for the loader, `lucent list` and the documentation.
-std::span<const ParamTable* const> techniques();
-/// Why a scene needs a technique, by its table's name; nothing when it does not.
-std::optional<std::string> need(const scene::Scene& scene, std::string_view technique);
 
 /// How far the picture is: many lights are summed over several slices of work.
 struct Progress {
@@ -37,7 +32,7 @@ struct Stats {
     std::size_t bytes = 0;   ///< GPU memory of textures
     double milliseconds = 0; ///< from the first slice to the finished last one
     std::string settings;    ///< what quality.maxError chose, for people; "" without it
-    /// By technique: what the picture was made with, chosen or the scene's own.
+    /// By table: what the picture was made with, chosen or the scene's own.
     std::map<std::string, Settings> technique;
     double predicted = 0;        ///< RMSE over the mean that was predicted for it
     double planMilliseconds = 0; ///< of them, for choosing
@@ -96,9 +91,9 @@ public:
     /// The tone-mapped picture (exposure, sRGB), 4 channels in [0,1], straight alpha: what PNG files hold.
     Result<Image> readDisplay(const scene::Scene& scene);
 
-    /// What became of the light that met glass and mirrors in the finished picture; nothing where no lamp
-    /// makes caustics. Draws their maps again and reads them back.
-    Result<std::optional<caustics::Energy>> energy(const scene::Scene& scene);
+    /// What became of the light that a technique carried in the finished picture; empty where it carries
+    /// none. Draws it again and reads it back.
+    Result<technique::Balance> balance(const scene::Scene& scene, std::string_view technique);
 
     Stats stats() const;
     /// Every pass with its reason, size, format and bytes, and what was left out and why.

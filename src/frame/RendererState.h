@@ -1,58 +1,67 @@
 #pragma once
 /// What a renderer holds. Private to this folder: each concern has its own file.
-///   Stages.cpp    from few lights to all: settings, stages, slices of work
+///   Stages.cpp    from few light samples to all: settings, stages, slices of work
+///   Phases.cpp    one picture's passes: what the guests draw, phase by phase
 ///   Display.cpp   from linear light to what is shown
 ///   Explain.cpp   what is drawn and why, in words
 ///   Renderer.cpp  the calls from outside
 
 #include "frame/Budget.h"
-#include "frame/Compose.h"
-#include "frame/GlassBudget.h"
 #include "frame/Renderer.h"
-#include "frame/SurfaceKey.h"
 #include "graph/FrameGraph.h"
 #include "light/Occlusion.h"
-#include "techniques/brdf/Brdf.h"
-#include "techniques/relief/Relief.h"
-#include "techniques/relief/Transfers.h"
+#include "technique/Guest.h"
+#include "technique/Technique.h"
+#include "views/SurfaceKey.h"
 
 #include <functional>
+#include <optional>
 
 namespace lucent::frame {
 
-// A picture is made in stages: first with few directions of the environment, then with more. A stage is
-// summed in slices that take about kSliceMs each; the last complete stage is what is shown.
+// A picture is made in stages: a first look, more directions of the environment, then all that its settings
+// ask for. A stage is summed in slices that take about kSliceMs each; the last complete stage is what is
+// shown.
 struct Renderer::State {
     static constexpr double kSliceMs = 40;
     static constexpr int kFirstStage = 20; // directions
     static constexpr int kStageFactor = 4;
-    static constexpr int kCoarseLampSamples = 4; // of a first look
 
     struct Stage {
         int directions; // of the environment
-        bool transfer;  // they only light walls; the rest comes from the transfers
+        bool baked;     // they only add to what a guest has worked out once
+        bool coarse;    // all knobs are turned down
     };
 
     enum class Effort { Coarse, Progressive, Final }; // one first look; looks, then all; all at once
 
-    explicit State(gl::Context& gl)
-        : context(gl), pool(gl.device()), images(gl), relief(gl), brdf(gl), compose(gl, pool, images),
-          transfers(gl), budget(gl, pool, images, relief), glassBudget(gl) {}
+    struct Member {
+        const technique::Technique* technique;
+        std::unique_ptr<technique::Guest> guest;
+    };
+    // One picture's view of a scene, for the time of a slice. Not to be moved: it is made of references.
+    struct Moment {
+        scene::Scene scene; // with the settings that this picture is made with
+        views::Eye eye;
+        views::Drawn drawn, all;
+        graph::TextureHandle environment = graph::TextureHandle::None;
+    };
+
+    explicit State(gl::Context& gl);
 
     gl::Context& context;
     graph::TexturePool pool;
     views::ImageCache images;
-    relief::Relief relief;
-    brdf::Brdf brdf;
-    Compose compose;
-    graph::Texture surface, shownSurface, shown, sum, scratch, lightTable;
-    relief::Transfers transfers;
+    views::Waters waters;
+    std::vector<Member> members;
     Budget budget;
-    GlassBudget glassBudget;
-    std::optional<GlassBudget::Choice> glassChoice; // the same for what refracts and throws caustics
-    std::optional<Budget::Choice> choice;           // the budget's, for the last picture that had one
-    graph::Texture truth;                           // beside the picture
+    std::vector<technique::Chooser*> choosers; // the guests', then the budget
+    graph::Texture surface, shownSurface, shown, sum, scratch, lightTable, through;
+    graph::Texture truth; // beside the picture
     std::uint64_t truthNumber = 0;
+    views::KeptTriangles triangles;          // of refractive objects,
+    std::vector<views::ObjectKey> triangled; // as they stood
+    std::uint64_t watersThen = 0;            // Waters::changes()
 
     // the picture being made
     std::uint64_t revision = 0;
@@ -61,11 +70,9 @@ struct Renderer::State {
     bool dragged = false;
     bool atOnce = false;                             // nobody waits for a look before the picture is complete
     bool planning = false;                           // the settings are still to be chosen
-    bool choosing = false;                           // by the budget of relief, too
-    relief::Settings settings;                       // that this picture is made with
-    bool composed = false;                           // the picture stands in compose.through()
+    bool composed = false;                           // the picture stands in `through`
     bool surfaceDrawn = false, surfaceShown = false; // of this picture
-    std::optional<SurfaceKey> shownKey;              // what shownSurface was drawn for
+    std::optional<views::SurfaceKey> shownKey;       // what shownSurface was drawn for
     std::vector<Stage> stages;
     std::size_t stage = 0;
     std::vector<views::LampPoint> lights; // of this stage
@@ -76,45 +83,49 @@ struct Renderer::State {
     int drawsBefore = 0, passes = 0;
     Stats stats;
 
+    // Stages.cpp
     void start(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize, Effort effort);
-    void chooseSettings(const scene::Scene& scene, Effort effort);
-    void addStages(const scene::Scene& scene, Effort effort);
+    void startChoosing(const scene::Scene& scene);
+    void addStages(const scene::Scene& scene, Effort effort, bool looked);
     Status plan(const scene::Scene& scene);
     Result<Progress> advance(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
                              Effort effort);
     void makeTargets();
     void startStage(const scene::Scene& scene);
-    Result<bool> makeTransfers(const std::vector<views::DrawnObject>& objects);
-    void lightTransfers(const scene::Scene& scene, const std::vector<views::DrawnObject>& objects);
-    Result<bool> prepareTransfers(const scene::Scene& scene, const std::vector<views::DrawnObject>& objects);
     Status slice(const scene::Scene& scene);
-    Status recordSlice(graph::FrameGraph& graph, const scene::Scene& scene, const views::Eye& eye,
-                       const Drawn& drawn, int end);
-    views::Sampling samplingOf(const scene::Scene& scene) const;
-    Result<Posed> pose(graph::FrameGraph& graph, const scene::Scene& scene);
-    static void recordClear(graph::FrameGraph& graph, graph::TextureId target);
-    Status recordLight(graph::FrameGraph& graph, const scene::Scene& scene, const views::Eye& eye,
-                       const Drawn& drawn, const Posed& posed, graph::TextureId surfaceId,
-                       graph::TextureId targetId, int end);
-    Result<std::vector<relief::Transferred>> recordTransferred(graph::FrameGraph& graph, const Drawn& drawn);
-    Status addOthers(const scene::Scene& scene, const Drawn& drawn);
+    Result<bool> ready(const Moment& moment);
+    Status finishStage(const Moment& moment);
     Status settle(const scene::Scene& scene);
-    Compose::Inputs composeInputs(const scene::Scene& scene, const views::Eye& eye,
-                                  const Drawn& drawn) const {
-        return {scene, eye, drawn, shownSurface, shown, coarse || dragged || stage + 1 < stages.size()};
+    scene::Scene chosen(const scene::Scene& scene) const;
+    bool isCoarse() const { return coarse || dragged || (stage < stages.size() && stages[stage].coarse); }
+    technique::Guest* baker(const scene::Scene& scene) const;
+    float work(const Stage& of) const;
+    float shareOfStage(const scene::Scene& scene) const;
+    bool complete() const { return started && !planning && stage >= stages.size(); }
+    // A quick look is not drawn again: the picture after it is.
+    bool settled(Effort effort) const;
+    int sliceEnd() const;
+    std::string choiceText() const;
+
+    // Phases.cpp
+    Result<Moment> momentOf(const scene::Scene& scene);
+    Result<Moment> readyMoment(const scene::Scene& scene);
+    technique::Picture pictureOf(const Moment& moment) const {
+        return {moment.scene, waters, moment.eye, size, moment.drawn, moment.all, moment.environment};
     }
-    // What quality.maxError chose, for people.
-    std::string choiceText() const {
-        const std::string relief = choice ? choice->text() : "",
-                          glass = glassChoice ? glassChoice->text() : "";
-        return relief + (choice && glassChoice ? "; " : "") + glass;
-    }
-    // The scene with the settings that this picture is made with.
-    scene::Scene chosen(const scene::Scene& scene) const {
-        return glassChoice ? glassChoice->applied(scene) : scene;
-    }
-    const graph::Texture& picture() const { return composed ? compose.through() : shown; }
-    std::string leftOut(const scene::Scene& scene, const Drawn& drawn) const;
+    std::vector<technique::Guest*> needed(const scene::Scene& scene) const;
+    technique::Guest* replacing(const technique::Picture& picture) const;
+    bool replaces(const technique::Picture& picture) const;
+    Status prepare(const technique::Picture& picture);
+    Status recordSlice(graph::FrameGraph& graph, const technique::Picture& picture, int end);
+    Status recordLight(const technique::Passes& passes, graph::TextureId target, int end);
+    Status recordRest(graph::FrameGraph& graph, const technique::Picture& picture);
+    Status recordBackground(const technique::Passes& passes, graph::TextureId shownId,
+                            graph::TextureId target);
+    Result<views::Posed> poseKeeping(graph::FrameGraph& graph, const technique::Picture& picture);
+    Status addRest(const technique::Picture& picture);
+
+    std::vector<std::string> leftOut(const technique::Picture& picture) const;
     Status runGraph(const std::function<Status(graph::FrameGraph&)>& record);
     Result<Image> display(const scene::Scene& scene, bool linear);
     Status recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target,
@@ -122,14 +133,7 @@ struct Renderer::State {
     Status recordBeside(graph::FrameGraph& graph, const scene::Scene& scene, const Beside& beside,
                         const graph::Texture& linear);
     void takeTruth(const Beside& beside);
-    float work(const Stage& of) const;
-    float shareOfStage() const;
-    bool complete() const { return started && !planning && stage >= stages.size(); }
-    // A quick look is not drawn again: the picture after it is.
-    bool settled(Effort effort) const {
-        return effort == Effort::Coarse || !composed || !compose.unsettled();
-    }
-    int sliceEnd() const;
+    const graph::Texture& picture() const { return composed ? through : shown; }
     static graph::TextureId import(graph::FrameGraph& graph, const graph::Texture& texture) {
         return graph.import(texture.handle(), texture.desc(), texture.label());
     }

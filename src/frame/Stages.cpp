@@ -1,8 +1,6 @@
 // A picture as it grows: its settings, its stages, and the slices of work of each.
 #include "frame/RendererState.h"
 
-#include "views/Surface.h"
-
 #include <algorithm>
 #include <chrono>
 
@@ -10,45 +8,13 @@ namespace lucent::frame {
 
 using graph::Format;
 using graph::TextureDesc;
-using scene::Aov;
+using technique::Bake;
+using technique::Chooser;
+using technique::Guest;
 
 namespace {
 
 using views::hasEnvironment;
-
-// Light itself, which may be found in several ways, not how one of them finds it.
-bool showsLight(const scene::Scene& scene) {
-    return scene.view.show == Aov::Color || scene.view.show == Aov::Illumination;
-}
-
-// Whether the scene wants an error kept that settings could miss.
-bool limited(const scene::Scene& scene) {
-    return scene.quality.maxError > 0 && showsLight(scene) && Budget::matters(scene);
-}
-
-bool limitedGlass(const scene::Scene& scene) {
-    return scene.quality.maxError > 0 && scene.view.show == Aov::Color && GlassBudget::matters(scene);
-}
-
-// Only an eye that looks straight down on every field sees no side wall.
-bool seesWalls(const scene::Scene& scene) {
-    if (scene.camera.type == scene::Camera::Type::Perspective) return true;
-    const vec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
-    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
-        const vec3 down = rotationFromDegrees(object.transform.rotate) * vec3(0, 0, -1);
-        return object.visible && object.isField() && glm::length(forward - down) > 1e-6f;
-    });
-}
-
-// A transfer holds what one field keeps of all directions, not what other objects do.
-bool standsAlone(const scene::Scene& scene) {
-    return scene.objects.size() == 1 && scene.objects.front().isField();
-}
-
-// Of which a first look takes fewer samples.
-bool hasLargeLamp(const scene::Scene& scene) {
-    return views::lampPoints(scene, 2).size() > views::lampPoints(scene, 1).size();
-}
 
 double now() {
     using namespace std::chrono;
@@ -57,151 +23,142 @@ double now() {
 
 } // namespace
 
+// --- settings
+
+// The scene with what its error chose, and with all knobs turned down for a first look.
+scene::Scene Renderer::State::chosen(const scene::Scene& scene) const {
+    scene::Scene used = scene;
+    for (const Chooser* chooser : choosers)
+        chooser->apply(used);
+    if (isCoarse()) turnDown(used);
+    return used;
+}
+
+// What quality.maxError chose, for people.
+std::string Renderer::State::choiceText() const {
+    std::string text;
+    for (const Chooser* chooser : choosers)
+        if (const auto choice = chooser->choice()) text += (text.empty() ? "" : "; ") + choice->text;
+    return text;
+}
+
+// Whoever trades error for time begins to choose, where there is an error to keep.
+void Renderer::State::startChoosing(const scene::Scene& scene) {
+    const bool limited = scene.quality.maxError > 0;
+    budget.leaveSampling(std::any_of(choosers.begin(), choosers.end() - 1,
+                                     [&](const Chooser* chooser) { return chooser->matters(scene); }));
+    for (Chooser* chooser : choosers) {
+        if (limited && chooser->matters(scene))
+            chooser->start(scene, size, dragged);
+        else
+            chooser->forget();
+    }
+    planning = !dragged && std::any_of(choosers.begin(), choosers.end(),
+                                       [](const Chooser* chooser) { return !chooser->done(); });
+}
+
+// Chooses for one slice of time, and goes on with the settings when they are known.
+Status Renderer::State::plan(const scene::Scene& scene) {
+    const double before = now();
+    for (Chooser* chooser : choosers)
+        while (!chooser->done() && now() - before < kSliceMs)
+            if (Status stepped = chooser->step(scene); !stepped) return stepped;
+    workMs += now() - before;
+    planMs += now() - before;
+    planning = std::any_of(choosers.begin(), choosers.end(),
+                           [](const Chooser* chooser) { return !chooser->done(); });
+    if (planning) return Done{};
+    addStages(scene, Effort::Final, true);
+    startStage(scene);
+    return Done{};
+}
+
+// --- stages
+
 void Renderer::State::start(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
                             Effort effort) {
+    const bool looked = started && coarse && complete() && revision == newRevision && size == newSize;
     started = true;
     revision = newRevision;
     size = newSize;
     makeTargets();
     surfaceDrawn = surfaceShown =
-        shownKey == surfaceKey(scene, newSize, compose.waters().changes()); // light alone may have changed
+        shownKey == views::surfaceKey(scene, newSize, waters.changes()); // light alone may have changed
     stage = 0;
     workMs = planMs = 0;
     drawsBefore = context.device().drawCount();
     passes = 0;
     stages.clear();
     coarse = false;
-    chooseSettings(scene, effort);
-    if (!planning)
-        addStages(scene, effort);
-    else if (effort == Effort::Progressive)
-        stages.push_back({kFirstStage, false});
-    startStage(scene);
-}
-
-// The scene's own settings; or, with an error to keep, those the budget chooses: at once where a transfer is
-// there already, because then it is the cheapest.
-void Renderer::State::chooseSettings(const scene::Scene& scene, Effort effort) {
-    settings = scene.technique.at("relief").as<relief::Settings>();
     dragged = effort == Effort::Coarse;
     atOnce = effort == Effort::Final;
-    const bool glass = limitedGlass(scene);
-    planning = (limited(scene) || glass) && !dragged;
-    choosing = false;
-    if (!glass) glassChoice.reset();
-    if (glass && planning) glassBudget.start(scene, size);
-    if (!limited(scene)) {
-        choice.reset();
-        return;
-    }
-    const relief::Settings own = settings;
-    settings.method = relief::Method::Transfer;
-    settings.terms = relief::kMostTerms;
-    if (planning) budget.start(scene, size);
-    if (hasEnvironment(scene) && transfers.ready(scene, settings)) {
-        planning = glass && planning;
-    } else if (effort == Effort::Coarse && choice) {
-        settings = choice->settings;
-    } else {
-        settings = own;
-        settings.method = relief::Method::Hierarchy;
-        choosing = planning;
-    }
-}
-
-void Renderer::State::addStages(const scene::Scene& scene, Effort effort) {
-    const bool manyLights = (relief::Relief::need(scene) || brdf::Brdf::need(scene)) &&
-                            hasEnvironment(scene) && !isGeometric(scene.view.show);
-    const int wanted = settings.environmentLights;
-    const bool transfer =
-        manyLights && settings.method == relief::Method::Transfer && showsLight(scene) && standsAlone(scene);
-    const bool atOnce = effort == Effort::Final || (transfer && transfers.ready(scene, settings));
-    const int summed = transfer ? kFirstStage * kStageFactor : wanted; // while the transfer is made
-    for (int count = kFirstStage; manyLights && !atOnce && count * 2 < summed; count *= kStageFactor)
-        stages.push_back({count, false});
-    if (transfer)
-        stages.push_back({seesWalls(scene) ? wanted : 0, true});
-    else
-        stages.push_back({manyLights ? wanted : 0, false});
-    coarse = effort == Effort::Coarse && (stages.size() > 1 || limited(scene) || hasLargeLamp(scene) ||
-                                          need(scene, "brdf") || need(scene, "subsurface"));
-    if (coarse) stages.resize(1);
-}
-
-// Chooses the settings for one slice of time, and goes on with them when they are known.
-Status Renderer::State::plan(const scene::Scene& scene) {
-    const double before = now();
-    const auto chooses = [&] { return choosing && !budget.done(); };
-    while (chooses() && now() - before < kSliceMs)
-        if (Status stepped = budget.step(scene); !stepped) return stepped;
-    while (!chooses() && !glassBudget.done() && now() - before < kSliceMs)
-        if (Status stepped = glassBudget.step(scene); !stepped) return stepped;
-    workMs += now() - before;
-    planMs += now() - before;
-    if (chooses() || !glassBudget.done()) return Done{};
-    if (limitedGlass(scene)) glassChoice = glassBudget.choice();
-    if (choosing) {
-        choice = budget.choice();
-        settings = choice->settings;
-    }
-    planning = false;
-    addStages(scene, Effort::Final);
+    startChoosing(scene);
+    if (!planning)
+        addStages(scene, effort, looked);
+    else if (effort == Effort::Progressive && !looked)
+        stages.push_back({kFirstStage, false, true});
     startStage(scene);
-    return Done{};
 }
 
-// --- transfers
-
-// Works on the transfers for one slice of time. @return whether all are ready
-Result<bool> Renderer::State::makeTransfers(const std::vector<views::DrawnObject>& objects) {
-    const double start = now();
-    Result<bool> ready = transfers.make(pool, objects, settings, kSliceMs);
-    workMs += now() - start;
-    return ready;
+// Who works out the environment's light once for all pictures.
+Guest* Renderer::State::baker(const scene::Scene& scene) const {
+    for (Guest* guest : needed(scene))
+        if (guest->bakes(scene)) return guest;
+    return nullptr;
 }
 
-// Brings the scene's environment onto the transfers, with as many terms as the error asks for.
-void Renderer::State::lightTransfers(const scene::Scene& scene,
-                                     const std::vector<views::DrawnObject>& objects) {
-    const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
-    transfers.light(scene, eye, objects, settings, Budget::kTransferShare * scene.quality.maxError);
-}
-
-// Works until the transfers are there and show this scene's environment, for one slice of time. With an error
-// to keep they must keep it on the budget's sample, else the budget goes on without them. @return whether
-// they are ready
-Result<bool> Renderer::State::prepareTransfers(const scene::Scene& scene,
-                                               const std::vector<views::DrawnObject>& objects) {
-    const Result<bool> ready = makeTransfers(objects);
-    if (!ready || !*ready) return ready;
-    const double before = now();
-    lightTransfers(scene, objects);
-    if (!limited(scene) || dragged) return true;
-    const auto record = [this](graph::FrameGraph& graph) { return transfers.record(graph); };
-    const Result<float> error = budget.errorOfTransfer(scene, settings, record);
-    planMs += now() - before;
-    if (!error) return error.error();
-    choice = budget.choice();
-    choice->settings = settings;
-    choice->predicted = *error;
-    if (*error <= scene.quality.maxError) return true;
-    budget.refuseTransfer();
-    planning = choosing = true;
-    stages.resize(stage);
-    return false;
+// @param looked  there is a first look already
+void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool looked) {
+    const bool isLit = !views::isGeometric(scene.view.show);
+    const scene::Scene used = chosen(scene);
+    const std::vector<Guest*> guests = needed(scene);
+    const bool shades =
+        std::any_of(guests.begin(), guests.end(), [&](const Guest* guest) { return guest->shades(scene); });
+    const int directions = isLit && shades && hasEnvironment(scene) ? views::samplingOf(used).directions : 0;
+    Guest* const bakes = isLit ? baker(used) : nullptr;
+    const bool isThere = bakes && bakes->isBaked(used);
+    const bool coarsens = directions > 2 * kFirstStage || bakes || !technique::knobs(scene).empty();
+    const bool limited = scene.quality.maxError > 0 && dragged; // not as exact as is asked for
+    const bool hasLook = isLit && !isThere && effort != Effort::Final && (coarsens || limited);
+    if (hasLook && !looked) stages.push_back({std::min(directions, kFirstStage), false, true});
+    coarse = dragged && hasLook;
+    if (coarse) return;
+    // While something is baked its light is summed.
+    const int summed = bakes ? kFirstStage * kStageFactor : directions;
+    const bool grows = hasLook && effort == Effort::Progressive;
+    for (int count = kFirstStage * kStageFactor; grows && count * 2 < summed; count *= kStageFactor)
+        stages.push_back({count, false, true});
+    stages.push_back({bakes ? bakes->directionsBesideBake(used) : directions, bakes != nullptr, false});
 }
 
 // How long a stage takes, in directions.
 float Renderer::State::work(const Stage& of) const {
-    return float(of.transfer ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions) + 1;
+    return float(of.baked ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions) + 1;
 }
 
-float Renderer::State::shareOfStage() const {
-    if (!stages[stage].transfer) return float(next) / float(std::max<std::size_t>(1, lights.size()));
-    return transfers.share();
+float Renderer::State::shareOfStage(const scene::Scene& scene) const {
+    if (stages[stage].baked)
+        if (const Guest* guest = baker(chosen(scene))) return guest->bakedShare();
+    return float(next) / float(std::max<std::size_t>(1, lights.size()));
 }
 
-// --- one picture
+void Renderer::State::startStage(const scene::Scene& scene) {
+    next = 0;
+    if (stage >= stages.size()) return;
+    const scene::Scene used = chosen(scene);
+    views::Sampling sampling = views::samplingOf(used);
+    sampling.directions = stages[stage].directions;
+    lights = views::lightSamples(used, sampling);
+    placed = int(std::count_if(lights.begin(), lights.end(),
+                               [](const views::LampPoint& light) { return !light.isEnvironment; }));
+    const Image table = views::sampleTable(lights);
+    const TextureDesc desc{.size = table.size(), .format = Format::RGBA32F};
+    if (!lightTable || lightTable.desc() != desc)
+        lightTable = graph::Texture(context.device(), desc, "light.samples");
+    context.device().upload(lightTable.handle(), 0, table.pixels);
+}
+
+// --- one slice of work
 
 void Renderer::State::makeTargets() {
     const TextureDesc desc{.size = size, .format = Format::RGBA32F};
@@ -213,19 +170,6 @@ void Renderer::State::makeTargets() {
     shown = graph::Texture(device, desc, "frame.shown");
     sum = graph::Texture(device, desc, "frame.sum");
     scratch = graph::Texture(); // made when a sum takes more than one slice
-}
-
-void Renderer::State::startStage(const scene::Scene& scene) {
-    next = 0;
-    if (stage >= stages.size()) return;
-    lights = views::lightSamples(scene, samplingOf(scene));
-    placed = int(std::count_if(lights.begin(), lights.end(),
-                               [](const views::LampPoint& light) { return !light.isEnvironment; }));
-    const Image table = views::sampleTable(lights);
-    const TextureDesc desc{.size = table.size(), .format = Format::RGBA32F};
-    if (!lightTable || lightTable.desc() != desc)
-        lightTable = graph::Texture(context.device(), desc, "light.samples");
-    context.device().upload(lightTable.handle(), 0, table.pixels);
 }
 
 int Renderer::State::sliceEnd() const {
@@ -247,190 +191,46 @@ Status Renderer::State::runGraph(const std::function<Status(graph::FrameGraph&)>
     return Done{};
 }
 
-views::Sampling Renderer::State::samplingOf(const scene::Scene& scene) const {
-    const scene::Scene used = chosen(scene);
-    const bool onFields = relief::Relief::need(scene).has_value();
-    const int own = used.technique.at("brdf").as<brdf::Settings>().lightSamples;
-    const int lamp = onFields ? settings.lightSamples : own;
-    return {.lamp = coarse || dragged ? std::min(lamp, kCoarseLampSamples) : lamp,
-            .directions = stages[stage].directions,
-            .environment = settings.environmentSampling};
-}
-
-Status Renderer::State::recordSlice(graph::FrameGraph& graph, const scene::Scene& scene,
-                                    const views::Eye& eye, const Drawn& drawn, int end) {
-    const graph::TextureId surfaceId = import(graph, surfaceShown ? shownSurface : surface);
-    const graph::TextureId targetId = import(graph, next > 0 ? scratch : sum);
-    graph.keep(targetId);
-    Result<Posed> posed = pose(graph, scene);
-    if (!posed) return posed.error();
-    std::vector<views::PosedMesh> solids = posed->visible(posed->solid);
-    if (isGeometric(scene.view.show)) {
-        const std::vector<views::PosedMesh> glass = posed->visible(posed->glass);
-        solids.insert(solids.end(), glass.begin(), glass.end());
-    }
-    if (!surfaceDrawn && !solids.empty()) graph.keep(surfaceId); // read after this graph
-    if (!surfaceDrawn)
-        if (Status s = views::recordSurface(graph, context, eye, drawn.fields, solids, surfaceId, size); !s)
-            return s;
-    if (isGeometric(scene.view.show))
-        return views::recordGeometry(graph, context, eye, drawn.fields, solids, surfaceId, targetId,
-                                     scene.view.show, size);
-    return recordLight(graph, scene, eye, drawn, *posed, surfaceId, targetId, end);
-}
-
-void Renderer::State::recordClear(graph::FrameGraph& graph, graph::TextureId target) {
-    graph.addPass("frame.clear", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("nothing is lit yet");
-        pass.write(target);
-        pass.clear(target, vec4(0));
-        return [](const graph::Resources&, graph::Commands&) {};
-    });
-}
-
-// Light of one slice of the samples on everything that is lit where it is seen.
-Status Renderer::State::recordLight(graph::FrameGraph& graph, const scene::Scene& scene,
-                                    const views::Eye& eye, const Drawn& drawn, const Posed& posed,
-                                    graph::TextureId surfaceId, graph::TextureId targetId, int end) {
-    const std::vector<views::PosedMesh> solids = posed.visible(posed.solid);
-    std::vector<views::PosedMesh> matt = solids;
-    std::erase_if(matt, [](const views::PosedMesh& mesh) {
-        const scene::Material& material = mesh.drawn.object->material;
-        return material.isMirror() || (material.isScattering() && !mesh.drawn.paint);
-    });
-    const bool showsMatt = scene.view.show == Aov::Color || scene.view.show == Aov::Irradiance;
-    if (drawn.fields.empty() && (matt.empty() || !showsMatt)) {
-        recordClear(graph, targetId);
-        return Done{};
-    }
-    graph::TextureId flux;
-    if (next == 0) {
-        const scene::Scene used = chosen(scene);
-        Result<graph::TextureId> caustics =
-            compose.recordCaustics(graph, composeInputs(used, eye, drawn), posed, surfaceId);
-        if (!caustics) return caustics.error();
-        flux = *caustics;
-    }
-    const views::Lit lit{.eye = eye,
-                         .size = size,
-                         .surface = surfaceId,
-                         .fields = drawn.fields,
-                         .solids = solids,
-                         .casters = posed.fields,
-                         .opaque = posed.solid,
-                         .refractive = posed.glass,
-                         .shadowSize = scene.technique.at("brdf").as<brdf::Settings>().shadowSize};
-    const std::span<const views::LampPoint> slice(lights.data() + next, std::size_t(end - next));
-    Result<views::Occlusion> occlusion = views::recordOcclusion(graph, context, lit, slice);
-    if (!occlusion) return occlusion.error();
-    const graph::TextureId before = next > 0 ? import(graph, sum) : graph::TextureId{};
-    const graph::TextureId table = import(graph, lightTable);
-    if (!drawn.fields.empty()) {
-        Result<std::vector<relief::Transferred>> transferred = recordTransferred(graph, drawn);
-        if (!transferred) return transferred.error();
-        const relief::Inputs in{.eye = eye,
-                                .objects = drawn.fields,
-                                .scene = scene,
-                                .lights = lights,
-                                .surface = surfaceId,
-                                .sum = before,
-                                .target = targetId,
-                                .lightTable = table,
-                                .first = next,
-                                .end = end,
-                                .placed = placed,
-                                .transferred = std::move(*transferred),
-                                .show = scene.view.show,
-                                .occlusion = *occlusion,
-                                .flux = flux,
-                                .size = size};
-        if (Status s = relief.record(graph, in, settings); !s) return s;
-    }
-    if (!showsMatt) return Done{};
-    return brdf.record(graph, {.scene = scene,
-                               .eye = eye,
-                               .size = size,
-                               .solids = matt,
-                               .surface = surfaceId,
-                               .lightTable = table,
-                               .first = next,
-                               .end = end,
-                               .occlusion = *occlusion,
-                               .flux = flux,
-                               .sum = before,
-                               .target = targetId,
-                               .show = scene.view.show,
-                               .clears = drawn.fields.empty()});
-}
-
-// What the transfers bring, one for each field; none without them. Slices after the first add light to walls
-// only.
-Result<std::vector<relief::Transferred>> Renderer::State::recordTransferred(graph::FrameGraph& graph,
-                                                                            const Drawn& drawn) {
-    if (!stages[stage].transfer) return std::vector<relief::Transferred>();
-    if (next == 0) return transfers.record(graph);
-    return std::vector<relief::Transferred>(drawn.fields.size());
-}
-
-Result<Posed> Renderer::State::pose(graph::FrameGraph& graph, const scene::Scene& scene) {
-    return posedOf(graph, context, scene, images, compose.waters());
-}
-
-// All that is no height field, over the finished light on the fields.
-Status Renderer::State::addOthers(const scene::Scene& scene, const Drawn& drawn) {
-    composed = Compose::replaces(scene, drawn) && !isGeometric(scene.view.show);
-    if (!Compose::isNeeded(scene, drawn) || isGeometric(scene.view.show)) return Done{};
+// Works for one slice of time on what must be there before a stage begins. @return whether it is
+Result<bool> Renderer::State::ready(const Moment& moment) {
+    Guest* const guest = stages[stage].baked ? baker(moment.scene) : nullptr;
+    if (!guest) return true;
     const double before = now();
-    const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
-    const scene::Scene used = chosen(scene);
-    const Compose::Inputs in = composeInputs(used, eye, drawn);
-    const Status added = runGraph([&](graph::FrameGraph& graph) { return compose.record(graph, in); });
-    context.device().wait(picture().handle());
+    const Result<Bake> bake = guest->bake(pictureOf(moment), kSliceMs);
     workMs += now() - before;
-    return added;
-}
-
-// Draws the complete picture again where it turns out to lack surfaces of refractive objects.
-Status Renderer::State::settle(const scene::Scene& scene) {
-    Result<Drawn> drawn = drawnOf(scene, images, compose.waters());
-    if (!drawn) return drawn.error();
-    const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
-    const scene::Scene used = chosen(scene);
-    const Result<bool> again = compose.settle(composeInputs(used, eye, *drawn));
-    if (!again) return again.error();
-    return *again ? addOthers(scene, *drawn) : Status(Done{});
+    if (!bake) return bake.error();
+    if (*bake == Bake::Refused) {
+        planning = true;
+        stages.resize(stage);
+    }
+    return *bake == Bake::Ready;
 }
 
 Status Renderer::State::slice(const scene::Scene& scene) {
     const double beforeWater = now();
-    const Result<bool> still = compose.waters().advance(scene);
+    const Result<bool> still = waters.advance(scene);
     workMs += now() - beforeWater;
     if (!still) return still.error();
     if (!*still) return Done{};
-    if (surfaceShown && shownKey != surfaceKey(scene, size, compose.waters().changes()))
+    if (surfaceShown && shownKey != views::surfaceKey(scene, size, waters.changes()))
         surfaceShown = surfaceDrawn = false; // water has moved
-    Result<Drawn> drawn = drawnOf(scene, images, compose.waters());
-    if (!drawn) return drawn.error();
-    const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
-    const bool geometric = isGeometric(scene.view.show);
-    if (stages[stage].transfer && next == 0) {
-        const Result<bool> ready = prepareTransfers(scene, drawn->fields);
-        if (!ready) return ready.error();
-        if (!*ready) return Done{};
-    }
+    Result<Moment> moment = momentOf(scene);
+    if (!moment) return moment.error();
+    const technique::Picture picture = pictureOf(*moment);
+    const bool geometric = views::isGeometric(scene.view.show);
     if (next == 0 && !geometric) {
-        if (!surfaceShown) compose.forget();
-        const scene::Scene used = chosen(scene);
-        if (Status prepared = compose.prepare(composeInputs(used, eye, *drawn)); !prepared) return prepared;
+        const Result<bool> isReady = ready(*moment);
+        if (!isReady) return isReady.error();
+        if (!*isReady) return Done{};
+        if (Status prepared = prepare(picture); !prepared) return prepared;
     }
     const int end = geometric ? int(lights.size()) : sliceEnd();
     const bool more = end < int(lights.size());
     if ((more || next > 0) && !scratch)
         scratch = graph::Texture(context.device(), sum.desc(), "frame.scratch");
     const double before = now();
-
     const Status status =
-        runGraph([&](graph::FrameGraph& graph) { return recordSlice(graph, scene, eye, *drawn, end); });
+        runGraph([&](graph::FrameGraph& graph) { return recordSlice(graph, picture, end); });
     if (!status) return status;
     surfaceDrawn = true;
     if (next > 0) std::swap(sum, scratch);
@@ -439,29 +239,55 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     workMs += took;
     if (end > next) msPerLight = took / (end - next);
     next = end;
-    if (more) return Done{};
+    return more ? Status(Done{}) : finishStage(*moment);
+}
+
+// All light samples of a stage are summed.
+Status Renderer::State::finishStage(const Moment& moment) {
     std::swap(sum, shown);
     if (!surfaceShown) {
         std::swap(surface, shownSurface);
-        shownKey = surfaceKey(scene, size, compose.waters().changes());
+        shownKey = views::surfaceKey(moment.scene, size, waters.changes());
     }
     surfaceShown = true;
-    if (Status added = addOthers(scene, *drawn); !added) return added;
+    const double before = now();
+    if (Status added = addRest(pictureOf(moment)); !added) return added;
+    workMs += now() - before;
     stats.lights = int(lights.size());
     ++stage;
-    startStage(scene);
-    if (stage >= stages.size()) {
-        stats.milliseconds = workMs;
-        stats.technique = chosen(scene).technique;
-        *static_cast<relief::Settings*>(stats.technique.at("relief").data()) = settings;
-        stats.planMilliseconds = planMs;
-        stats.draws = context.device().drawCount() - drawsBefore;
-        stats.passes = passes;
-        images.trim();
-        pool.trim();
-    }
+    startStage(moment.scene);
+    if (stage < stages.size()) return Done{};
+    stats.milliseconds = workMs;
+    stats.technique = moment.scene.technique;
+    stats.planMilliseconds = planMs;
+    stats.draws = context.device().drawCount() - drawsBefore;
+    stats.passes = passes;
+    images.trim();
+    pool.trim();
     return Done{};
 }
+
+bool Renderer::State::settled(Effort effort) const {
+    return effort == Effort::Coarse || !composed ||
+           std::none_of(members.begin(), members.end(),
+                        [](const Member& member) { return member.guest->isUnsettled(); });
+}
+
+// Draws the complete picture again where it turns out to lack something.
+Status Renderer::State::settle(const scene::Scene& scene) {
+    Result<Moment> moment = momentOf(scene);
+    if (!moment) return moment.error();
+    const technique::Picture picture = pictureOf(*moment);
+    bool again = false;
+    for (const Member& member : members) {
+        if (!member.guest->isUnsettled()) continue;
+        const Result<bool> lacks = member.guest->settle(picture);
+        if (!lacks) return lacks.error();
+        again = again || *lacks;
+    }
+    return again ? addRest(picture) : Status(Done{});
+}
+
 Result<Progress> Renderer::State::advance(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
                                           Effort effort) {
     if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
@@ -475,13 +301,13 @@ Result<Progress> Renderer::State::advance(const scene::Scene& scene, std::uint64
     }
     Progress progress;
     progress.complete = complete() && settled(effort);
-    float total = planning ? float(settings.environmentLights) : 0, done = 0;
+    float total = planning ? float(views::samplingOf(scene).directions) : 0, done = 0;
     for (std::size_t i = 0; i < stages.size(); ++i) {
         total += work(stages[i]);
         if (i < stage)
             done += work(stages[i]);
         else if (i == stage)
-            done += work(stages[i]) * shareOfStage();
+            done += work(stages[i]) * shareOfStage(scene);
     }
     progress.fraction = progress.complete ? 1 : done / total;
     return progress;

@@ -99,7 +99,71 @@ void add(std::vector<LampPoint>& points, const scene::AreaLight& light, int samp
     }
 }
 
+constexpr std::string_view kEnvironmentSamplings[] = {"equal", "importance"};
+
 } // namespace
+
+const ParamTable& samplingParams() {
+    static const Param list[] = {
+        declare(&Sampling::lamp, {.id = "lampSamples",
+                                  .label = "Samples of a lamp",
+                                  .min = 1,
+                                  .max = 4096,
+                                  .low = 1,
+                                  .high = 256,
+                                  .logarithmic = true,
+                                  .group = Group::Light,
+                                  .doc = "How many light samples stand for a lamp that has a size; each "
+                                         "casts its own shadows."}),
+        declare(&Sampling::shadowSize, {.id = "shadowSize",
+                                        .label = "Shadow map",
+                                        .unit = "texels",
+                                        .min = 64,
+                                        .max = 4096,
+                                        .low = 256,
+                                        .high = 2048,
+                                        .logarithmic = true,
+                                        .group = Group::Light,
+                                        .doc = "Texels along a side of what a lamp sees; lamps with a size "
+                                               "have half as many for each of their samples."}),
+        declare(&Sampling::directions,
+                {.id = "directions",
+                 .label = "Directions",
+                 .min = 6,
+                 .max = 65536,
+                 .low = 16,
+                 .high = 1024,
+                 .logarithmic = true,
+                 .group = Group::Environment,
+                 .doc = "About how many light samples stand for the environment; each carries the mean of "
+                        "its part of the map."}),
+        declare(&Sampling::environment,
+                {.id = "environmentSampling",
+                 .label = "Choice of directions",
+                 .group = Group::Environment,
+                 .doc = "Where those directions are: evenly all around, or more of them where the map is "
+                        "bright.",
+                 .choices = kEnvironmentSamplings}),
+    };
+    static const ParamTable table = tableOf<Sampling>("sampling", list, "Light samples");
+    return table;
+}
+
+const Sampling& samplingOf(const scene::Scene& scene) {
+    static const Sampling usual;
+    const auto found = scene.technique.find("sampling");
+    return found == scene.technique.end() ? usual : found->second.as<Sampling>();
+}
+
+Sampling& samplingOf(scene::Scene& scene) {
+    return *static_cast<Sampling*>(scene.technique.at("sampling").data());
+}
+
+bool samplingActs(const scene::Scene& scene, std::string_view id) {
+    if (id == "lampSamples") return hasLargeLamp(scene);
+    if (id == "shadowSize") return !scene.lights.empty();
+    return hasEnvironment(scene);
+}
 
 std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples) {
     std::vector<LampPoint> points;
@@ -109,6 +173,10 @@ std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples) {
 }
 
 bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
+
+bool hasLargeLamp(const scene::Scene& scene) {
+    return lampPoints(scene, 2).size() > lampPoints(scene, 1).size();
+}
 
 std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling) {
     std::vector<LampPoint> samples = lampPoints(scene, sampling.lamp);

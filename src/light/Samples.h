@@ -43,14 +43,25 @@ std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples);
 /// bright.
 enum class EnvironmentSampling : int { Equal, Importance };
 
-/// How finely the light of a scene is sampled.
+/// How finely the light of a scene is sampled, for all who shade alike.
 struct Sampling {
-    int lamp = 32;        ///< of each lamp that has a size, > 0
+    int lamp = 16;        ///< of each lamp that has a size, > 0
     int directions = 256; ///< of the environment, about; 0: leaves it out
     EnvironmentSampling environment = EnvironmentSampling::Equal;
+    int shadowSize = 1024; ///< texels a side of a shadow view; of lamps with a size half as many
 };
 
+/// The table "sampling", which scenes carry beside those of the techniques.
+const ParamTable& samplingParams();
+/// The scene's own; as by default where it has no such table.
+const Sampling& samplingOf(const scene::Scene& scene);
+Sampling& samplingOf(scene::Scene& scene);
+/// Whether a parameter of the table changes anything in a scene.
+bool samplingActs(const scene::Scene& scene, std::string_view id);
+
 bool hasEnvironment(const scene::Scene& scene);
+/// Whether any lamp has a size, so that several samples stand for it.
+bool hasLargeLamp(const scene::Scene& scene);
 
 /// All light of a scene: lampPoints(), then directions of its environment, whose irradiance on a surface that
 /// faces them is radiance times solid angle: together the integral over the sphere.

@@ -3,8 +3,8 @@
 #include "base/JsonWriter.h"
 #include "frame/Renderer.h"
 #include "measure/Statistics.h"
-#include "techniques/relief/Relief.h"
 #include "scene/Environment.h"
+#include "techniques/relief/Relief.h"
 
 #include <algorithm>
 #include <chrono>
@@ -16,8 +16,8 @@ namespace lucent::measure {
 
 namespace {
 
-using relief::EnvironmentSampling;
 using relief::Method;
+using views::EnvironmentSampling;
 
 // --- scenes
 
@@ -136,6 +136,13 @@ double now() {
     return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
 }
 
+// All by which a picture of fields trades error for time.
+using Means = std::map<std::string, Settings>;
+
+bool isTransfer(const Means& means) {
+    return means.at("relief").as<relief::Settings>().method == Method::Transfer;
+}
+
 relief::Settings& settingsOf(scene::Scene& scene) {
     return *static_cast<relief::Settings*>(scene.technique.at("relief").data());
 }
@@ -143,7 +150,7 @@ relief::Settings& settingsOf(scene::Scene& scene) {
 struct Tried {
     std::string name;
     double ms, error;
-    relief::Settings settings{};
+    Means means{};
 };
 
 constexpr int kTurns = 5; // of a race: medians of five single pictures
@@ -153,10 +160,8 @@ public:
     Prover(gl::Context& context, scene::Scene scene) : renderer_(context), scene_(std::move(scene)) {}
 
     Status solve() {
-        relief::Settings& settings = settingsOf(scene_);
-        settings.environmentSampling = EnvironmentSampling::Importance;
-        settings.environmentLights = 8192;
-        settings.lightSamples = 1024;
+        views::samplingOf(scene_) = {
+            .lamp = 1024, .directions = 8192, .environment = EnvironmentSampling::Importance};
         Result<Image> image = picture();
         if (!image) return image.error();
         exact_ = std::move(*image);
@@ -187,7 +192,7 @@ public:
         scene_.quality.maxError = 0;
         Result<Tried> tried = measure("transfer");
         if (!tried) return tried.error();
-        tried->settings = settingsOf(scene_);
+        tried->means = scene_.technique;
         settingsOf(scene_).method = Method::Hierarchy;
         tried_.push_back(*tried);
         return Done{};
@@ -212,8 +217,7 @@ public:
             if (one.error <= wanted && (!best || one.ms < best->ms)) best = &one;
         if (!best) return result;
         result.best = best->name;
-        if (Status timed = race(stats.technique.at("relief").as<relief::Settings>(), *best, result); !timed)
-            return timed.error();
+        if (Status timed = race(stats.technique, *best, result); !timed) return timed.error();
         return result;
     }
 
@@ -235,36 +239,34 @@ private:
     }
     // Times what was chosen and the best by turns, so that both have the machine at its warmest and its
     // worst.
-    Status race(const relief::Settings& chosen, const Tried& best, BudgetResult& result) {
-        if (chosen.method == Method::Transfer || best.settings.method == Method::Transfer) {
+    Status race(const Means& chosen, const Tried& best, BudgetResult& result) {
+        if (isTransfer(chosen) || isTransfer(best.means)) {
             result.bestMs = best.ms; // made once for many pictures: only the first is measured
             return Done{};
         }
-        const relief::Settings own = settingsOf(scene_);
+        const Means own = scene_.technique;
         std::vector<double> times[2];
         for (int turn = 0; turn < kTurns; ++turn) {
             for (int side = 0; side < 2; ++side) {
-                settingsOf(scene_) = side == 0 ? chosen : best.settings;
+                scene_.technique = side == 0 ? chosen : best.means;
                 const double before = now();
                 if (const Result<Image> image = picture(); !image) return image.error();
                 times[side].push_back(now() - before);
             }
         }
-        settingsOf(scene_) = own;
+        scene_.technique = own;
         result.ms = spreadOf(times[0]).median;
         result.bestMs = spreadOf(times[1]).median;
         return Done{};
     }
     Result<Tried> attempt(EnvironmentSampling sampling, int directions, int points) {
-        relief::Settings& settings = settingsOf(scene_);
-        settings.environmentSampling = sampling;
-        settings.environmentLights = directions;
-        settings.lightSamples = std::max(1, points);
+        views::Sampling& light = views::samplingOf(scene_);
+        light = {.lamp = std::max(1, points), .directions = directions, .environment = sampling};
         Result<Tried> tried =
             measure(std::to_string(directions) +
                     (sampling == EnvironmentSampling::Equal ? " evenly, " : " by importance, ") +
-                    std::to_string(settings.lightSamples) + " points a lamp");
-        if (tried) tried->settings = settings;
+                    std::to_string(light.lamp) + " samples a lamp");
+        if (tried) tried->means = scene_.technique;
         return tried;
     }
 

@@ -1,9 +1,10 @@
 #include "measure/CausticsPlan.h"
 
-#include "techniques/caustics/Caustics.h"
 #include "frame/Renderer.h"
 #include "measure/CausticsForms.h"
 #include "scene/Mesh.h"
+#include "technique/Technique.h"
+#include "techniques/caustics/Caustics.h"
 #include "truth/LightTracer.h"
 #include "views/FieldTextures.h"
 #include "views/Water.h"
@@ -58,7 +59,7 @@ scene::Scene floorScene(int size, float height) {
     scene.camera.up = {0, 0, -1};
     scene.camera.height = height;
     scene.view.show = scene::Aov::Irradiance;
-    for (const ParamTable* table : frame::techniques())
+    for (const ParamTable* table : technique::tables())
         scene.technique.emplace(std::string(table->name), Settings(*table));
     caustics::Settings& settings = *static_cast<caustics::Settings*>(scene.technique.at("caustics").data());
     settings.mapSize = 1024; // about a texel a pixel, so that what is measured is not the map's

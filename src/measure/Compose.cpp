@@ -5,6 +5,7 @@
 #include "measure/Metrics.h"
 #include "measure/SubsurfaceTruth.h"
 #include "measure/TruthModel.h"
+#include "technique/Technique.h"
 #include "truth/Glass.h"
 #include "truth/LightTracer.h"
 
@@ -190,7 +191,7 @@ scene::Scene composeScene(std::string_view lamp, std::string_view between, std::
     scene.size = ivec2(kSize);
     scene.camera.eye = {0, 4, 0};
     scene.camera.up = {0, 0, -1};
-    for (const ParamTable* table : frame::techniques())
+    for (const ParamTable* table : technique::tables())
         scene.technique.emplace(std::string(table->name), Settings(*table));
     addReceiver(scene, receiver);
     addBetween(scene, between);

@@ -3,8 +3,9 @@
 #include "frame/Renderer.h"
 #include "measure/RefractPlan.h"
 #include "measure/Statistics.h"
-#include "techniques/refract/Refract.h"
 #include "scene/Environment.h"
+#include "technique/Technique.h"
+#include "techniques/refract/Refract.h"
 
 #include <chrono>
 
@@ -74,7 +75,7 @@ scene::Scene sceneOf(const GlassScene& of, std::shared_ptr<const Image> map, int
     scene.objects = of.objects;
     scene.environment.emplace();
     scene.environment->map = std::move(map);
-    for (const ParamTable* table : frame::techniques())
+    for (const ParamTable* table : technique::tables())
         scene.technique.emplace(std::string(table->name), Settings(*table));
     return scene;
 }

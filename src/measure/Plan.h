@@ -14,7 +14,8 @@
 
 namespace lucent::measure {
 
-/// A method with its knobs: parameters of its technique, as a scene file spells them. The method is one of
+/// A method with its knobs: parameters of its technique, as a scene file spells them, or of another table
+/// ("sampling.directions"). The method is one of
 /// the choices of its technique's "method", or of the first of its parameters that offers it; else a mere
 /// name.
 struct Setting {

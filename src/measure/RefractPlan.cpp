@@ -4,6 +4,7 @@
 #include "measure/DepthNormals.h"
 #include "measure/MeshSeries.h"
 #include "scene/Environment.h"
+#include "technique/Technique.h"
 #include "truth/Glass.h"
 
 #include <algorithm>
@@ -69,7 +70,7 @@ scene::Scene emptyScene(int size) {
     scene.environment.emplace();
     scene.environment->source = "rainbow";
     scene.environment->map = std::make_shared<const Image>(scene::proceduralEnvironment("rainbow"));
-    for (const ParamTable* table : frame::techniques())
+    for (const ParamTable* table : technique::tables())
         scene.technique.emplace(std::string(table->name), Settings(*table));
     return scene;
 }

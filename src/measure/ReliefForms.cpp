@@ -3,6 +3,7 @@
 
 #include "frame/Renderer.h"
 #include "scene/Environment.h"
+#include "technique/Technique.h"
 #include "techniques/relief/Relief.h"
 
 #include <algorithm>
@@ -56,10 +57,10 @@ Scene sceneOf(Heights heights, float heightScale, float depth) {
     scene.size = object.field().texels();
     scene.camera.height = object.field().footprint().y;
     scene.camera.eye = {0, 0, 2 + 3 * heightScale};
-    for (const ParamTable* table : frame::techniques())
+    for (const ParamTable* table : technique::tables())
         scene.technique.emplace(std::string(table->name), Settings(*table));
     settingsOf(scene).method = relief::Method::Hierarchy;
-    settingsOf(scene).environmentSampling = relief::EnvironmentSampling::Equal;
+    views::samplingOf(scene).environment = views::EnvironmentSampling::Equal;
     scene.objects.push_back(std::move(object));
     return scene;
 }
@@ -82,7 +83,7 @@ void addSky(Scene& scene, const Function& radiance) {
             std::fill_n(map->at(x, y), 3, float(radiance(x, y)));
     scene.environment.emplace().map = map;
     scene.environment->intensity = 0.25f; // colours are means of d over the sphere then
-    settingsOf(scene).environmentLights = kDirections;
+    views::samplingOf(scene).directions = kDirections;
 }
 
 double xOf(const Scene& scene, int column) { return (column + 0.5) / scene.size.x - 0.5; }
@@ -369,7 +370,7 @@ Finding transferOfRainbow(Studio& studio) {
     scene.environment.emplace().map = std::make_shared<const Image>(scene::proceduralEnvironment("rainbow"));
     const Image transferred = studio.draw(scene, Aov::Color);
     settingsOf(scene).method = relief::Method::Hierarchy;
-    settingsOf(scene).environmentLights = 4096;
+    views::samplingOf(scene).directions = 4096;
     Finding finding;
     finding.take(0, distanceOverMean(transferred, studio.draw(scene, Aov::Color)));
     return finding;
@@ -399,7 +400,7 @@ const double kSunRadius = std::tan(20 * kDegree);
 
 Finding sunOnLevelField(Studio& studio) {
     Scene scene = sceneOf(level({16, 16}), 0.2f, 0.02f);
-    settingsOf(scene).lightSamples = kLampPoints;
+    views::samplingOf(scene).lamp = kLampPoints;
     scene.lights.push_back(largeSun(60, 0));
     const Image d = studio.draw(scene);
     const double expected = meanCosine(std::sin(60 * kDegree), 1, kSunRadius);
@@ -414,7 +415,7 @@ Finding lampOnLevelField(Studio& studio) {
     constexpr double depth = 0.02, height = 0.5; // of the lamp over the surface
     constexpr float radius = 0.3f;
     Scene scene = sceneOf(level({16, 16}), 0.2f, float(depth));
-    settingsOf(scene).lightSamples = kLampPoints;
+    views::samplingOf(scene).lamp = kLampPoints;
     scene.lights.push_back(scene::PointLight{.position = {0.1f, 0, 0.1 + height}, .radius = radius});
     const Image d = studio.draw(scene);
     Finding finding;
@@ -434,7 +435,7 @@ Finding penumbra(Studio& studio) {
     constexpr int size = 32, edge = 15, drop = 4;
     Scene scene = sceneOf(heightsOf({size, size}, [](int x, int) { return x <= edge ? 1.0f : 0.0f; }),
                           float(drop) / size, 1e-6f);
-    settingsOf(scene).lightSamples = kLampPoints;
+    views::samplingOf(scene).lamp = kLampPoints;
     scene.lights.push_back(largeSun(45, 180));
     const Image visible = studio.draw(scene, Aov::Visibility);
     Finding finding;

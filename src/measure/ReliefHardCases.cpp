@@ -3,6 +3,7 @@
 #include "base/Pfm.h"
 #include "frame/Renderer.h"
 #include "scene/Load.h"
+#include "technique/Technique.h"
 
 #include <cmath>
 #include <limits>
@@ -77,7 +78,7 @@ MakeScene badTexel(float value) {
         const auto read = [&](const std::string& path) -> Result<Bytes> {
             return path == "heights.pfm" ? file : scene;
         };
-        return scene::load("scene.json", read, frame::techniques());
+        return scene::load("scene.json", read, technique::tables());
     }};
 }
 

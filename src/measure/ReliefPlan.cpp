@@ -1,8 +1,9 @@
 #include "measure/ReliefPlan.h"
 
 #include "frame/Renderer.h"
-#include "techniques/relief/Relief.h"
 #include "scene/Environment.h"
+#include "technique/Technique.h"
+#include "techniques/relief/Relief.h"
 #include "truth/RenderRelief.h"
 
 #include <algorithm>
@@ -33,16 +34,17 @@ std::vector<Setting> reliefSettings(bool quick) {
 
 std::vector<Setting> environmentSettings(bool quick) {
     std::vector<Setting> settings{
-        {"hierarchy", {{"environmentLights", "16"}}},
-        {"hierarchy", {{"environmentLights", "64"}}},
-        {"hierarchy", {{"environmentLights", "256"}}},
-        {"hierarchy", {{"environmentLights", "64"}, {"environmentSampling", "importance"}}},
+        {"hierarchy", {{"sampling.directions", "16"}}},
+        {"hierarchy", {{"sampling.directions", "64"}}},
+        {"hierarchy", {{"sampling.directions", "256"}}},
+        {"hierarchy", {{"sampling.directions", "64"}, {"sampling.environmentSampling", "importance"}}},
         {.method = "transfer", .knobs = {{"terms", "16"}}, .bakes = true},
         {.method = "transfer", .knobs = {{"terms", "64"}}, .bakes = true},
     };
     if (quick) return settings;
-    settings.push_back({"hierarchy", {{"environmentLights", "1024"}}});
-    settings.push_back({"hierarchy", {{"environmentLights", "256"}, {"environmentSampling", "importance"}}});
+    settings.push_back({"hierarchy", {{"sampling.directions", "1024"}}});
+    settings.push_back(
+        {"hierarchy", {{"sampling.directions", "256"}, {"sampling.environmentSampling", "importance"}}});
     settings.push_back({.method = "transfer", .knobs = {{"terms", "128"}}, .bakes = true});
     return settings;
 }
@@ -207,7 +209,7 @@ RatioRule transferError(const std::string& scene) {
 RatioRule transferSpeed(const std::string& scene, bool isPromised) {
     return [=](const BenchReport& report) -> std::optional<Ratio> {
         const Found sum = quickest(report, scene, [](const Measurement& m) {
-            return isSetting(m, "hierarchy", "environmentLights", kManyLights);
+            return isSetting(m, "hierarchy", "sampling.directions", kManyLights);
         });
         Found transfer = quickest(report, scene, [](const Measurement& m) {
             return m.method == "transfer" && m.error->relRmse <= kNearEnough;
@@ -258,7 +260,7 @@ scene::Scene fieldScene(const BenchField& field, float depth) {
     scene.camera.height = object.field().footprint().y;
     scene.camera.eye.z = 2 + field.heightScale;
     scene.view.show = scene::Aov::Illumination;
-    for (const ParamTable* table : frame::techniques())
+    for (const ParamTable* table : technique::tables())
         scene.technique.emplace(std::string(table->name), Settings(*table));
     scene.objects.push_back(std::move(object));
     return scene;

@@ -6,6 +6,7 @@
 #include "measure/SubsurfaceTruth.h"
 #include "scene/MaterialPresets.h"
 #include "scene/Painting.h"
+#include "technique/Technique.h"
 #include "techniques/subsurface/Subsurface.h"
 
 #include <algorithm>
@@ -79,7 +80,7 @@ scene::Scene sceneOf(std::vector<scene::Object> objects, ivec2 size, float heigh
     scene.camera.eye = {0, 0, 1};
     scene.camera.height = height;
     scene.view.show = scene::Aov::Radiosity;
-    for (const ParamTable* table : frame::techniques())
+    for (const ParamTable* table : technique::tables())
         scene.technique.emplace(std::string(table->name), Settings(*table));
     scene.objects = std::move(objects);
     scene.lights = {scene::DistantLight{.direction = {-1, 0, 0}}};

@@ -1,6 +1,6 @@
 #include "measure/SubsurfaceTruth.h"
 
-#include "techniques/subsurface/Subsurface.h"
+#include "technique/Technique.h"
 #include "truth/Walk.h"
 
 #include <algorithm>
@@ -15,10 +15,6 @@ namespace lucent::measure {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-const subsurface::Settings& settingsOf(const scene::Scene& scene) {
-    return scene.technique.at("subsurface").as<subsurface::Settings>();
-}
 
 double angleBetween(const dvec3& a, const dvec3& b) {
     return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
@@ -151,16 +147,13 @@ Result<truth::Picture> solvePhysics(const scene::Scene& scene, const truth::Tile
 } // namespace
 
 truth::DipoleOptions dipoleOptionsOf(const scene::Scene& scene) {
-    const subsurface::Settings& settings = settingsOf(scene);
-    const bool offset = settings.dipoleGeometry == subsurface::DipoleGeometry::Offset;
-    return {.aov = scene.view.show,
-            .profile = truth::Diffusion(int(settings.profile)), // in the same order
-            .geometry = offset ? truth::DipoleGeometry::Offset : truth::DipoleGeometry::Planar,
-            .normalisedExit = settings.exit == subsurface::Exit::Whole};
+    truth::DipoleOptions options = technique::modelOf(scene).dipole;
+    options.aov = scene.view.show;
+    return options;
 }
 
 Result<truth::Picture> solveSubsurface(const scene::Scene& scene, const truth::Tile& rows, int threads) {
-    const bool walks = settingsOf(scene).method == subsurface::Method::Diffusion;
+    const bool walks = technique::modelOf(scene).walks;
     constexpr std::int64_t kWalksOfAPixel = 60; // on a ball 1 % of noise in front, once rings are averaged
     return walks ? solvePhysics(scene, rows, threads, kWalksOfAPixel, {}) : solveModel(scene, rows, threads);
 }

@@ -1,4 +1,5 @@
 #include "measure/Sweep.h"
+#include "technique/Technique.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@ namespace {
 
 // The parameter of a technique that chooses among its methods; "" where none does.
 std::string methodParam(const std::string& technique, const std::string& method) {
-    for (const ParamTable* table : frame::techniques()) {
+    for (const ParamTable* table : technique::tables()) {
         if (table->name != technique) continue;
         const auto found = std::find_if(table->params.begin(), table->params.end(), [&](const Param& param) {
             return param.id == "method" ||
@@ -28,7 +29,9 @@ Status apply(scene::Scene& scene, const std::string& technique, const Setting& s
     if (!param.empty())
         if (Status set = setParam(scene, place + param, setting.method); !set) return set;
     for (const auto& [knob, value] : setting.knobs)
-        if (Status set = setParam(scene, place + knob, value); !set) return set;
+        if (Status set = setParam(scene, (knob.find('.') == knob.npos ? place : "technique.") + knob, value);
+            !set)
+            return set;
     return Done{};
 }
 
@@ -83,7 +86,8 @@ public:
         for (scene::Light& light : with_.lights)
             if (auto* sun = std::get_if<scene::DistantLight>(&light))
                 sun->direction += vec3(isTurned_ ? 1e-5f : -1e-5f);
-        if (frame::need(scene_, "refract"))
+        if (std::any_of(scene_.objects.begin(), scene_.objects.end(),
+                        [](const scene::Object& one) { return one.material.isRefractive(); }))
             with_.camera.eye = without_.camera.eye + vec3(isTurned_ ? 1e-5f : -1e-5f);
     }
     // What the scene shows; stats() is then what the timed picture cost.

@@ -3,6 +3,7 @@
 #include "measure/SelfCheck.h"
 
 #include "frame/Renderer.h"
+#include "technique/Technique.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ Scene sceneOf(std::vector<scene::Object> objects, float height) {
     scene.camera.eye = {0, 4, 0};
     scene.camera.up = {0, 0, -1};
     scene.camera.height = height;
-    for (const ParamTable* table : frame::techniques())
+    for (const ParamTable* table : technique::tables())
         scene.technique.emplace(std::string(table->name), Settings(*table));
     return scene;
 }

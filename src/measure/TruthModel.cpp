@@ -1,10 +1,19 @@
 #include "measure/TruthModel.h"
 
-#include "frame/Renderer.h"
-
 #include <algorithm>
 
 namespace lucent::measure {
+
+std::optional<std::string> causticOf(const scene::Scene& scene) {
+    const auto bends = [](const scene::Object& one) {
+        return !one.isField() && (one.material.isRefractive() || one.material.isMirror());
+    };
+    const auto& objects = scene.objects;
+    const auto thrower = std::find_if(objects.begin(), objects.end(), bends);
+    const auto receiver = std::find_if_not(objects.begin(), objects.end(), bends);
+    if (scene.lights.empty() || thrower == objects.end() || receiver == objects.end()) return std::nullopt;
+    return "object \"" + thrower->name + "\" casts a caustic on \"" + receiver->name + "\"";
+}
 
 TruthModel usualTruth(const scene::Scene& scene) {
     const scene::Aov aov = scene.view.show;
@@ -12,7 +21,7 @@ TruthModel usualTruth(const scene::Scene& scene) {
                                       [](const auto& object) { return object.material.isScattering(); });
     if (aov == scene::Aov::Radiosity || (aov == scene::Aov::Color && scatters)) return TruthModel::Dipole;
     if (aov == scene::Aov::Irradiance) return TruthModel::Light;
-    if (aov == scene::Aov::Color && frame::need(scene, "caustics")) return TruthModel::Light;
+    if (aov == scene::Aov::Color && causticOf(scene)) return TruthModel::Light;
     const bool alone = std::all_of(scene.objects.begin(), scene.objects.end(),
                                    [](const scene::Object& object) { return object.isField(); });
     if (aov == scene::Aov::Illumination) return TruthModel::Relief;

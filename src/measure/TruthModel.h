@@ -3,6 +3,9 @@
 
 #include "scene/Scene.h"
 
+#include <optional>
+#include <string>
+
 namespace lucent::measure {
 
 /// The models that pictures are drawn by, as `src/truth` solves them.
@@ -18,5 +21,8 @@ enum class TruthModel {
 /// inside, by the dipole; irradiance, and colours where caustics belong to what is drawn, by light; height
 /// fields alone by the relief model; all else by what is seen through glass.
 TruthModel usualTruth(const scene::Scene& scene);
+
+/// Which object sends lamps' light on to which other; nothing where none does.
+std::optional<std::string> causticOf(const scene::Scene& scene);
 
 } // namespace lucent::measure

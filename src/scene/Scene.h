@@ -280,6 +280,9 @@ enum class Aov : int {
 /// Whether it is one of several images, which View::layer chooses.
 inline bool isNumbered(Aov aov) { return aov >= Aov::LayerDepth && aov <= Aov::CausticMap; }
 
+/// A painted map shown on its object in place of light.
+enum class PaintLayer : int { None, Translucency, Blur, Glow, Outgoing };
+
 /// How linear light becomes a picture: exposure, clamp, sRGB curve; nothing else.
 struct View {
     float exposure = 0; ///< ev: the image is multiplied by 2^ev
@@ -287,6 +290,9 @@ struct View {
     int layer = 1;        ///< which layer, or which point of the lamps, from 1 on
     bool lightDot = true; ///< the viewer marks the light's place
     float time = 0;       ///< s, of waves, water and animations
+    // What who views asks for, not a scene: no parameters.
+    PaintLayer paintLayer = PaintLayer::None;
+    bool matt = false; ///< what scatters light is drawn as if light left where it entered
 };
 
 /// How exact the picture must be.

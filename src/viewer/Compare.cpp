@@ -1,10 +1,10 @@
 #include "viewer/Compare.h"
 
 #include "base/Pfm.h"
-#include "techniques/relief/Relief.h"
 #include "scene/Load.h"
 #include "scene/Mesh.h"
 #include "scene/Painting.h"
+#include "technique/Technique.h"
 
 #include <algorithm>
 #include <array>
@@ -35,13 +35,7 @@ std::vector<const void*> contentOf(const scene::Scene& scene) {
 
 // What the exact picture depends on, as text: the model of a technique counts, its methods and knobs do not.
 std::string modelOf(scene::Scene scene) {
-    const relief::Settings shown = scene.technique.at("relief").as<relief::Settings>();
-    relief::Settings model;
-    model.attenuation = shown.attenuation;
-    model.normalise = shown.normalise;
-    for (auto& [name, settings] : scene.technique)
-        settings = Settings(settings.table());
-    *static_cast<relief::Settings*>(scene.technique.at("relief").data()) = model;
+    scene = technique::withDefaults(std::move(scene));
     scene::View view;
     view.show = scene.view.show;
     view.time = scene.view.time;

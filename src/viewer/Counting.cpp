@@ -1,6 +1,7 @@
-// Where the light of a caustic map went.
+// Where the light of a quantity went that a technique shows of its own.
 #include "viewer/State.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -10,10 +11,17 @@ namespace {
 
 double sum(dvec3 watts) { return watts.r + watts.g + watts.b; }
 
-std::string share(const char* name, dvec3 part, dvec3 whole) {
+std::string share(const std::string& name, dvec3 part, dvec3 whole) {
     char text[64];
-    std::snprintf(text, sizeof text, "%s %.1f %%", name, 100 * sum(part) / sum(whole));
+    std::snprintf(text, sizeof text, "%s %.1f %%", name.c_str(), 100 * sum(part) / sum(whole));
     return text;
+}
+
+// Who owns a quantity; "" where it is no technique's own.
+std::string_view ownerOf(scene::Aov aov) {
+    for (const technique::Technique* one : technique::all())
+        if (std::find(one->aovs.begin(), one->aovs.end(), aov) != one->aovs.end()) return one->name;
+    return "";
 }
 
 } // namespace
@@ -23,15 +31,15 @@ std::string share(const char* name, dvec3 part, dvec3 whole) {
 void Viewer::State::measureEnergy() {
     const bool counts = scene && picture.view.show == scene::Aov::CausticMap && shown && !play.playing;
     if (!counts || phase != Phase::Done || stale) {
-        if (energy && (!counts || stale)) settled = false;
-        if (!counts || stale) energy.reset();
+        if (!balance.empty() && (!counts || stale)) settled = false;
+        if (!counts || stale) balance.clear();
         return;
     }
     if (energyOf == pictureNumber) return;
     energyOf = pictureNumber;
-    auto found = renderer->energy(picture);
+    auto found = renderer->balance(picture, ownerOf(picture.view.show));
     if (found)
-        energy = *found;
+        balance = *found;
     else
         message = found.error().message;
     settled = false;
@@ -40,15 +48,16 @@ void Viewer::State::measureEnergy() {
 std::string Viewer::State::energyText() const {
     const std::string unit = "1: as bright as without glass and mirrors";
     if (play.playing) return unit + "\nits light is counted when time stands still";
-    if (!energy || sum(energy->met) == 0) return unit;
+    if (balance.empty() || sum(balance.front().second) == 0) return unit;
+    const dvec3 all = balance.front().second;
     char met[64];
-    std::snprintf(met, sizeof met, "%.3g W", sum(energy->met) / 3);
-    const dvec3 all = energy->met;
-    const std::string dot = " · ";
-    return unit + "\nof " + met + " that met glass or mirrors\n" +
-           share("on receivers", energy->received, all) + dot + share("absorbed", energy->absorbed, all) +
-           dot + share("reflected", energy->reflected, all) + "\n" + share("missed", energy->missed, all) +
-           dot + share("lost", energy->lost, all);
+    std::snprintf(met, sizeof met, "%.3g W", sum(all) / 3);
+    std::string text = unit + "\nof " + met + " that met glass or mirrors";
+    for (std::size_t i = 1; i < balance.size(); ++i) {
+        const std::string name = balance[i].first == "received" ? "on receivers" : balance[i].first;
+        text += (i % 3 == 1 ? "\n" : " · ") + share(name, balance[i].second, all);
+    }
+    return text;
 }
 
 void Viewer::State::energyOverlay() {

@@ -1,6 +1,4 @@
 // The scene of a viewer: its controls, what is set, what is taken back.
-#include "techniques/refract/Refract.h"
-#include "techniques/subsurface/Subsurface.h"
 #include "viewer/State.h"
 
 #include <algorithm>
@@ -18,9 +16,7 @@ bool isIdle(const scene::Scene& scene, std::string_view path) {
         const std::string owner = "technique." + name + ".";
         if (!path.starts_with(owner)) continue;
         const std::string_view id = path.substr(owner.size());
-        if (name == "refract" && !refract::acts(settings.as<refract::Settings>(), id)) return true;
-        if (name == "subsurface" && !subsurface::acts(settings.as<subsurface::Settings>(), id)) return true;
-        return !frame::need(scene, name);
+        return !technique::acts(scene, name, id);
     }
     return false;
 }
@@ -57,7 +53,7 @@ void Viewer::State::adopt(scene::Scene newScene) {
     asked.reset();
     dropTruth();
     dropTime.reset();
-    energy.reset();
+    balance.clear();
     bind();
     changed();
 }
@@ -77,7 +73,7 @@ void Viewer::State::bind() {
     }
     for (BoundParam& bound : bindCompare(compare))
         offerOfView(std::move(bound));
-    for (BoundParam& bound : bindPaint(paintSettings, mode.mode == Mode::Paint)) {
+    for (BoundParam& bound : bindPaint(paintSettings, mode.mode == paintMode())) {
         const std::string before = getText(*bound.param, bound.defaults);
         controls.push_back({std::move(bound), before}); // another brush has other values
     }
@@ -205,7 +201,7 @@ Status Viewer::State::changeView(const BoundParam& bound, const std::string& val
     if (getText(*bound.param, bound.data) == before) return Done{};
     if (bound.data == &mode.mode || bound.path.starts_with("paint.")) bind(); // other controls stand there
     const bool seen = bound.data == &mode.matt || bound.data == &paintSettings.layer ||
-                      (bound.data == &mode.mode && paintSettings.layer != subsurface::PaintLayer::None);
+                      (bound.data == &mode.mode && paintSettings.layer != scene::PaintLayer::None);
     if (seen) stale = true;
     ++revision;
     settled = false;

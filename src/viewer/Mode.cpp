@@ -1,11 +1,9 @@
 #include "viewer/Mode.h"
 
-#include "frame/Renderer.h"
-#include "techniques/subsurface/Subsurface.h"
+#include "technique/Technique.h"
 #include "viewer/Painter.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace lucent::viewer {
 
@@ -13,52 +11,52 @@ using scene::Aov;
 
 namespace {
 
-constexpr std::string_view kModes[] = {"relief", "refraction", "caustics", "subsurface", "paint"};
-
-// Groups that stand first; the others follow in their own order.
-constexpr Group kReliefFirst[] = {Group::Mode};
-constexpr Group kRefractionFirst[] = {Group::Mode, Group::Refraction, Group::View, Group::Environment};
+constexpr std::string_view kPaint = "paint";
 constexpr Group kPaintFirst[] = {Group::Mode, Group::View, Group::Material};
-constexpr Group kCausticsFirst[] = {Group::Mode, Group::Caustics, Group::Light, Group::View};
-constexpr Group kSubsurfaceFirst[] = {Group::Mode, Group::Subsurface, Group::Light, Group::View};
 
-std::span<const Group> firstOf(Mode mode) {
-    switch (mode) {
-    case Mode::Relief:
-        return kReliefFirst;
-    case Mode::Refraction:
-        return kRefractionFirst;
-    case Mode::Caustics:
-        return kCausticsFirst;
-    case Mode::Subsurface:
-        return kSubsurfaceFirst;
-    case Mode::Paint:
-        return kPaintFirst;
-    }
-    return {};
+// Techniques that people work on, from the left.
+const std::vector<const technique::Technique*>& workedOn() {
+    static const auto list = [] {
+        std::vector<const technique::Technique*> sorted;
+        for (const technique::Technique* one : technique::all())
+            if (one->mode) sorted.push_back(one);
+        std::sort(sorted.begin(), sorted.end(),
+                  [](const auto* a, const auto* b) { return a->mode->place < b->mode->place; });
+        return sorted;
+    }();
+    return list;
 }
 
-// Nothing: it belongs to all modes.
-std::optional<Mode> modeOf(Aov aov) {
-    switch (aov) {
-    case Aov::Illumination:
-    case Aov::Visibility:
-    case Aov::Iterations:
-        return Mode::Relief;
-    case Aov::Direction:
-    case Aov::Layers:
-    case Aov::Lost:
-    case Aov::LayerDepth:
-    case Aov::LayerNormal:
-    case Aov::LayerObject:
-        return Mode::Refraction;
-    case Aov::CausticMap:
-        return Mode::Caustics;
-    case Aov::Radiosity:
-        return Mode::Subsurface;
-    default:
-        return std::nullopt;
-    }
+const std::vector<std::string_view>& modeNames() {
+    static const auto names = [] {
+        std::vector<std::string_view> list;
+        for (const technique::Technique* one : workedOn())
+            list.push_back(one->mode->name);
+        list.push_back(kPaint);
+        return list;
+    }();
+    return names;
+}
+
+// Null: the brush.
+const technique::Technique* techniqueOf(Mode mode) {
+    return std::size_t(mode) < workedOn().size() ? workedOn()[std::size_t(mode)] : nullptr;
+}
+
+std::span<const Group> firstOf(Mode mode) {
+    const technique::Technique* one = techniqueOf(mode);
+    return one ? one->mode->first : std::span<const Group>(kPaintFirst);
+}
+
+// Whose own a quantity is; nothing: it belongs to all modes.
+const technique::Technique* ownerOf(Aov aov) {
+    for (const technique::Technique* one : workedOn())
+        if (std::find(one->aovs.begin(), one->aovs.end(), aov) != one->aovs.end()) return one;
+    return nullptr;
+}
+
+bool scatters(const scene::Object& object) {
+    return object.visible && !object.isField() && object.material.isScattering();
 }
 
 } // namespace
@@ -73,7 +71,7 @@ std::span<const Param> modeParams() {
              .doc = "Which sliders stand first, and which views Show offers: those of the light on a relief, "
                     "of what is seen through glass and water, of the light that these throw, or of light "
                     "inside things; or the brush that paints on these.",
-             .choices = kModes,
+             .choices = modeNames(),
              .attribute = "mode"}),
         declare(&ModeSettings::matt,
                 {.id = "matt",
@@ -85,42 +83,36 @@ std::span<const Param> modeParams() {
     return params;
 }
 
-std::string_view nameOf(Mode mode) { return kModes[int(mode)]; }
+std::string_view nameOf(Mode mode) { return modeNames()[std::size_t(mode)]; }
+
+Mode paintMode() { return Mode(workedOn().size()); }
 
 std::vector<BoundParam> bindMode(ModeSettings& settings, const scene::Scene& scene) {
     static const ModeSettings defaults;
     const Param &mode = modeParams()[0], &matt = modeParams()[1];
-    const bool scatters = frame::need(scene, "subsurface").has_value();
+    const bool hasMatt = std::any_of(scene.objects.begin(), scene.objects.end(), scatters);
     return {{std::string(mode.id), "mode", &mode, &settings.mode, &defaults.mode, modesOf(scene).size() > 1},
-            {std::string(matt.id), "mode", &matt, &settings.matt, &defaults.matt, scatters}};
+            {std::string(matt.id), "mode", &matt, &settings.matt, &defaults.matt, hasMatt}};
 }
 
-void applyMatt(const ModeSettings& settings, scene::Scene& scene) {
-    if (!settings.matt) return;
-    auto* technique = static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data());
-    technique->method = subsurface::Method::Lambert;
-}
+void applyMatt(const ModeSettings& settings, scene::Scene& scene) { scene.view.matt = settings.matt; }
 
 std::vector<Mode> modesOf(const scene::Scene& scene) {
     std::vector<Mode> modes;
-    if (frame::need(scene, "relief")) modes.push_back(Mode::Relief);
-    if (frame::need(scene, "refract")) modes.push_back(Mode::Refraction);
-    if (frame::need(scene, "caustics")) modes.push_back(Mode::Caustics);
-    if (frame::need(scene, "subsurface")) modes.push_back(Mode::Subsurface);
-    if (std::any_of(scene.objects.begin(), scene.objects.end(), isPaintable)) modes.push_back(Mode::Paint);
-    if (modes.empty()) modes.push_back(Mode::Relief);
+    for (std::size_t i = 0; i < workedOn().size(); ++i)
+        if (workedOn()[i]->need(scene)) modes.push_back(Mode(i));
+    if (std::any_of(scene.objects.begin(), scene.objects.end(), isPaintable)) modes.push_back(paintMode());
+    if (modes.empty()) modes.push_back(Mode{});
     return modes;
 }
 
 Mode modeFor(const scene::Scene& scene) {
     const std::vector<Mode> modes = modesOf(scene);
-    const auto has = [&](Mode mode) { return std::find(modes.begin(), modes.end(), mode) != modes.end(); };
-    const bool throwsLight =
-        std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
-            return object.material.isMirror() || std::holds_alternative<scene::Water>(object.shape);
-        });
-    if (has(Mode::Caustics) && throwsLight) return Mode::Caustics;
-    return has(Mode::Refraction) ? Mode::Refraction : modes.front();
+    const auto leading = std::find_if(modes.rbegin(), modes.rend(), [&](Mode mode) {
+        const technique::Technique* one = techniqueOf(mode);
+        return one && one->mode->leads && one->mode->leads(scene);
+    });
+    return leading != modes.rend() ? *leading : modes.front();
 }
 
 int placeOf(Group group, Mode mode) {
@@ -132,8 +124,10 @@ int placeOf(Group group, Mode mode) {
 
 std::vector<std::string_view> viewsOf(Mode mode, Aov shown) {
     std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < scene::aovNames().size(); ++i)
-        if (Aov(i) == shown || modeOf(Aov(i)).value_or(mode) == mode) names.push_back(scene::aovNames()[i]);
+    for (std::size_t i = 0; i < scene::aovNames().size(); ++i) {
+        const technique::Technique* owner = ownerOf(Aov(i));
+        if (Aov(i) == shown || !owner || owner == techniqueOf(mode)) names.push_back(scene::aovNames()[i]);
+    }
     return names;
 }
 

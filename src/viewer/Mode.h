@@ -10,11 +10,12 @@
 
 namespace lucent::viewer {
 
-enum class Mode : int { Relief, Refraction, Caustics, Subsurface, Paint };
+/// A place in the list of modes: those of the techniques, then the brush.
+enum class Mode : int {};
 
 /// Part of the view, not of the scene: no undo step, not in a scene file.
 struct ModeSettings {
-    Mode mode = Mode::Relief;
+    Mode mode{};
     bool matt = false; ///< what scatters light inside is drawn as if it did not: Lambert's law and the same
                        ///< highlights
 };
@@ -22,12 +23,14 @@ struct ModeSettings {
 /// "mode" and "matt", which are also their paths and attributes.
 std::span<const Param> modeParams();
 std::string_view nameOf(Mode mode);
+/// The brush.
+Mode paintMode();
 /// Both; each is shown where it has something to choose.
 std::vector<BoundParam> bindMode(ModeSettings& settings, const scene::Scene& scene);
 /// The scene as `matt` wants it drawn.
 void applyMatt(const ModeSettings& settings, scene::Scene& scene);
 
-/// Modes that have something to do in a scene; Relief where no other has.
+/// Modes that have something to do in a scene; the first of all where none has.
 std::vector<Mode> modesOf(const scene::Scene& scene);
 /// The one that a scene begins with: what its light does, as the gallery sorts it.
 Mode modeFor(const scene::Scene& scene);

@@ -69,13 +69,10 @@ void Viewer::State::dabOnce(vec2 position, float withPressure) {
     painted();
 }
 
-// Says what of a stroke the chosen method does not draw.
+// Says what of a stroke is kept and not drawn.
 void Viewer::State::noteUndrawn(const scene::Stroke& stroke) {
-    const auto& settings = scene->technique.at("subsurface").as<subsurface::Settings>();
-    if (stroke.brush.map == scene::PaintMap::Blur && settings.method == subsurface::Method::Diffusion)
-        message =
-            "Painted blur is kept, but method diffusion spreads light as the material says; multires and "
-            "splat draw it.";
+    for (const std::string& line : technique::notDrawn(*scene, stroke.brush.map))
+        message = "Kept, but not drawn: " + line;
 }
 
 void Viewer::State::endStroke() {

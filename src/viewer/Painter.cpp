@@ -116,8 +116,7 @@ std::span<const Action> paintActions() {
 }
 
 void applyLayer(const PaintSettings& settings, bool shown, scene::Scene& scene) {
-    auto* technique = static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data());
-    technique->layer = shown ? settings.layer : subsurface::PaintLayer::None;
+    scene.view.paintLayer = shown ? settings.layer : scene::PaintLayer::None;
 }
 
 scene::Brush brushOf(const PaintSettings& settings) {

@@ -5,7 +5,6 @@
 #include "base/Param.h"
 #include "scene/Canvas.h"
 #include "scene/Scene.h"
-#include "techniques/subsurface/Subsurface.h"
 #include "viewer/Interaction.h"
 #include "viewer/Panel.h"
 
@@ -20,10 +19,10 @@ namespace lucent::viewer {
 /// The brush in hand. Part of the view, not of the scene: no undo step, not in a scene file.
 struct PaintSettings {
     scene::Brush brush;
-    subsurface::PaintLayer layer = subsurface::PaintLayer::None; ///< shown in place of light
-    float translucency = 1, blur = 2;                            ///< values of the brushes that take a number
-    vec3 color{1};                                               ///< of the others,
-    float brightness = 1;                                        ///< times this
+    scene::PaintLayer layer = scene::PaintLayer::None; ///< shown in place of light
+    float translucency = 1, blur = 2;                  ///< values of the brushes that take a number
+    vec3 color{1};                                     ///< of the others,
+    float brightness = 1;                              ///< times this
 };
 
 /// "paint.brush", "paint.radius" and so on; the values of other brushes are not shown. Shown while a person

@@ -2,7 +2,7 @@
 /// The panel beside the picture, made from parameter descriptors: nothing about a parameter is typed here.
 
 #include "base/Param.h"
-#include "viewer/ProfilePlot.h"
+#include "viewer/Figure.h"
 #include "viewer/Theme.h"
 
 #include <array>
@@ -51,10 +51,10 @@ struct PanelInput {
     std::string_view title;
     std::span<const Control> controls;
     std::span<const Action> actions;
-    std::span<const ProfilePlot> profiles; ///< each stands below the controls of its object
-    std::string_view focus;                ///< path of the control whose twin has the keyboard focus
-    vec2 canvas;                           ///< CSS pixels
-    bool touch = false;                    ///< a finger scrolls by dragging
+    std::span<const Figure> figures; ///< each stands below the controls of its object
+    std::string_view focus;          ///< path of the control whose twin has the keyboard focus
+    vec2 canvas;                     ///< CSS pixels
+    bool touch = false;              ///< a finger scrolls by dragging
 };
 
 /// Draws and remembers what is open, typed and gripped. Needs a current ImGui context between NewFrame and

@@ -77,9 +77,9 @@ void Viewer::State::frame() {
     fonts().select(scale);
     panel.setCanvas(canvas());
 
-    if (scene && profilesAt != revision) {
-        profiles = profilePlots(*scene);
-        profilesAt = revision;
+    if (scene && figuresAt != revision) {
+        figures = figuresOf(*scene);
+        figuresAt = revision;
     }
     ImGui::NewFrame();
     std::vector<Edit> edits;
@@ -87,7 +87,7 @@ void Viewer::State::frame() {
         edits = panel.draw({.title = scene->title,
                             .controls = controls,
                             .actions = actions(),
-                            .profiles = profiles,
+                            .figures = figures,
                             .focus = focus == "divider" ? "" : focus, // which is not in the panel
                             .canvas = canvas(),
                             .touch = touch},

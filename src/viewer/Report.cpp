@@ -41,18 +41,12 @@ void writeAction(JsonWriter& json, const Action& action) {
 }
 
 // W of each colour.
-void writeEnergy(JsonWriter& json, const caustics::Energy& energy) {
-    const auto write = [&](const char* name, dvec3 watts) {
+void writeBalance(JsonWriter& json, const technique::Balance& balance) {
+    json.beginObject();
+    for (const auto& [name, watts] : balance) {
         const float numbers[] = {float(watts.r), float(watts.g), float(watts.b)};
         json.key(name).value(std::span<const float>(numbers));
-    };
-    json.beginObject();
-    write("met", energy.met);
-    write("received", energy.received);
-    write("absorbed", energy.absorbed);
-    write("reflected", energy.reflected);
-    write("missed", energy.missed);
-    write("lost", energy.lost);
+    }
     json.end();
 }
 
@@ -102,7 +96,7 @@ std::string statsJson(const StatsInput& input) {
     for (const Mode mode : input.modes)
         json.value(nameOf(mode));
     json.end();
-    if (input.energy) writeEnergy(json.key("energy"), *input.energy);
+    if (!input.balance.empty()) writeBalance(json.key("energy"), input.balance);
     json.key("panel").beginObject();
     for (const auto& [path, rect] : input.widgets)
         writeRect(json.key(path), rect);

@@ -23,10 +23,10 @@ struct StatsInput {
     bool complete = false;
     int frames = 0;
     std::uint64_t revision = 0;
-    std::optional<vec2> light;              ///< CSS pixels of its dot
-    std::vector<Mode> modes;                ///< of the scene
-    std::optional<caustics::Energy> energy; ///< of the caustic map that is shown
-    std::map<std::string, Rect> widgets;    ///< see Panel::widgets()
+    std::optional<vec2> light;           ///< CSS pixels of its dot
+    std::vector<Mode> modes;             ///< of the scene
+    technique::Balance balance;          ///< of the caustic map that is shown
+    std::map<std::string, Rect> widgets; ///< see Panel::widgets()
 };
 std::string statsJson(const StatsInput& input);
 

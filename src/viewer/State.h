@@ -10,6 +10,7 @@
 ///   PaintPanel.cpp  strokes of the pointer, the brush's ring and buttons
 
 #include "scene/Load.h"
+#include "technique/Technique.h"
 #include "viewer/Compare.h"
 #include "viewer/History.h"
 #include "viewer/Interaction.h"
@@ -67,9 +68,9 @@ struct Viewer::State {
     ivec2 picturePixels{0};
     Phase phase = Phase::Done;
     bool stale = false, shown = false; // the scene changed since; there is a picture to present
-    std::vector<ProfilePlot> profiles;
-    std::uint64_t profilesAt = 0; // revision whose they are
-    bool settled = true;          // ImGui has nothing new to say
+    std::vector<Figure> figures;
+    std::uint64_t figuresAt = 0; // revision whose they are
+    bool settled = true;         // ImGui has nothing new to say
     std::uint64_t shownHash = 0;
     int drawCount = 0;
     double frameTime = 0, hoverTime = 0;
@@ -88,8 +89,8 @@ struct Viewer::State {
     std::optional<float>
         dropTime; // s: of the first drop that a person let fall; water then shows what no file knows
 
-    std::optional<caustics::Energy> energy; // of the caustic map that is shown
-    std::uint64_t energyOf = 0;             // picture that was measured
+    technique::Balance balance; // of the caustic map that is shown
+    std::uint64_t energyOf = 0; // picture that was measured
 
     CompareSettings compare;
     std::optional<Truth> truth;
@@ -178,7 +179,7 @@ struct Viewer::State {
     bool arrow(vec2 step, Modifiers modifiers);
 
     // --- paint
-    bool painting() const { return scene && mode.mode == Mode::Paint && !comparing(); }
+    bool painting() const { return scene && mode.mode == paintMode() && !comparing(); }
     std::optional<PaintPlace> paintPlaceAt(vec2 position);
     bool startStroke(vec2 position);
     void dabTo(vec2 position);

@@ -1,4 +1,5 @@
 #include "viewer/Viewer.h"
+#include "technique/Technique.h"
 
 #include "viewer/State.h"
 
@@ -46,7 +47,7 @@ void Viewer::release() {
 }
 
 Status Viewer::load(const std::string& path, const ReadFile& read) {
-    Result<scene::Scene> scene = scene::load(path, read, frame::techniques());
+    Result<scene::Scene> scene = scene::load(path, read, technique::tables());
     if (!scene) {
         showMessage(scene.error().message);
         return scene.error();
@@ -62,7 +63,7 @@ Status Viewer::openImage(const std::string& name, std::span<const std::byte> byt
 }
 
 Status Viewer::openMesh(const std::string& name, std::span<const std::byte> bytes) {
-    Result<scene::Scene> scene = scene::sceneFromMesh(name, bytes, frame::techniques());
+    Result<scene::Scene> scene = scene::sceneFromMesh(name, bytes, technique::tables());
     if (!scene) {
         showMessage(scene.error().message);
         return scene.error();
@@ -89,7 +90,7 @@ Status Viewer::openEnvironment(const std::string& name, std::span<const std::byt
 Status Viewer::openHeights(const std::string& name, std::span<const std::byte> bytes) {
     State& s = *state_;
     if (!s.scene || !s.hasField()) {
-        Result<scene::Scene> scene = scene::sceneFromHeights(name, bytes, frame::techniques());
+        Result<scene::Scene> scene = scene::sceneFromHeights(name, bytes, technique::tables());
         if (!scene) return scene.error();
         s.adopt(std::move(*scene));
         return Done{};
@@ -300,14 +301,14 @@ std::string Viewer::stats() const {
     input.frames = s.drawCount;
     input.revision = s.revision;
     if (s.scene) input.modes = modesOf(*s.scene);
-    input.energy = s.energy;
+    input.balance = s.balance;
     if (s.scene && s.pixels.y > 0) input.light = s.dotOf(s.light);
     input.widgets = s.panel.widgets();
     return statsJson(input);
 }
 
 std::string Viewer::profiles() const {
-    return state_->scene ? profilesJson(profilePlots(*state_->scene)) : "[]\n";
+    return state_->scene ? figuresJson(figuresOf(*state_->scene)) : "[]\n";
 }
 
 std::string Viewer::changes() const { return changesJson(state_->controls, &state_->play.playing); }

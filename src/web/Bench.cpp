@@ -14,6 +14,7 @@
 #include "measure/Solve.h"
 #include "measure/Sweep.h"
 #include "scene/Load.h"
+#include "technique/Technique.h"
 
 #include <cstdint>
 #include <map>
@@ -57,7 +58,7 @@ Result<Bytes> readPut(const std::string& path) {
 }
 
 Status load(const std::string& path) {
-    Result<scene::Scene> scene = scene::load(path, readPut, frame::techniques());
+    Result<scene::Scene> scene = scene::load(path, readPut, technique::tables());
     if (!scene) return scene.error();
     bench().scene = std::move(*scene);
     return Done{};

@@ -5,8 +5,8 @@
 #include "base/Text.h"
 #include "frame/Renderer.h"
 #include "measure/TruthModel.h"
-#include "techniques/relief/Relief.h"
 #include "scene/Load.h"
+#include "technique/Technique.h"
 #include "truth/Glass.h"
 #include "truth/RenderRelief.h"
 
@@ -49,11 +49,10 @@ Result<Bytes> readPut(const std::string& path) {
 }
 
 truth::ReliefOptions optionsOf(const scene::Scene& scene, int directions) {
-    const auto& settings = scene.technique.at("relief").as<relief::Settings>();
-    const bool ratio = settings.attenuation == relief::Attenuation::Ratio;
-    return {.attenuation = ratio ? truth::Attenuation::Ratio : truth::Attenuation::Exponential,
+    const truth::Model model = technique::modelOf(scene);
+    return {.attenuation = model.attenuation,
             .environmentLights = directions,
-            .normalise = settings.normalise,
+            .normalise = model.normalise,
             .threads = 1};
 }
 
@@ -67,7 +66,7 @@ Error leftToProgram(const scene::Scene& scene, measure::TruthModel model) {
     const scene::Aov aov = scene.view.show;
     if (aov != scene::Aov::Color)
         return leftToProgram("shown is the AOV " + std::string(scene::aovNames()[std::size_t(aov)]));
-    if (model == measure::TruthModel::Light) return leftToProgram(*frame::need(scene, "caustics"));
+    if (model == measure::TruthModel::Light) return leftToProgram(*measure::causticOf(scene));
     const auto scattering = std::find_if(scene.objects.begin(), scene.objects.end(),
                                          [](const auto& object) { return object.material.isScattering(); });
     return leftToProgram("object " + inQuotes(scattering->name) + " scatters light inside");
@@ -117,7 +116,7 @@ void truth_file_put(const char* name, const std::uint8_t* bytes, int size) {
 ///                 is left to chance
 const char* truth_start(int width, int height, int samples) {
     Job& j = job();
-    Result<scene::Scene> scene = scene::load("scene.json", readPut, frame::techniques());
+    Result<scene::Scene> scene = scene::load("scene.json", readPut, technique::tables());
     j.files.clear();
     if (!scene) return answer(scene.error().message);
     j.scene = std::move(*scene);

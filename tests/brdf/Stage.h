@@ -60,7 +60,7 @@ inline vec2 placeOf(const scene::Scene& scene, ivec2 pixel, ivec2 size) {
 
 struct Brdf : support::GlTest {
     Image shade(const scene::Scene& scene, ivec2 size, scene::Aov show = kIrradiance,
-                const Settings& settings = {}, const Image* flux = nullptr) {
+                const views::Sampling& sampling = {}, const Image* flux = nullptr) {
         graph::TexturePool pool(context->device());
         views::ImageCache images(*context);
         const graph::TextureDesc desc{.size = size, .format = graph::Format::RGBA32F};
@@ -94,8 +94,7 @@ struct Brdf : support::GlTest {
                              .refractive = glass,
                              .show = show,
                              .flux = fluxId},
-                            table, targetId, {.lamp = settings.lightSamples, .directions = 256},
-                            settings.shadowSize);
+                            table, targetId, sampling);
         if (show == scene::Aov::Color) {
             EXPECT_TRUE(brdf::Brdf(*context)
                             .recordMirrors(graph, {.scene = scene,
@@ -109,8 +108,8 @@ struct Brdf : support::GlTest {
         }
         return support::finish(graph, pool, *context, target);
     }
-    float atMiddle(const scene::Scene& scene, const Settings& settings = {}) {
-        return shade(scene, {33, 33}, kIrradiance, settings).at(16, 16)[1];
+    float atMiddle(const scene::Scene& scene, const views::Sampling& sampling = {}) {
+        return shade(scene, {33, 33}, kIrradiance, sampling).at(16, 16)[1];
     }
 };
 

@@ -51,10 +51,10 @@ TEST_F(Brdf, AnAreaLightsAPlaneByItsFormFactor) {
     const double expected = 3 * std::numbers::pi * 4 * corner;
     scene.lights = {area};
     // Measured: 1.8 %, 0.15 %, -0.8 %, -0.03 %.
-    EXPECT_NEAR(atMiddle(scene, {.lightSamples = 4}) / expected, 1, 0.02);
+    EXPECT_NEAR(atMiddle(scene, {.lamp = 4}) / expected, 1, 0.02);
     EXPECT_NEAR(atMiddle(scene) / expected, 1, 0.01);
-    EXPECT_NEAR(atMiddle(scene, {.lightSamples = 64}) / expected, 1, 0.01);
-    EXPECT_NEAR(atMiddle(scene, {.lightSamples = 256}) / expected, 1, 0.001);
+    EXPECT_NEAR(atMiddle(scene, {.lamp = 64}) / expected, 1, 0.01);
+    EXPECT_NEAR(atMiddle(scene, {.lamp = 256}) / expected, 1, 0.001);
     // The other side is dark.
     scene.lights = {
         scene::AreaLight{.corner = area.corner, .edgeU = area.edgeV, .edgeV = area.edgeU, .radiance = 3}};

@@ -225,8 +225,7 @@ TEST_F(Brdf, SoftShadowsComeNearerToTruthWithMorePoints) {
         const Truth truth(scene, size, 2000);
         int samples = 4;
         for (const double limit : limits) {
-            const double error =
-                relativeRmse(shade(scene, size, kIrradiance, {.lightSamples = samples}), truth);
+            const double error = relativeRmse(shade(scene, size, kIrradiance, {.lamp = samples}), truth);
             EXPECT_LT(error, limit) << name << ", " << samples << " points";
             samples *= 4;
         }

@@ -34,7 +34,7 @@ TEST_F(Caustics, EveryKindOfLampAgreesWithTruth) {
     for (const scene::Light& lamp : lamps) {
         scene::Scene scene = floorUnder(glass(scene::Sphere{0.5f}, 1.5f, {0, 1, 0}), 3);
         scene.lights = {lamp};
-        const Shown shown = show(scene, {60, 60}, {.lightSamples = 16});
+        const Shown shown = show(scene, {60, 60});
         const Image truth = truthOf(scene, {60, 60}, 400000);
         EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.01) << lamp.index();
         // Half a percent is the noise of 400000 rays in cells of 5 x 5; the area's 16 points leave ripples.

@@ -23,7 +23,7 @@ TEST_F(Budget, KeepsTheErrorAndTakesFewerLightsForALargerOne) {
     auto scene = bumps();
     scene.environment.emplace();
     scene.environment->map = std::make_shared<const Image>(scene::proceduralEnvironment("direction"));
-    reliefSettings(scene).environmentLights = 2048;
+    views::samplingOf(scene).directions = 2048;
     const Image exact = render(scene, scene::Aov::Color);
     int lightsBefore = 0;
     for (float wanted : {0.1f, 0.03f, 0.01f}) {
@@ -42,7 +42,7 @@ TEST_F(Budget, CountsThePointsOfALargeLamp) {
     scene::PointLight lamp;
     lamp.radius = 0.2f;
     scene.lights.push_back(lamp);
-    reliefSettings(scene).lightSamples = 1024;
+    views::samplingOf(scene).lamp = 1024;
     const Image exact = render(scene, scene::Aov::Color);
     scene.quality.maxError = 0.02f;
     Renderer renderer(*context);

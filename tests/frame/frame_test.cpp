@@ -12,7 +12,7 @@ struct Frame : support::GlTest {
         auto white = std::make_shared<Image>(8, 4, 3);
         std::fill(white->pixels.begin(), white->pixels.end(), 1.0f);
         scene.environment->map = white;
-        support::reliefSettings(scene).environmentLights = lights;
+        views::samplingOf(scene).directions = lights;
     }
     // "views.surface relief.light frame.display": the passes of explain(), in order.
     std::string passes() {

@@ -76,7 +76,8 @@ const scene::Light kLamps[] = {
         .corner = {0.7f, 1.6f, 0.2f}, .edgeU = {0.4f, 0, 0}, .edgeV = {0, 0, 0.4f}, .radiance = 40},
 };
 
-// Target 1 %: direct and shadowed cells of lucent bench compose. Measured on llvmpipe: see each line's number.
+// Target 1 %: direct and shadowed cells of lucent bench compose. Measured on llvmpipe: see each line's
+// number.
 TEST_F(OneLight, EveryLampLightsAReliefAFloorAndABoxBehindEachOther) {
     for (std::size_t i = 0; i < std::size(kLamps); ++i) {
         scene.lights = {kLamps[i]};
@@ -107,7 +108,7 @@ TEST_F(OneLight, AReliefWithoutDepthIsTheMattSurfaceBesideIt) {
     scene.camera.height = 1;
     scene.objects[0].transform.rotate = {-90, 0, 0};
     scene.objects[0].material.diffuse = vec3(0.6f);
-    support::reliefSettings(scene).lightSamples = 16; // as many as matt surfaces take
+    views::samplingOf(scene).lamp = 16; // as many as matt surfaces take
     for (const scene::Light& lamp : kLamps) {
         scene.lights = {lamp};
         const Image relief = picture(), irradiance = picture(scene::Aov::Irradiance);
@@ -156,7 +157,8 @@ TEST_F(OneLight, ShadowViewsAreDrawnOnceForAllThatTheyShade) {
     Renderer renderer(*context);
     const std::string text = *renderer.explain(scene, scene.size);
     std::size_t views = 0;
-    for (std::size_t at = text.find("views.shadow:"); at != std::string::npos; at = text.find("views.shadow:", at + 1))
+    for (std::size_t at = text.find("views.shadow:"); at != std::string::npos;
+         at = text.find("views.shadow:", at + 1))
         ++views;
     EXPECT_EQ(views, 2u); // for the relief without itself, and for all else
 }

@@ -2,6 +2,7 @@
 // device.
 #include "frame/Renderer.h"
 #include "measure/SelfCheck.h"
+#include "technique/Technique.h"
 
 #include <gtest/gtest.h>
 
@@ -108,7 +109,7 @@ TEST_F(Checks, APictureThatCannotBeDrawnFailsWithTheMessage) {
                                 scene::Object object;
                                 object.field().heights = std::make_shared<Image>(1 << 20, 1, 1);
                                 scene.objects.push_back(std::move(object));
-                                for (const ParamTable* params : frame::techniques())
+                                for (const ParamTable* params : technique::tables())
                                     scene.technique.emplace(std::string(params->name), Settings(*params));
                                 Finding finding;
                                 finding.take(0, studio.draw(scene).pixels[0]);

@@ -110,7 +110,7 @@ TEST_F(SweepTest, ASceneThatCannotBeMadeIsWrittenDownForEachSetting) {
 TEST_F(SweepTest, AnEnvironmentsExactSolutionTellsItsOwnNoise) {
     Plan plan;
     plan.repeats = {1, 1, 0};
-    plan.cases = {smallCase("sky", {{"hierarchy", {{"environmentLights", "16"}}}})};
+    plan.cases = {smallCase("sky", {{"hierarchy", {{"sampling.directions", "16"}}}})};
     plan.cases[0].scene.make = []() -> Result<scene::Scene> {
         scene::Scene scene = fieldScene(benchNoise(8), 0.05f);
         scene.view.show = scene::Aov::Color;

@@ -1,5 +1,6 @@
 // The thesis's layers and rays beside ours: what each can do, and by how much it is off.
 #include "frame/Renderer.h"
+#include "technique/Technique.h"
 #include "tests/refract/Trace.h"
 
 #include <cmath>
@@ -210,7 +211,7 @@ TEST_F(Methods, ChoicesThatDoNotGoTogetherAreRefused) {
 TEST_F(Methods, ASceneChoosesAMethodAndHearsOfItsLimits) {
     scene::Scene scene = seenFrom(3, {glass(scene::Sphere{1}, 1.5f), glass(scene::Sphere{0.999f}, 1.2f)});
     test::addSky(scene, vec3(1));
-    for (const ParamTable* table : frame::techniques())
+    for (const ParamTable* table : technique::tables())
         scene.technique.emplace(std::string(table->name), lucent::Settings(*table));
     for (const auto& [key, value] : {std::pair("layers", "voxels"), std::pair("trace", "bisection")})
         EXPECT_TRUE(setParam(scene, std::string("technique.refract.") + key, value).ok());

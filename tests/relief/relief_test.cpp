@@ -69,7 +69,7 @@ TEST_F(Relief, WhiteSkyOnAFlatFieldMeansAQuarterOfTheSphere) {
     std::fill(white->pixels.begin(), white->pixels.end(), 1.0f);
     scene.environment->map = white;
     // The mean of max(cos, 0) over the sphere is 1/4; over 1000 directions the midpoint rule is off by 0.1 %.
-    reliefSettings(scene).environmentLights = 1000;
+    views::samplingOf(scene).directions = 1000;
     EXPECT_NEAR(render(scene).at(8, 8)[0], 0.25, 2.5e-4);
     // All directions together: the integral of the cosine, pi, over pi. What the horizon cuts of a cell of
     // half width h is lost, h² / 3 of all: 1.3e-3 for 1000 discs; cells are squares, which reach farther.
@@ -194,7 +194,7 @@ TEST_F(Relief, LampsWithASizeAgreeWithTheTruth) {
     scene.objects[0].material.specularity = 0.3f;
     scene.objects[0].material.forwardScatter = 0.5f;
     scene.lights = {sun, bulb};
-    reliefSettings(scene).lightSamples = 1024;
+    views::samplingOf(scene).lamp = 1024;
     // 256 points of the truth and 1024 of ours err by about 1e-3 of a light together; hard edges would miss
     // by 0.03.
     EXPECT_LT(difference(render(scene, scene::Aov::Color), truth(scene, scene::Aov::Color)).rms, 2e-3);
@@ -214,12 +214,12 @@ TEST_F(Relief, ImportanceNeedsFewerDirectionsUnderASmallSun) {
     scene.environment.emplace();
     scene.environment->map = map;
     scene.environment->rotation = {60, 0, 0};
-    relief::Settings& settings = reliefSettings(scene);
-    settings.environmentLights = 2000;
+    views::Sampling& settings = views::samplingOf(scene);
+    settings.directions = 2000;
     const Image exact = render(scene, scene::Aov::Color);
-    settings.environmentLights = 64;
+    settings.directions = 64;
     const double equal = difference(render(scene, scene::Aov::Color), exact).rms;
-    settings.environmentSampling = EnvironmentSampling::Importance;
+    settings.environment = views::EnvironmentSampling::Importance;
     EXPECT_LT(difference(render(scene, scene::Aov::Color), exact).rms, equal / 2);
 }
 

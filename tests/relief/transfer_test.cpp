@@ -1,6 +1,6 @@
 // Transfer: one dot product a texel for any environment, against sums over thousands of directions.
-#include "techniques/relief/Transfer.h"
 #include "scene/Environment.h"
+#include "techniques/relief/Transfer.h"
 #include "tests/support/Relief.h"
 
 namespace lucent::relief {
@@ -62,7 +62,7 @@ double relativeError(support::ReliefTest& test, scene::Scene scene) {
     reliefSettings(scene).method = Method::Transfer;
     const Image fast = test.render(scene, scene::Aov::Color);
     reliefSettings(scene).method = Method::Hierarchy;
-    reliefSettings(scene).environmentLights = 1500;
+    views::samplingOf(scene).directions = 1500;
     const Image exact = test.render(scene, scene::Aov::Color);
     return difference(fast, exact).rms / std::sqrt(coverage(exact)) / mean(exact);
 }

@@ -1,6 +1,7 @@
 // Painted objects in whole pictures: closed forms and sums by brute force first, then where paint stays.
 #include "frame/Renderer.h"
 #include "scene/Painting.h"
+#include "technique/Technique.h"
 #include "techniques/subsurface/Subsurface.h"
 #include "tests/support/Gl.h"
 
@@ -102,7 +103,7 @@ struct Painted : support::GlTest {
         scene.size = {48, 48};
         scene.camera.eye = {0, 0, 1};
         scene.camera.height = 0.022f;
-        for (const ParamTable* table : techniques())
+        for (const ParamTable* table : technique::tables())
             scene.technique.emplace(std::string(table->name), lucent::Settings(*table));
         scene.lights = {scene::DistantLight{.direction = {0, 0, -1}}};
     }
@@ -169,7 +170,7 @@ TEST_F(Painted, AnUnpaintedObjectRunsNoPassOfPaint) {
     const std::string text = explained();
     EXPECT_NE(text.find("\n  views.paint: what is painted where light enters object \"body 0\""),
               std::string::npos);
-    EXPECT_NE(text.find("\n  frame.matt:"), std::string::npos);
+    EXPECT_NE(text.find("\n  subsurface.matt:"), std::string::npos);
     EXPECT_NE(text.find("brdf: object \"body 0\" is painted"), std::string::npos);
     // Paint on what is opaque does nothing.
     scene.objects[0].material.scattering = vec3(0);
@@ -191,23 +192,23 @@ TEST_F(Painted, ExplainNamesBlurThatDiffusionLeavesOut) {
 TEST_F(Painted, ALayerOfPaintNeedsNoLight) {
     add(scene::Sphere{0.01f}).painting =
         evenly({.entering = {0.5f, 1, 2, 0.25f}, .leaving = {1, 1, 1, 0.5f}});
-    settings().layer = subsurface::PaintLayer::Glow;
+    scene.view.paintLayer = scene::PaintLayer::Glow;
     const std::string text = explained();
     EXPECT_NE(text.find("\n  subsurface.layer:"), std::string::npos);
-    for (const char* pass : {"subsurface.splat", "subsurface.flux", "frame.matt"})
+    for (const char* pass : {"subsurface.splat", "subsurface.flux", "subsurface.matt"})
         EXPECT_EQ(text.find(std::string("\n  ") + pass + ":"), std::string::npos) << pass;
     scene.lights.clear();
-    const auto shown = [&](subsurface::PaintLayer layer) {
-        settings().layer = layer;
+    const auto shown = [&](scene::PaintLayer layer) {
+        scene.view.paintLayer = layer;
         const Image image = picture(scene::Aov::Color);
         const float* pixel = image.at(image.width / 2, image.height / 2);
         return vec3(pixel[0], pixel[1], pixel[2]);
     };
-    EXPECT_EQ(shown(subsurface::PaintLayer::Glow), vec3(0.5f, 1, 2));
-    EXPECT_EQ(shown(subsurface::PaintLayer::Translucency), vec3(0.5f));
-    EXPECT_EQ(shown(subsurface::PaintLayer::Blur), vec3(0.75f)); // four times as far
-    EXPECT_EQ(shown(subsurface::PaintLayer::Outgoing), vec3(1));
-    EXPECT_EQ(shown(subsurface::PaintLayer::None), vec3(0));
+    EXPECT_EQ(shown(scene::PaintLayer::Glow), vec3(0.5f, 1, 2));
+    EXPECT_EQ(shown(scene::PaintLayer::Translucency), vec3(0.5f));
+    EXPECT_EQ(shown(scene::PaintLayer::Blur), vec3(0.75f)); // four times as far
+    EXPECT_EQ(shown(scene::PaintLayer::Outgoing), vec3(1));
+    EXPECT_EQ(shown(scene::PaintLayer::None), vec3(0));
 }
 
 TEST_F(Painted, OnesAreTheUnpaintedPictureBitForBit) {

@@ -1,6 +1,7 @@
 // Whole scenes in which light scatters: only the passes that they need, and scattering objects among others.
 #include "diffusion/Profile.h"
 #include "frame/Renderer.h"
+#include "technique/Technique.h"
 #include "techniques/subsurface/Subsurface.h"
 #include "tests/support/Gl.h"
 #include "truth/Dipole.h"
@@ -19,7 +20,7 @@ struct Scattering : support::GlTest {
         scene.size = {48, 48};
         scene.camera.eye = {0, 0, 1};
         scene.camera.height = 0.05f;
-        for (const ParamTable* table : techniques())
+        for (const ParamTable* table : technique::tables())
             scene.technique.emplace(std::string(table->name), Settings(*table));
         scene.lights = {scene::DistantLight{.direction = {-0.3f, -1, -0.5f}}};
         add("ball", scene::Sphere{0.01f}).material.scattering = vec3(2000);

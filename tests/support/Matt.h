@@ -22,8 +22,7 @@ struct MattView {
 
 /// Adds the light of all samples to the matt pixels of `target`; the others stay as they were.
 inline void recordMatt(graph::FrameGraph& graph, gl::Context& context, const MattView& in,
-                       graph::Texture& lightTable, graph::TextureId target, const views::Sampling& sampling,
-                       int shadowSize = 1024) {
+                       graph::Texture& lightTable, graph::TextureId target, const views::Sampling& sampling) {
     const std::vector<views::LampPoint> samples = views::lightSamples(in.scene, sampling);
     const Image table = views::sampleTable(samples);
     const graph::TextureDesc desc{.size = table.size(), .format = graph::Format::RGBA32F};
@@ -45,7 +44,7 @@ inline void recordMatt(graph::FrameGraph& graph, gl::Context& context, const Mat
                                     .casters = none,
                                     .opaque = in.opaque,
                                     .refractive = in.refractive,
-                                    .shadowSize = shadowSize},
+                                    .shadowSize = sampling.shadowSize},
                                    std::span(samples).subspan(std::size_t(first), std::size_t(end - first)));
         ASSERT_TRUE(occlusion.ok()) << occlusion.error().message;
         graph::TextureId drawn = target;

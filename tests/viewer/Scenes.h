@@ -18,7 +18,7 @@ inline constexpr const char* kLampScene =
  "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 2},
  "lights": [{"type": "point", "position": [0.2, 0.1, 0.5]}],
  "environment": {"source": "uniform", "enabled": false},
- "technique": {"relief": {"environmentLights": 8}},
+ "technique": {"sampling": {"directions": 8}},
  "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
 
 /// The same field, seen from farther off, under an environment only: more of its lights than a quick look
@@ -26,7 +26,7 @@ inline constexpr const char* kLampScene =
 inline constexpr const char* kMapScene = R"({"lucent": 1, "title": "Map", "size": [512, 512],
  "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 4},
  "environment": {"source": "rainbow"},
- "technique": {"relief": {"environmentLights": 48}},
+ "technique": {"sampling": {"directions": 48}},
  "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
 
 /// Glass and a moving mesh over a floor under all kinds of lights, with 2 m of height shown; nothing of it is
@@ -37,7 +37,7 @@ inline constexpr const char* kGlassScene = R"({"lucent": 1, "title": "Glass", "s
             {"type": "area", "corner": [-0.5, 0.5, 0]},
             {"type": "distant", "direction": [0, -1, -1]}],
  "environment": {"source": "sky"},
- "technique": {"caustics": {"grid": 32, "mapSize": 64, "lightSamples": 1}},
+ "technique": {"sampling": {"lampSamples": 1}, "caustics": {"grid": 32, "mapSize": 64}},
  "objects": [{"name": "block", "shape": {"type": "box", "size": [0.3, 0.4, 0.5]}, "material": {"transmission": 1}},
              {"name": "tent", "shape": {"type": "mesh", "source": "tent.mesh", "part": "cloth"}, "material": {},
               "wave": {"amplitude": [0.05, 0, 0]}},

@@ -4,6 +4,7 @@
 #include "frame/Renderer.h"
 #include "measure/Metrics.h"
 #include "scene/Load.h"
+#include "technique/Technique.h"
 
 namespace lucent::viewer {
 namespace {
@@ -18,7 +19,7 @@ class CompareView : public Page {
 protected:
     /// Linear values of the lamp scene as a renderer of its own draws them.
     Image picture() {
-        Result<scene::Scene> scene = scene::load("scene.json", files(kLampScene), frame::techniques());
+        Result<scene::Scene> scene = scene::load("scene.json", files(kLampScene), technique::tables());
         EXPECT_TRUE(scene.ok());
         frame::Renderer renderer(*context);
         EXPECT_TRUE(renderer.finish(*scene, 1, ivec2(kSide)).ok());

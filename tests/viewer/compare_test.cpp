@@ -4,6 +4,7 @@
 
 #include "frame/Renderer.h"
 #include "scene/Load.h"
+#include "technique/Technique.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@ namespace lucent::viewer {
 namespace {
 
 scene::Scene loaded(const std::string& text) {
-    Result<scene::Scene> scene = scene::load("scene.json", sceneFiles(text), frame::techniques());
+    Result<scene::Scene> scene = scene::load("scene.json", sceneFiles(text), technique::tables());
     EXPECT_TRUE(scene.ok()) << (scene ? "" : scene.error().message);
     return std::move(*scene);
 }
@@ -22,7 +23,7 @@ scene::Scene unpacked(const std::vector<std::pair<std::string, Bytes>>& files) {
             if (name == path) return bytes;
         return Error{path + ": was not packed"};
     };
-    Result<scene::Scene> scene = scene::load("scene.json", read, frame::techniques());
+    Result<scene::Scene> scene = scene::load("scene.json", read, technique::tables());
     EXPECT_TRUE(scene.ok()) << (scene ? "" : scene.error().message);
     return std::move(*scene);
 }

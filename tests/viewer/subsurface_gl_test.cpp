@@ -4,7 +4,6 @@
 #include "diffusion/Profile.h"
 #include "scene/MaterialPresets.h"
 #include "viewer/Mode.h"
-#include "viewer/ProfilePlot.h"
 
 #include <algorithm>
 

@@ -23,7 +23,7 @@ const distant = (elevation, azimuth) => {
 };
 const lamp = (...position) => ({ type: 'point', position });
 
-const sky = (relief) => ({ lights: [], environment: { source: 'sky', rotation: [70, 20, 0] }, technique: { relief } });
+const sky = (technique) => ({ lights: [], environment: { source: 'sky', rotation: [70, 20, 0] }, technique });
 
 // name: [width, height, heights, heightScale, depth, light, what else differs]
 const kCases = {
@@ -46,8 +46,8 @@ const kCases = {
   'hard-far': [64, 64, waves, 0.1, 0.03, lamp(6e5, 0, 8e5)],
   'hard-wide-sun': [64, 64, waves, 0.2, 0.03, { ...distant(4, 30), angle: 20 }], // half of it below the horizon
   'hard-wide-lamp': [64, 64, waves, 0.2, 0.03, { ...lamp(0.1, 0, 0.3), radius: 0.6 }],
-  'hard-importance': [64, 64, waves, 0.2, 0.03, null, sky({ environmentSampling: 'importance', environmentLights: 60 })],
-  'hard-transfer': [64, 64, waves, 0.2, 0.03, null, sky({ method: 'transfer' })],
+  'hard-importance': [64, 64, waves, 0.2, 0.03, null, sky({ sampling: { environmentSampling: 'importance', directions: 60 } })],
+  'hard-transfer': [64, 64, waves, 0.2, 0.03, null, sky({ relief: { method: 'transfer' } })],
 };
 
 const scene = (name, [width, height, , heightScale, depth, light, other]) => ({

@@ -20,7 +20,7 @@ const scene = (title, heights, changes = {}) => ({
   caption: `${title}, lit from the left.`,
   size: [200, 200],
   camera: { type: 'orthographic', eye: [0, 0, 2], target: [0, 0, 0], up: [0, 1, 0], height: 1 },
-  technique: { relief: { environmentLights: 16 } }, // software drivers are slow
+  technique: { sampling: { directions: 16 } }, // software drivers are slow
   lights: [{ type: 'point', position: [-0.8, 0, 0.6], color: [1, 1, 1], intensity: 1 }],
   objects: [
     {

@@ -83,34 +83,6 @@ MirrorBlock mirrorBlock(const MirrorInputs& in, const views::PosedMesh& mesh) {
 
 } // namespace
 
-const ParamTable& Brdf::params() {
-    static const Param list[] = {
-        declare(&Settings::lightSamples, {.id = "lightSamples",
-                                          .label = "Points of a lamp on surfaces",
-                                          .min = 1,
-                                          .max = 1024,
-                                          .low = 1,
-                                          .high = 64,
-                                          .logarithmic = true,
-                                          .group = Group::Light,
-                                          .doc = "How many points stand for a lamp that has a size, where it "
-                                                 "lights opaque surfaces; each casts its own shadows."}),
-        declare(&Settings::shadowSize, {.id = "shadowSize",
-                                        .label = "Shadow map",
-                                        .unit = "texels",
-                                        .min = 64,
-                                        .max = 4096,
-                                        .low = 256,
-                                        .high = 2048,
-                                        .logarithmic = true,
-                                        .group = Group::Light,
-                                        .doc = "Texels along a side of what a lamp sees; lamps with a size "
-                                               "have half as many for each of their points."}),
-    };
-    static const ParamTable table = tableOf<Settings>("brdf", list, "Surfaces and shadows");
-    return table;
-}
-
 std::optional<std::string> Brdf::need(const scene::Scene& scene) {
     for (const scene::Object& object : scene.objects) {
         if (!object.visible || object.isField() || object.material.isRefractive()) continue;

@@ -12,11 +12,6 @@
 
 namespace lucent::brdf {
 
-struct Settings {
-    int lightSamples = 16; ///< points that stand for a lamp with a size
-    int shadowSize = 1024; ///< texels a side of a shadow map; of lamps with a size half as many
-};
-
 /// One slice of the light on matt surfaces.
 struct Inputs {
     const scene::Scene& scene;
@@ -50,7 +45,6 @@ struct MirrorInputs {
 /// the mirrored direction, whatever lies there. A surface is lit on the side that is seen.
 class Brdf {
 public:
-    static const ParamTable& params();
     /// Why the scene needs this technique; nothing when it does not.
     static std::optional<std::string> need(const scene::Scene& scene);
 

@@ -260,17 +260,6 @@ const ParamTable& Caustics::params() {
                      "2: light that passes an edge of what the lamp sees first, as under a table, falls on "
                      "what lies behind. Of the hybrid intersection; where nothing lies behind, it costs "
                      "nothing."}),
-        declare(&Settings::lightSamples,
-                {.id = "lightSamples",
-                 .label = "Points of a lamp in caustics",
-                 .min = 1,
-                 .max = 256,
-                 .low = 1,
-                 .high = 64,
-                 .logarithmic = true,
-                 .group = Group::Caustics,
-                 .doc = "How many points stand for a lamp that has a size, each with "
-                        "its own views."}),
         declare(&Settings::wavelengths,
                 {.id = "wavelengths",
                  .label = "Wavelengths",
@@ -311,7 +300,7 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
     const views::Bounds everything = boundsOfAll(all, fields);
     const float ray = meshes.glass.empty() ? 0 : 2 * glass.radius() / float(settings.grid);
     const views::Bounds receivers = seenWithMargin(eye, receiversOf(meshes.solid), fields, ray);
-    for (const views::LampPoint& lamp : views::lampPoints(scene, settings.lightSamples)) {
+    for (const views::LampPoint& lamp : views::lampPoints(scene, views::samplingOf(scene).lamp)) {
         if (lamp.color == vec3(0)) continue;
         views::ShadowSource around = lamp.source; // light leaves the cone of a spot where it is bent
         around.tangent = views::ShadowSource().tangent;

@@ -29,7 +29,6 @@ struct Settings {
     PointMap pointMap = PointMap::Cube; ///< how the map lies about a lamp that shines all around
     int steps = 32;                     ///< looks at the receivers' image for a ray, at most
     int receiverLayers = 2;             ///< receivers behind each other on which light is found
-    int lightSamples = 16;              ///< points that stand for a lamp with a size
     int wavelengths = 3;                ///< of white light in glass that disperses
 };
 

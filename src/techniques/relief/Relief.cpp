@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::string_view kMethods[] = {"hierarchy", "march", "counting", "transfer"};
 constexpr std::string_view kAttenuations[] = {"ratio", "exponential"};
-constexpr std::string_view kSamplings[] = {"equal", "importance"};
 
 std::vector<std::string> defines(const views::DrawnObject& drawn, const Settings& settings,
                                  const Inputs& in) {
@@ -99,24 +98,6 @@ const ParamTable& Relief::params() {
                      "How light fades with the length r inside the solid: t / r, or e^(1 - r / t), which has "
                      "the same value and slope where r is the depth t.",
                  .choices = kAttenuations}),
-        declare(&Settings::environmentLights,
-                {.id = "environmentLights",
-                 .label = "Directions",
-                 .min = 6,
-                 .max = 65536,
-                 .low = 16,
-                 .high = 1024,
-                 .logarithmic = true,
-                 .group = Group::Environment,
-                 .doc = "About how many directions stand for the environment; each carries the mean of its "
-                        "part of the map. Transfer does without them."}),
-        declare(
-            &Settings::environmentSampling,
-            {.id = "environmentSampling",
-             .label = "Choice of directions",
-             .group = Group::Environment,
-             .doc = "Where those directions are: evenly all around, or more of them where the map is bright.",
-             .choices = kSamplings}),
         declare(&Settings::terms,
                 {.id = "terms",
                  .label = "Terms",
@@ -127,15 +108,6 @@ const ParamTable& Relief::params() {
                  .group = Group::Environment,
                  .doc = "Coefficients a texel by which transfer keeps how much light each direction brings; "
                         "rounded up to a multiple of 4."}),
-        declare(&Settings::lightSamples, {.id = "lightSamples",
-                                          .label = "Points of a lamp",
-                                          .min = 1,
-                                          .max = 4096,
-                                          .low = 1,
-                                          .high = 256,
-                                          .logarithmic = true,
-                                          .group = Group::Light,
-                                          .doc = "How many points stand for a lamp that has a size."}),
         declare(&Settings::normalise, {.id = "normalise",
                                        .label = "Divide by number of lights",
                                        .group = Group::Light,
@@ -186,7 +158,7 @@ Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings
         for (const Transferred& light : transferred)
             if (light.irradiance) pass.sample(light.irradiance);
         pass.write(target);
-        pass.clear(target, vec4(0));
+        if (in.clears) pass.clear(target, vec4(0));
         return [=](const graph::Resources& resources, graph::Commands& commands) {
             for (std::size_t i = 0; i < objects.size(); ++i) {
                 const views::DrawnObject& drawn = objects[i];

@@ -15,7 +15,6 @@ namespace lucent::relief {
 
 enum class Method : int { Hierarchy, March, Counting, Transfer };
 enum class Attenuation : int { Ratio, Exponential };
-using views::EnvironmentSampling;
 
 inline constexpr int kMostTerms = 128; ///< of a transfer
 
@@ -23,10 +22,7 @@ struct Settings {
     Method method = Method::Hierarchy;
     int steps = 256; ///< of march and counting
     Attenuation attenuation = Attenuation::Ratio;
-    int environmentLights = 256; ///< about as many directions stand for the environment
-    EnvironmentSampling environmentSampling = EnvironmentSampling::Equal;
     int terms = 64;         ///< of transfer, a texel
-    int lightSamples = 32;  ///< points that stand for a lamp with a size
     bool normalise = false; ///< divide the light by the number of lights
 };
 
@@ -52,6 +48,7 @@ struct Inputs {
     views::Occlusion occlusion{};         ///< of this slice
     graph::TextureId flux{};              ///< irradiance of caustics on each pixel; or none
     ivec2 size{0};                        ///< of the view
+    bool clears = true;                   ///< nobody has drawn into the target yet
 };
 
 class Relief {

@@ -1,7 +1,7 @@
 #include "techniques/subsurface/Lambert.h"
 
-#include "techniques/subsurface/Sky.h"
 #include "light/ShadowMap.h"
+#include "techniques/subsurface/Sky.h"
 
 #include <cstddef>
 
@@ -174,7 +174,7 @@ Result<LampShadow> recordLampShadow(graph::FrameGraph& graph, gl::Context& conte
 Result<Radiosity> recordLambert(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
                                 const std::vector<views::PosedMesh>& objects, const Settings& settings) {
     Sum sum(graph, context, in, objects, settings);
-    for (const views::LampPoint& lamp : views::lampPoints(in.scene, settings.lightSamples))
+    for (const views::LampPoint& lamp : views::lampPoints(in.scene, views::samplingOf(in.scene).lamp))
         if (Status added = sum.addLamp(lamp); !added) return added.error();
     if (in.environment != graph::TextureHandle::None)
         if (Status added = sum.addSky(); !added) return added.error();

@@ -70,7 +70,7 @@ Moment momentOf(const Inputs& in, const Plan::State& plan, const Settings& setti
                   .eye = in.eye,
                   .numbers = numbersOf(settings),
                   .bodies = {},
-                  .lamps = views::lampPoints(in.scene, settings.lightSamples),
+                  .lamps = views::lampPoints(in.scene, views::samplingOf(in.scene).lamp),
                   .map = nullptr};
     for (const Plan::State::Object& object : plan.objects) {
         const scene::Object& body = in.scene.objects[std::size_t(object.index)];

@@ -1,7 +1,7 @@
 #include "techniques/subsurface/Splatting.h"
 
-#include "techniques/subsurface/Sky.h"
 #include "light/ShadowMap.h"
+#include "techniques/subsurface/Sky.h"
 
 #include <algorithm>
 #include <cmath>
@@ -475,7 +475,7 @@ Status Splatter::spread(std::size_t from) {
 // W/m² that may enter.
 float Splatter::brightest() const {
     float most = 0;
-    for (const views::LampPoint& lamp : views::lampPoints(in_.scene, settings_.lightSamples))
+    for (const views::LampPoint& lamp : views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp))
         for (const views::PosedMesh& mesh : in_.solids) {
             const views::Bounds bounds = views::boundsOf(*mesh.drawn.object);
             const vec3 nearest = glm::clamp(vec3(lamp.place), bounds.low, bounds.high);
@@ -506,7 +506,7 @@ Result<Radiosity> Splatter::record() {
     for (int scale = 0; scale <= scales; ++scale)
         if (Status s = recordPlaces(scale); !s) return s.error();
     for (const Target& target : targets) {
-        for (const views::LampPoint& lamp : views::lampPoints(in_.scene, settings_.lightSamples))
+        for (const views::LampPoint& lamp : views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp))
             if (Status s = lit(target, lamp); !s) return s.error();
         if (in_.environment != graph::TextureHandle::None)
             if (Status s = sky(target); !s) return s.error();

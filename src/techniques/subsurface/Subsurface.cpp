@@ -1,12 +1,12 @@
 #include "techniques/subsurface/Subsurface.h"
 
 #include "base/Log.h"
+#include "light/ShadowMap.h"
 #include "techniques/subsurface/Lambert.h"
 #include "techniques/subsurface/Past.h"
 #include "techniques/subsurface/Splatting.h"
 #include "techniques/subsurface/Volume.h"
 #include "views/Layers.h"
-#include "light/ShadowMap.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -420,17 +420,6 @@ const ParamTable& Subsurface::params() {
                      "it, where twice the spread is four times the light.",
                  .choices = kBlurEnergies}),
         declare(
-            &Settings::lightSamples,
-            {.id = "lightSamples",
-             .label = "Points of a lamp in scattering",
-             .min = 1,
-             .max = 256,
-             .low = 1,
-             .high = 64,
-             .logarithmic = true,
-             .group = Group::Subsurface,
-             .doc = "How many points stand for a lamp that has a size, where it lights scattering objects."}),
-        declare(
             &Settings::cells,
             {.id = "cells",
              .label = "Cells",
@@ -538,13 +527,14 @@ void Subsurface::clear() {
 Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
                           const Settings& settings) const {
     std::vector<views::PosedMesh> objects = scattering(in.solids);
-    if (settings.layer != PaintLayer::None && !showsLight(in)) {
+    const PaintLayer layer = in.scene.view.paintLayer;
+    if (layer != PaintLayer::None && !showsLight(in)) {
         const auto rest = std::stable_partition(
             objects.begin(), objects.end(), [](const views::PosedMesh& mesh) { return !mesh.drawn.paint; });
         const std::vector<views::PosedMesh> painted(rest, objects.end());
         objects.erase(rest, objects.end());
         if (!painted.empty())
-            if (Status s = recordLayer(graph, context_, in, painted, settings.layer); !s) return s;
+            if (Status s = recordLayer(graph, context_, in, painted, layer); !s) return s;
     }
     if (objects.empty()) return Done{};
     Result<Radiosity> radiosity = in.irradiance || settings.method == Method::Lambert
@@ -557,7 +547,7 @@ Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan
     if (!radiosity) return radiosity.error();
     TextureId highlight;
     if (!showsLight(in))
-        for (const views::LampPoint& lamp : views::lampPoints(in.scene, settings.lightSamples)) {
+        for (const views::LampPoint& lamp : views::lampPoints(in.scene, views::samplingOf(in.scene).lamp)) {
             Result<TextureId> added = recordHighlight(graph, context_, in, objects, lamp, highlight);
             if (!added) return added.error();
             highlight = *added;

@@ -25,8 +25,7 @@ enum class DipoleGeometry : int { Planar, Offset };
 enum class Splats : int { Bound, Paper };
 enum class Exit : int { Whole, Paper };
 enum class BlurEnergy : int { Kept, Paper };
-/// A painted map shown on its object in place of light.
-enum class PaintLayer : int { None, Translucency, Blur, Glow, Outgoing };
+using scene::PaintLayer;
 
 struct Settings {
     Method method = Method::Multires;
@@ -37,10 +36,8 @@ struct Settings {
     int mostSplats = 256; ///< a side of a light's view
     Exit exit = Exit::Whole;
     BlurEnergy blurEnergy = BlurEnergy::Kept; ///< of light where M_d is painted
-    int lightSamples = 16;                    ///< points that stand for a lamp with a size
     int cells = 48;                           ///< along the longest side of a body, of diffusion
     bool temporal = false;                    ///< light is mixed with that of the picture before
-    PaintLayer layer = PaintLayer::None;      ///< no parameter: who paints asks for it, not a scene
 };
 
 /// Whether a parameter changes anything beside these choices.

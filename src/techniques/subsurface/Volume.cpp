@@ -1,8 +1,8 @@
 #include "techniques/subsurface/Volume.h"
 
 #include "base/Log.h"
-#include "techniques/subsurface/Sky.h"
 #include "light/ShadowMap.h"
+#include "techniques/subsurface/Sky.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,7 +148,7 @@ std::optional<Volumes::Key> Body::key() const {
         for (int i = 0; i < vector.length(); ++i)
             numbers.push_back(vector[i]);
     };
-    for (const views::LampPoint& lamp : views::lampPoints(in_.scene, settings_.lightSamples)) {
+    for (const views::LampPoint& lamp : views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp)) {
         add(lamp.place);
         add(lamp.color);
         add(lamp.axis);
@@ -166,7 +166,7 @@ std::optional<Volumes::Key> Body::key() const {
                        {float(medium.scattering), float(medium.absorption), float(medium.ior)});
     for (const int layers : plan_.layers)
         numbers.push_back(float(layers));
-    add(ivec2(settings_.cells, settings_.lightSamples));
+    add(ivec2(settings_.cells, views::samplingOf(in_.scene).lamp));
     return key;
 }
 
@@ -306,7 +306,7 @@ Status Body::lay(const Points& points, vec4 lamp) {
 // Four points along a cell: with two the lattice shows where light grazes the surface.
 Status Body::light() {
     const Grid grid{.pixel = cells_.width / 4, .levels = 1, .most = context_.caps().maxTextureSize};
-    for (const views::LampPoint& lamp : views::lampPoints(in_.scene, settings_.lightSamples)) {
+    for (const views::LampPoint& lamp : views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp)) {
         if (lamp.color == vec3(0)) continue;
         const views::ShadowViews views =
             views::shadowViews(lamp.source, boundsOfAll(in_.casters), bounds_, 2 * settings_.cells);

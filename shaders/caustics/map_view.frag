@@ -1,4 +1,4 @@
-// frame/map.frag: a caustic map as a picture, as large as fits.
+// caustics/map_view.frag: a caustic map as a picture, as large as fits.
 //
 // in    uMap     flux on each texel; 1: what the light leaves on one undisturbed
 //       uShadow  depths of the receivers, seen from the light

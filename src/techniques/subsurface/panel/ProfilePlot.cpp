@@ -1,4 +1,4 @@
-#include "viewer/ProfilePlot.h"
+#include "techniques/subsurface/panel/ProfilePlot.h"
 
 #include "base/JsonWriter.h"
 #include "techniques/subsurface/Subsurface.h"
@@ -8,13 +8,17 @@
 #include <cmath>
 #include <cstdio>
 
-namespace lucent::viewer {
+namespace lucent::subsurface {
 
 namespace {
 
-constexpr double kMm = 1e-3; // m
-constexpr int kPoints = 96;  // of a curve, denser near 0
-constexpr int kDecades = 5;  // shown below the largest value
+constexpr double kMm = 1e-3;       // m
+constexpr int kPoints = 96;        // of a curve, denser near 0
+constexpr int kDecades = 5;        // shown below the largest value
+constexpr float kPlotHeight = 168; // CSS pixels
+
+using viewer::Theme;
+namespace layout = viewer::layout;
 
 constexpr std::array<std::string_view, 3> kColors{"red", "green", "blue"};
 // Not pure: to be told apart on light and dark ground, and by their brightness too.
@@ -41,10 +45,10 @@ void addValues(ProfilePlot& plot, const std::array<diffusion::Medium, 3>& media,
     }
 }
 
-ProfilePlot plotOf(const scene::Object& object, const subsurface::Settings& settings) {
+ProfilePlot plotOf(const scene::Object& object, const Settings& settings) {
     ProfilePlot plot;
     plot.owner = object.name;
-    const ParamTable& table = subsurface::Subsurface::params();
+    const ParamTable& table = Subsurface::params();
     for (const Param& param : table.params)
         if (param.id == "profile") plot.profile = param.choices[std::size_t(settings.profile)];
     const std::array<diffusion::Medium, 3> media = diffusion::mediaOf(object.material);
@@ -113,7 +117,7 @@ void drawCurve(ImDrawList& list, const Axes& axes, const ProfilePlot& plot, int 
 
 std::vector<ProfilePlot> profilePlots(const scene::Scene& scene) {
     std::vector<ProfilePlot> plots;
-    const auto& settings = scene.technique.at("subsurface").as<subsurface::Settings>();
+    const auto& settings = scene.technique.at("subsurface").as<Settings>();
     for (const scene::Object& object : scene.objects)
         if (object.visible && !object.isField() && object.material.isScattering())
             plots.push_back(plotOf(object, settings));
@@ -128,29 +132,30 @@ std::string describe(const ProfilePlot& plot) {
     return text + ".";
 }
 
-std::string profilesJson(const std::vector<ProfilePlot>& plots) {
+namespace {
+
+// Owner, profile, reach, whole, distances, values, text.
+std::string jsonOf(const ProfilePlot& plot) {
     JsonWriter json;
     const auto numbers = [&](const char* key, const auto& list) {
         const std::vector<float> row(list.begin(), list.end());
         json.key(key).value(std::span<const float>(row));
     };
-    json.beginArray();
-    for (const ProfilePlot& plot : plots) {
-        json.beginObject().key("owner").value(plot.owner).key("profile").value(plot.profile);
-        numbers("reach", plot.reach);
-        numbers("whole", plot.whole);
-        numbers("distances", plot.distances);
-        json.key("values").beginArray();
-        for (const dvec3& value : plot.values) {
-            const float row[] = {float(value.r), float(value.g), float(value.b)};
-            json.value(std::span<const float>(row));
-        }
-        json.end().key("text").value(describe(plot)).end();
+    json.beginObject().key("owner").value(plot.owner).key("profile").value(plot.profile);
+    numbers("reach", plot.reach);
+    numbers("whole", plot.whole);
+    numbers("distances", plot.distances);
+    json.key("values").beginArray();
+    for (const dvec3& value : plot.values) {
+        const float row[] = {float(value.r), float(value.g), float(value.b)};
+        json.value(std::span<const float>(row));
     }
-    json.end();
+    json.end().key("text").value(describe(plot)).end();
     return json.text();
 }
 
+// Curves over distance, their values on a scale of decades; a tick at each colour's reach; what leaves of
+// each colour above.
 void drawProfilePlot(ImDrawList& list, vec2 at, float width, const ProfilePlot& plot, const Theme& theme) {
     float x = at.x;
     const auto write = [&](ImU32 ink, const std::string& text) {
@@ -176,4 +181,21 @@ void drawProfilePlot(ImDrawList& list, vec2 at, float width, const ProfilePlot& 
         drawCurve(list, axes, plot, c);
 }
 
-} // namespace lucent::viewer
+std::vector<viewer::Figure> figures(const scene::Scene& scene) {
+    std::vector<viewer::Figure> list;
+    for (ProfilePlot& plot : profilePlots(scene)) {
+        viewer::Figure figure{plot.owner, describe(plot), jsonOf(plot), kPlotHeight, {}};
+        figure.draw = [plot = std::move(plot)](ImDrawList& drawn, vec2 at, float width, const Theme& theme) {
+            drawProfilePlot(drawn, at, width, plot, theme);
+        };
+        list.push_back(std::move(figure));
+    }
+    return list;
+}
+
+} // namespace
+
+extern const viewer::PanelPart kPanelPart;
+const viewer::PanelPart kPanelPart{figures};
+
+} // namespace lucent::subsurface

@@ -1,4 +1,4 @@
-// frame/copy.frag: a picture as it is.
+// subsurface/matt.frag: painted objects as if they were opaque.
 uniform sampler2D uShown;
 layout(location = 0) out vec4 oColor;
 

@@ -3,10 +3,10 @@
 
 #include "views/ObjectKey.h"
 
-namespace lucent::frame {
+namespace lucent::views {
 
 struct SurfaceKey {
-    std::vector<views::ObjectKey> objects;
+    std::vector<ObjectKey> objects;
     mat4 clipFromWorld;
     ivec2 size;
     bool showsGlass;      // its surface, not what is behind
@@ -14,7 +14,7 @@ struct SurfaceKey {
     bool operator==(const SurfaceKey&) const = default;
 };
 
-/// @param waters  views::Waters::changes()
+/// @param waters  Waters::changes()
 SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t waters);
 
 /// Whether a quantity is one of the surfaces alone, without light.
@@ -22,4 +22,4 @@ inline bool isGeometric(scene::Aov aov) {
     return aov == scene::Aov::Normal || aov == scene::Aov::Depth || aov == scene::Aov::Position;
 }
 
-} // namespace lucent::frame
+} // namespace lucent::views

@@ -1,4 +1,4 @@
-// frame/layer.frag: one layer of a view as a picture.
+// refract/layer_view.frag: one layer of a view as a picture.
 //
 // in    uLayers  views/layer_texel.glsl
 // out   oValue   SHOW_DEPTH: m along the view; SHOW_NORMAL: outward, world; else a colour for each object, darker

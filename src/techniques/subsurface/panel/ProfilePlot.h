@@ -3,14 +3,14 @@
 /// where light enters and leaves (image-space dissertation 2007, figures 7.1 to 7.5).
 
 #include "diffusion/Profile.h"
-#include "viewer/Theme.h"
+#include "viewer/Figure.h"
 
 #include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace lucent::viewer {
+namespace lucent::subsurface {
 
 /// Of one object, each colour by itself.
 struct ProfilePlot {
@@ -29,13 +29,4 @@ std::vector<ProfilePlot> profilePlots(const scene::Scene& scene);
 /// ...".
 std::string describe(const ProfilePlot& plot);
 
-/// JSON array of owner, profile, reach, whole, distances, values, text.
-std::string profilesJson(const std::vector<ProfilePlot>& plots);
-
-inline constexpr float kPlotHeight = 168; ///< CSS pixels
-
-/// Curves over distance, their values on a scale of decades; a tick at each colour's reach; what leaves of
-/// each colour above. Needs a current ImGui window.
-void drawProfilePlot(ImDrawList& list, vec2 at, float width, const ProfilePlot& plot, const Theme& theme);
-
-} // namespace lucent::viewer
+} // namespace lucent::subsurface

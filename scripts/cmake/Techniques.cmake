@@ -1,0 +1,35 @@
+# The techniques that are built in: a folder of src/techniques and a name in this list, in the order in which the frame
+# calls them. Others can be left out: cmake -DLUCENT_TECHNIQUES=relief
+set(LUCENT_TECHNIQUES relief brdf caustics subsurface refract CACHE STRING "Techniques that are built in")
+
+# lucent_list(LIBRARY HEADER TYPE FUNCTION CONSTANT NAME...): a library in which FUNCTION() answers with the CONSTANT of
+# each technique's namespace. Programs link it themselves: it is one of objects, of which none is left out.
+function(lucent_list library HEADER TYPE FUNCTION CONSTANT)
+  set(DECLARED)
+  set(LISTED)
+  foreach(technique ${ARGN})
+    string(APPEND DECLARED "namespace lucent::${technique} {\nextern const ${TYPE} ${CONSTANT};\n}\n")
+    string(APPEND LISTED "&lucent::${technique}::${CONSTANT}, ")
+  endforeach()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${library}.cpp)
+  configure_file(${PROJECT_SOURCE_DIR}/src/techniques/List.cpp.in ${source} @ONLY)
+  add_library(lucent_${library} OBJECT ${source})
+  lucent_target(lucent_${library})
+  target_include_directories(lucent_${library} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  lucent_precompile(lucent_${library})
+endfunction()
+
+# lucent_technique_parts(PART LIBRARY HEADER TYPE FUNCTION CONSTANT): what techniques have on a higher floor, each in its
+# folder techniques/NAME/PART as the library NAME_PART, and their list.
+function(lucent_technique_parts part library)
+  set(having)
+  foreach(technique ${LUCENT_TECHNIQUES})
+    if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/src/techniques/${technique}/${part})
+      add_subdirectory(${PROJECT_SOURCE_DIR}/src/techniques/${technique}/${part})
+      list(APPEND having ${technique})
+    endif()
+  endforeach()
+  lucent_list(${library} ${ARGN} ${having})
+  list(TRANSFORM having REPLACE "(.+)" "lucent_\\1_${part}")
+  target_link_libraries(lucent_${library} PUBLIC ${having})
+endfunction()

@@ -1,0 +1,242 @@
+// One picture's passes: what the guests draw, phase by phase.
+#include "frame/RendererState.h"
+
+#include "views/Surface.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace lucent::frame {
+
+using graph::Format;
+using graph::TextureId;
+using technique::Guest;
+using technique::Passes;
+using technique::Picture;
+
+namespace {
+
+using views::hasEnvironment;
+
+struct BackgroundBlock {
+    views::ViewBlock view;
+    mat4 mapFromWorld;
+    float intensity;
+    int padding[3] = {};
+
+    static const graph::BlockLayout& layout() {
+        static const auto members = [] {
+            auto list = views::viewMembers(offsetof(BackgroundBlock, view));
+            list.insert(list.end(), {{"mapFromWorld", offsetof(BackgroundBlock, mapFromWorld)},
+                                     {"intensity", offsetof(BackgroundBlock, intensity)}});
+            return list;
+        }();
+        static const graph::BlockLayout layout{"BackgroundBlock", sizeof(BackgroundBlock), members};
+        return layout;
+    }
+};
+
+} // namespace
+
+Renderer::State::State(gl::Context& gl) : context(gl), pool(gl.device()), images(gl), waters(gl), budget(gl) {
+    for (const technique::Technique* technique : technique::all())
+        members.push_back({technique, technique->make({context, pool, images})});
+    for (const Member& member : members)
+        if (technique::Chooser* chooser = member.guest->chooser()) choosers.push_back(chooser);
+    choosers.push_back(&budget);
+}
+
+Result<Renderer::State::Moment> Renderer::State::momentOf(const scene::Scene& scene) {
+    Moment moment{chosen(scene), views::makeEye(scene, float(size.x) / float(size.y)), {}, {}};
+    // Objects are the scene's own: those of a copy would be gone before the passes run.
+    Result<views::Drawn> drawn = views::drawnOf(scene, images, waters);
+    if (!drawn) return drawn.error();
+    moment.drawn = std::move(*drawn);
+    Result<views::Drawn> all = views::drawnOf(scene, images, waters, true);
+    if (!all) return all.error();
+    moment.all = std::move(*all);
+    if (hasEnvironment(scene)) {
+        Result<graph::TextureHandle> map = images.image(scene.environment->map);
+        if (!map) return map.error();
+        moment.environment = *map;
+    }
+    return moment;
+}
+
+std::vector<Guest*> Renderer::State::needed(const scene::Scene& scene) const {
+    std::vector<Guest*> list;
+    for (const Member& member : members)
+        if (member.technique->need(scene)) list.push_back(member.guest.get());
+    return list;
+}
+
+// Who owns the quantity that is shown, or else who makes the picture anew.
+Guest* Renderer::State::replacing(const Picture& picture) const {
+    Guest* found = nullptr;
+    for (const Member& member : members) {
+        if (!member.guest->replaces(picture)) continue;
+        const auto& aovs = member.technique->aovs;
+        if (std::find(aovs.begin(), aovs.end(), picture.scene.view.show) != aovs.end())
+            return member.guest.get();
+        if (!found) found = member.guest.get();
+    }
+    return found;
+}
+
+// Whether the picture stands in `through` and not in `shown`: a guest makes it anew, or an environment stands
+// behind meshes.
+bool Renderer::State::replaces(const Picture& picture) const {
+    if (views::isGeometric(picture.scene.view.show)) return false;
+    const bool background = hasEnvironment(picture.scene) && picture.scene.view.show == scene::Aov::Color;
+    return replacing(picture) || (background && !picture.drawn.meshes.solid.empty());
+}
+
+Status Renderer::State::prepare(const Picture& picture) {
+    for (const Member& member : members) {
+        if (!member.technique->need(picture.scene)) {
+            member.guest->clear();
+            continue;
+        }
+        if (!surfaceShown) member.guest->viewChanged();
+        if (Status s = member.guest->prepare(picture); !s) return s;
+    }
+    if (!replaces(picture))
+        through = graph::Texture();
+    else if (!through || through.desc() != shown.desc())
+        through = graph::Texture(context.device(), shown.desc(), "frame.through");
+    return Done{};
+}
+
+// Triangles stay where they are while their objects do, for the last phases: rays are traced there.
+Result<views::Posed> Renderer::State::poseKeeping(graph::FrameGraph& graph, const Picture& picture) {
+    std::vector<views::ObjectKey> standing;
+    for (const views::DrawnMesh& mesh : picture.all.meshes.glass)
+        standing.push_back(views::objectKey(*mesh.object, picture.scene.view.time));
+    if (standing != triangled || watersThen != waters.changes()) triangles.current = false;
+    triangled = std::move(standing);
+    watersThen = waters.changes();
+    return views::recordPosed(graph, context, picture.all, picture.scene.view.time, &triangles);
+}
+
+Status Renderer::State::recordSlice(graph::FrameGraph& graph, const Picture& picture, int end) {
+    const TextureId surfaceId = import(graph, surfaceShown ? shownSurface : surface);
+    const TextureId targetId = import(graph, next > 0 ? scratch : sum);
+    graph.keep(targetId);
+    Result<views::Posed> posed =
+        views::recordPosed(graph, context, picture.all, picture.scene.view.time, nullptr);
+    if (!posed) return posed.error();
+    const scene::Aov show = picture.scene.view.show;
+    std::vector<views::PosedMesh> solids = views::Posed::visible(posed->solid);
+    if (views::isGeometric(show)) {
+        const std::vector<views::PosedMesh> glass = views::Posed::visible(posed->glass);
+        solids.insert(solids.end(), glass.begin(), glass.end());
+    }
+    const auto& fields = picture.drawn.fields;
+    if (!surfaceDrawn && !solids.empty()) graph.keep(surfaceId); // read after this graph
+    if (!surfaceDrawn)
+        if (Status s = views::recordSurface(graph, context, picture.eye, fields, solids, surfaceId, size); !s)
+            return s;
+    if (views::isGeometric(show))
+        return views::recordGeometry(graph, context, picture.eye, fields, solids, surfaceId, targetId, show,
+                                     size);
+    return recordLight({picture, graph, *posed, surfaceId}, targetId, end);
+}
+
+// Light of one slice of the samples on everything that is lit where it is seen.
+Status Renderer::State::recordLight(const Passes& passes, TextureId target, int end) {
+    const Picture& picture = passes.picture;
+    std::vector<Guest*> shading = needed(picture.scene), guests = shading;
+    std::erase_if(shading, [&](const Guest* guest) { return !guest->shades(picture.scene); });
+    if (shading.empty()) {
+        views::recordNothing(passes.graph, "nothing is lit sample by sample", target);
+        return Done{};
+    }
+    TextureId flux;
+    for (Guest* guest : guests) {
+        if (next > 0) break; // all of it joins the first slice
+        Result<TextureId> carried = guest->light(passes);
+        if (!carried) return carried.error();
+        if (*carried) flux = *carried;
+    }
+    const std::vector<views::PosedMesh> solids = views::Posed::visible(passes.posed.solid);
+    const views::Lit lit{.eye = picture.eye,
+                         .size = size,
+                         .surface = passes.surface,
+                         .fields = picture.drawn.fields,
+                         .solids = solids,
+                         .casters = passes.posed.fields,
+                         .opaque = passes.posed.solid,
+                         .refractive = passes.posed.glass,
+                         .shadowSize = views::samplingOf(picture.scene).shadowSize};
+    const std::span<const views::LampPoint> some(lights.data() + next, std::size_t(end - next));
+    Result<views::Occlusion> occlusion = views::recordOcclusion(passes.graph, context, lit, some);
+    if (!occlusion) return occlusion.error();
+    technique::Slice slice{.samples = lights,
+                           .table = import(passes.graph, lightTable),
+                           .first = next,
+                           .end = end,
+                           .placed = placed,
+                           .occlusion = *occlusion,
+                           .flux = flux,
+                           .sum = next > 0 ? import(passes.graph, sum) : TextureId{},
+                           .target = target,
+                           .baked = stages[stage].baked,
+                           .clears = true};
+    for (Guest* guest : shading) {
+        if (Status s = guest->shade(passes, slice); !s) return s;
+        slice.clears = false;
+    }
+    return Done{};
+}
+
+// Over the complete sum: what is not summed sample by sample, what is seen through other things, and the
+// environment behind all of it.
+Status Renderer::State::recordRest(graph::FrameGraph& graph, const Picture& picture) {
+    Result<views::Posed> posed = poseKeeping(graph, picture);
+    if (!posed) return posed.error();
+    const TextureId shownId = import(graph, shown);
+    const Passes passes{picture, graph, *posed, import(graph, shownSurface)};
+    graph.keep(shownId);
+    Guest* const last = replacing(picture);
+    if (!isNumbered(picture.scene.view.show))
+        for (Guest* guest : needed(picture.scene))
+            if (Status s = guest->scatter(passes, shownId); !s) return s;
+    if (!composed) return Done{};
+    const TextureId target = import(graph, through);
+    graph.keep(target);
+    return last ? last->through(passes, shownId, target) : recordBackground(passes, shownId, target);
+}
+
+Status Renderer::State::recordBackground(const Passes& passes, TextureId shownId, TextureId target) {
+    Result<const gl::Program*> program = context.program("frame/background");
+    if (!program) return program.error();
+    const scene::Environment& light = *passes.picture.scene.environment;
+    const BackgroundBlock block{.view = views::viewBlock(passes.picture.eye, size),
+                                .mapFromWorld = mat4(glm::transpose(rotationFromDegrees(light.rotation))),
+                                .intensity = light.intensity};
+    passes.graph.addPass("frame.background", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("the environment behind everything else");
+        pass.sample(passes.surface);
+        pass.sample(shownId);
+        pass.write(target);
+        return [=, program = *program, surfaceId = passes.surface, map = passes.picture.environment](
+                   const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .block = block,
+                           .textures = {{"uSurface", resources[surfaceId]},
+                                        {"uShown", resources[shownId]},
+                                        {"uEnvironment", map}}});
+        };
+    });
+    return Done{};
+}
+
+Status Renderer::State::addRest(const Picture& picture) {
+    composed = replaces(picture);
+    if (views::isGeometric(picture.scene.view.show)) return Done{};
+    const Status added = runGraph([&](graph::FrameGraph& graph) { return recordRest(graph, picture); });
+    context.device().wait(this->picture().handle());
+    return added;
+}
+
+} // namespace lucent::frame

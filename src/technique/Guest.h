@@ -1,0 +1,158 @@
+#pragma once
+/// What a technique does while pictures are made. The frame calls guests in the order of their list, phase by
+/// phase, and knows none of them.
+
+#include "light/Occlusion.h"
+#include "light/Samples.h"
+#include "views/FieldTextures.h"
+#include "views/Objects.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lucent::technique {
+
+/// What all guests of a renderer share; it outlives them.
+struct Store {
+    gl::Context& context;
+    graph::TexturePool& pool;
+    views::ImageCache& images;
+};
+
+/// One picture, as far as it is the same for all its passes.
+struct Picture {
+    const scene::Scene& scene; ///< with the settings that this picture is made with
+    const views::Waters& waters;
+    const views::Eye& eye;            ///< the camera's
+    ivec2 size;                       ///< pixels
+    const views::Drawn& drawn;        ///< what the camera sees
+    const views::Drawn& all;          ///< with what is hidden from it
+    graph::TextureHandle environment; ///< lat-long map; None without one, or where it is switched off
+};
+
+/// The same while a graph of passes is recorded.
+struct Passes {
+    const Picture& picture;
+    graph::FrameGraph& graph;
+    const views::Posed& posed; ///< all objects, hidden ones too
+    graph::TextureId surface;  ///< views.surface: first hits of the camera's rays
+};
+
+/// Some of the light samples, to be added to what earlier slices summed.
+struct Slice {
+    const std::vector<views::LampPoint>& samples; ///< all of them
+    graph::TextureId table;                       ///< views::sampleTable(samples)
+    int first, end;                               ///< those of this slice
+    int placed;                                   ///< samples [placed, ...) are the environment's
+    views::Occlusion occlusion;                   ///< of this slice
+    graph::TextureId flux;   ///< W/m² that guests carried to each pixel (Guest::light()); or none
+    graph::TextureId sum;    ///< of earlier slices; not read when first == 0
+    graph::TextureId target; ///< the sum with this slice; RGBA32F
+    bool baked;              ///< the environment's light on what a guest has baked comes from there
+    bool clears;             ///< nobody has drawn into the target yet
+};
+
+/// How far a bake is.
+enum class Bake {
+    Working,
+    Ready,
+    Refused ///< it would not keep quality.maxError: the guest's chooser has something to choose again
+};
+
+/// Chooses the cheapest settings that keep quality.maxError, over several slices of time.
+class Chooser {
+public:
+    virtual ~Chooser() = default;
+
+    /// Whether any setting trades error for time in this scene.
+    virtual bool matters(const scene::Scene& scene) const = 0;
+    /// Begins anew for a scene with quality.maxError > 0 in which something matters().
+    ///
+    /// @param dragged  a quick look: there is no time, the last choice serves again
+    virtual void start(const scene::Scene& scene, ivec2 size, bool dragged) = 0;
+    /// The scene keeps no error: nothing is chosen any more.
+    virtual void forget() = 0;
+    virtual bool done() const = 0;
+    /// Draws a trial or two.
+    virtual Status step(const scene::Scene& scene) = 0;
+    /// Puts what is chosen so far into a scene's settings.
+    virtual void apply(scene::Scene& scene) const = 0;
+
+    struct Choice {
+        std::string text;    ///< "16 samples a lamp, error about 0.8 %", for people
+        float predicted = 0; ///< RMSE over the mean
+    };
+    /// Nothing before it is done.
+    virtual std::optional<Choice> choice() const = 0;
+};
+
+/// Parts of a sum with their names, W of each colour, the whole first.
+using Balance = std::vector<std::pair<std::string, dvec3>>;
+
+class Guest {
+public:
+    virtual ~Guest() = default;
+
+    // --- before the passes of a stage
+
+    /// Makes what record functions need: tables, counts, plans. Only where the scene needs the technique.
+    virtual Status prepare(const Picture&) { return Done{}; }
+    /// The camera or an object has moved, or another scene is drawn.
+    virtual void viewChanged() {}
+
+    /// Whether this picture's environment comes from what is worked out once for all pictures.
+    virtual bool bakes(const scene::Scene&) const { return false; }
+    /// Whether that is there already.
+    virtual bool isBaked(const scene::Scene&) const { return false; }
+    /// Directions of the environment that are summed beside it.
+    virtual int directionsBesideBake(const scene::Scene&) const { return 0; }
+    /// Works on it for about so long.
+    virtual Result<Bake> bake(const Picture&, double) { return Bake::Ready; }
+    /// Finished part of that work, [0,1].
+    virtual float bakedShare() const { return 1; }
+
+    // --- phases
+
+    /// Light: carries lamps' light to what the camera sees by other ways than straight on.
+    ///
+    /// @return  RGBA32F, W/m² on each pixel of the surface; none where there is none
+    virtual Result<graph::TextureId> light(const Passes&) { return graph::TextureId{}; }
+    /// Whether light samples reach anything that this technique shades in what a scene shows.
+    virtual bool shades(const scene::Scene&) const { return false; }
+    /// Shade: adds a slice of the light samples to its pixels and leaves the others as they are.
+    virtual Status shade(const Passes&, const Slice&) { return Done{}; }
+    /// Scatter: draws, over the complete sum, what is not summed sample by sample.
+    virtual Status scatter(const Passes&, graph::TextureId) { return Done{}; }
+    /// Through: whether the picture is what this technique makes of the finished one, or shows a quantity of
+    /// its own.
+    virtual bool replaces(const Picture&) const { return false; }
+    virtual Status through(const Passes&, graph::TextureId /*shown*/, graph::TextureId /*target*/) {
+        return Done{};
+    }
+
+    // --- after a picture
+
+    /// Whether answers are awaited that say if the picture is whole: settle() after the next frames.
+    virtual bool isUnsettled() const { return false; }
+    /// Takes the answers that have come. @return whether the last two phases are to run again
+    virtual Result<bool> settle(const Picture&) { return false; }
+    /// What was recorded last did not run.
+    virtual void forgetRecorded() {}
+    /// What became of the light that it carried in the finished picture; empty where it carries none. Draws
+    /// again and reads back.
+    virtual Result<Balance> balance(const Picture&) { return Balance{}; }
+    /// What was left out of this picture and why, one line each, for `lucent explain`.
+    virtual std::vector<std::string> leftOut(const Picture&) const { return {}; }
+    /// Textures that stay between pictures, by label, bytes.
+    virtual std::map<std::string, std::size_t> bytes() const { return {}; }
+    /// Gives back what is kept between pictures.
+    virtual void clear() {}
+
+    /// Of this technique alone; null: its knobs say all.
+    virtual Chooser* chooser() { return nullptr; }
+};
+
+} // namespace lucent::technique

@@ -1,0 +1,101 @@
+#pragma once
+/// What there is to know of a technique. The list of those that are built in is made by CMake
+/// (LUCENT_TECHNIQUES): adding one is its folders and its name there.
+
+#include "base/Param.h"
+#include "scene/Painting.h"
+#include "scene/Scene.h"
+#include "truth/Model.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lucent::technique {
+
+class Guest;
+struct Store;
+
+/// A parameter that trades error for time: first looks turn it down, and quality.maxError chooses its value.
+struct Knob {
+    std::string_view id;                ///< in the technique's table
+    double coarse;                      ///< of a first look, unless the scene's own is cheaper
+    bool costsLess = false;             ///< greater values cost less
+    std::span<const double> steps = {}; ///< cheapest first; the last one is only drawn to be compared with.
+                                        ///< Empty: only first looks turn it
+    bool isExactAtMost = false;  ///< the table's maximum is the exact picture, in place of the next step
+    std::string_view words = ""; ///< "rays a side"
+    std::string_view tied = "";  ///< another parameter, which is
+    double factor = 1;           ///< so many times this one
+    bool (*acts)(const scene::Scene&) = nullptr; ///< null: wherever the technique is needed
+};
+
+/// A knob and the table of parameters in which its own lies.
+struct KnobOf {
+    std::string_view table;
+    const Knob* knob;
+    bool isSampling = false; ///< of the light samples, which no technique owns
+};
+
+/// What a technique leaves out of a picture.
+struct NotDrawn {
+    std::string_view what; ///< "light that a mirror throws by way of another mirror"
+    std::string_view why;
+    bool (*applies)(const scene::Scene&);
+    std::optional<scene::PaintMap> map = {}; ///< which a person painted in vain
+};
+
+/// What a person works on, as the page sorts it.
+struct Mode {
+    std::string_view name;
+    int place;                    ///< among the others, from the left
+    std::span<const Group> first; ///< groups of sliders that stand first
+    /// Whether a scene begins with it, before all that stand left of it.
+    bool (*leads)(const scene::Scene&) = nullptr;
+};
+
+struct Technique {
+    std::string_view name;
+    const ParamTable* (*params)() = nullptr; ///< null: it has none
+    /// Why the scene needs it; nothing when it does not.
+    std::optional<std::string> (*need)(const scene::Scene&);
+    /// Whether a parameter changes anything beside the others; null: all do.
+    bool (*acts)(const Settings&, std::string_view id) = nullptr;
+    /// Parameters that belong to the model and not to how it is drawn,
+    std::span<const std::string_view> model = {};
+    /// and what they say to an exact solution; null: nothing.
+    void (*describe)(const Settings&, truth::Model&) = nullptr;
+    std::span<const scene::Aov> aovs = {}; ///< quantities that only it has
+    std::span<const Knob> knobs = {};
+    std::span<const NotDrawn> limits = {};
+    std::optional<Mode> mode = {};
+    std::unique_ptr<Guest> (*make)(const Store&);
+};
+
+/// All techniques that are built in, in the order in which they are called.
+std::span<const Technique* const> all();
+/// By name; null where it is not built in.
+const Technique* find(std::string_view name);
+/// Why a scene needs a technique, by name; nothing when it does not.
+std::optional<std::string> need(const scene::Scene& scene, std::string_view technique);
+
+/// Tables of parameters of all techniques and of light samples, for the loader, `lucent list` and the
+/// documentation.
+std::span<const ParamTable* const> tables();
+/// Whether a parameter of a technique's table, or of light samples, changes anything in a scene.
+bool acts(const scene::Scene& scene, std::string_view table, std::string_view id);
+/// The model that a scene is drawn by.
+truth::Model modelOf(const scene::Scene& scene);
+/// The same scene with every setting as it is by default that does not belong to the model.
+scene::Scene withDefaults(scene::Scene scene);
+/// Knobs that change a picture of a scene: of its light samples, then of the techniques that it needs.
+std::vector<KnobOf> knobs(const scene::Scene& scene);
+/// What a scene asks for and no technique draws, one line each.
+///
+/// @param map  only what concerns this painted map
+std::vector<std::string> notDrawn(const scene::Scene& scene, std::optional<scene::PaintMap> map = {});
+
+} // namespace lucent::technique

@@ -1,0 +1,138 @@
+#include "technique/Technique.h"
+
+#include "technique/Guest.h"
+#include "techniques/caustics/Caustics.h"
+#include "techniques/caustics/MapView.h"
+
+#include <algorithm>
+
+namespace lucent::caustics {
+
+namespace {
+
+using graph::TextureId;
+using scene::Aov;
+
+const Settings& settingsOf(const scene::Scene& scene) {
+    return scene.technique.at("caustics").as<Settings>();
+}
+
+class CausticsGuest : public technique::Guest {
+public:
+    explicit CausticsGuest(const technique::Store& store) : store_(store), caustics_(store.context) {}
+
+    Status prepare(const technique::Picture& picture) override {
+        plan_.reset();
+        Result<Plan> plan = caustics_.plan(store_.pool, picture.scene, picture.eye, picture.all.meshes,
+                                           picture.drawn.fields, settingsOf(picture.scene));
+        if (!plan) return plan.error();
+        plan_ = std::move(*plan);
+        return Done{};
+    }
+
+    Result<TextureId> light(const technique::Passes& passes) override {
+        if (!plan_) return TextureId{};
+        return caustics_.record(passes.graph, inputs(passes, passes.surface), *plan_,
+                                settingsOf(passes.picture.scene));
+    }
+
+    bool replaces(const technique::Picture& picture) const override {
+        return picture.scene.view.show == Aov::CausticMap && picture.drawn.count() > 0;
+    }
+    Status through(const technique::Passes& passes, TextureId, TextureId target) override {
+        const technique::Picture& picture = passes.picture;
+        const int number = picture.scene.view.layer;
+        if (!plan_ || number > int(plan_->lights.size())) {
+            views::recordNothing(passes.graph,
+                                 "no lamp has that many samples that throw light by way of glass or mirrors",
+                                 target);
+            return Done{};
+        }
+        Result<Map> map =
+            caustics_.recordMap(passes.graph, inputs(passes, {}), plan_->lights[std::size_t(number - 1)],
+                                settingsOf(picture.scene));
+        return map ? recordMapView(passes.graph, store_.context, *map, target, picture.size) : map.error();
+    }
+
+    Result<technique::Balance> balance(const technique::Picture& picture) override {
+        if (!plan_) return technique::Balance{};
+        Result<Energy> energy = caustics_.measure(store_.pool, picture.scene, picture.eye, picture.all.meshes,
+                                                  picture.drawn.fields, *plan_, settingsOf(picture.scene));
+        if (!energy) return energy.error();
+        return technique::Balance{{"met", energy->met},           {"received", energy->received},
+                                  {"absorbed", energy->absorbed}, {"reflected", energy->reflected},
+                                  {"missed", energy->missed},     {"lost", energy->lost}};
+    }
+
+    void clear() override { plan_.reset(); }
+
+private:
+    static Inputs inputs(const technique::Passes& passes, TextureId surface) {
+        return {.scene = passes.picture.scene,
+                .eye = passes.picture.eye,
+                .glass = passes.posed.glass,
+                .solids = passes.posed.solid,
+                .surface = surface,
+                .size = passes.picture.size,
+                .fields = passes.picture.drawn.fields};
+    }
+
+    technique::Store store_;
+    Caustics caustics_;
+    std::optional<Plan> plan_;
+};
+
+constexpr Aov kAovs[] = {Aov::CausticMap};
+constexpr Group kFirst[] = {Group::Mode, Group::Caustics, Group::Light, Group::View};
+constexpr double kGrids[] = {32, 64, 128, 256, 512};
+constexpr technique::Knob kKnobs[] = {
+    {.id = "grid", .coarse = 64, .steps = kGrids, .words = "rays a side", .tied = "mapSize", .factor = 4},
+    {.id = "refine", .coarse = 0},
+};
+
+bool throwsLight(const scene::Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
+        return object.material.isMirror() || std::holds_alternative<scene::Water>(object.shape);
+    });
+}
+template <class Is>
+bool any(const scene::Scene& scene, Is is) {
+    return !scene.lights.empty() &&
+           std::any_of(scene.objects.begin(), scene.objects.end(), [is](const scene::Object& object) {
+               return !object.isField() && is(object.material);
+           });
+}
+bool hasGlass(const scene::Scene& scene) {
+    return any(scene, [](const scene::Material& material) { return material.isRefractive(); });
+}
+bool hasMirror(const scene::Scene& scene) {
+    return any(scene, [](const scene::Material& material) { return material.isMirror(); });
+}
+bool scatters(const scene::Scene& scene) {
+    return any(scene, [](const scene::Material& material) { return material.isScattering(); });
+}
+const technique::NotDrawn kLimits[] = {
+    {"caustics by reflection on glass and water", "their light is followed through, not back", hasGlass},
+    {"caustics by way of several mirrors, or of a mirror and glass", "light is followed past one of them",
+     [](const scene::Scene& scene) { return hasMirror(scene) && scene.objects.size() > 2; }},
+    {"caustics on objects that scatter light", "what they receive is lamps' own light",
+     [](const scene::Scene& scene) { return Caustics::need(scene) && scatters(scene); }},
+};
+
+} // namespace
+
+extern const technique::Technique kTechnique;
+const technique::Technique kTechnique{
+    .name = "caustics",
+    .params = [] { return &Caustics::params(); },
+    .need = Caustics::need,
+    .aovs = kAovs,
+    .knobs = kKnobs,
+    .limits = kLimits,
+    .mode = technique::Mode{.name = "caustics", .place = 2, .first = kFirst, .leads = throwsLight},
+    .make = [](const technique::Store& store) -> std::unique_ptr<technique::Guest> {
+        return std::make_unique<CausticsGuest>(store);
+    },
+};
+
+} // namespace lucent::caustics

@@ -1,0 +1,243 @@
+#include "technique/Technique.h"
+
+#include "base/Log.h"
+#include "technique/Guest.h"
+#include "techniques/refract/LayerView.h"
+#include "techniques/refract/Refract.h"
+#include "views/SurfaceKey.h"
+
+#include <algorithm>
+
+namespace lucent::refract {
+
+namespace {
+
+using graph::TextureId;
+using scene::Aov;
+using technique::Passes;
+using technique::Picture;
+
+const Settings& settingsOf(const scene::Scene& scene) { return scene.technique.at("refract").as<Settings>(); }
+
+bool showsLayer(Aov aov) {
+    return aov == Aov::LayerDepth || aov == Aov::LayerNormal || aov == Aov::LayerObject;
+}
+
+// Layers have depths of their own, evenly spaced, so that glass may stand right before the eye.
+views::Eye closeEye(const Picture& picture) {
+    return views::makeEye(picture.scene, float(picture.size.x) / float(picture.size.y), 1e-6f);
+}
+
+bool peels(const Picture& picture) {
+    return showsLayer(picture.scene.view.show) || settingsOf(picture.scene).layers == LayerMethod::Peel;
+}
+
+class RefractGuest : public technique::Guest {
+public:
+    explicit RefractGuest(const technique::Store& store)
+        : store_(store), refract_(store.context), counter_(store.context.device()) {}
+
+    // Reads a picture back only for the first picture of these objects; slices are counted for each view.
+    Status prepare(const Picture& picture) override {
+        isUnsure_ = false;
+        const auto& glass = picture.drawn.meshes.glass;
+        if (glass.empty() || !replaces(picture)) {
+            layers_ = {};
+            return Done{};
+        }
+        return count(picture);
+    }
+    void viewChanged() override { count_ = 0; }
+
+    bool replaces(const Picture& picture) const override {
+        if (showsLayer(picture.scene.view.show)) return picture.drawn.count() > 0;
+        return !picture.drawn.meshes.glass.empty();
+    }
+    Status through(const Passes& passes, TextureId shown, TextureId target) override {
+        const Picture& picture = passes.picture;
+        if (showsLayer(picture.scene.view.show)) return recordLayer(passes, target);
+        const Settings& settings = settingsOf(picture.scene);
+        if (Status s = check(settings); !s) return s;
+        const views::Eye eye = closeEye(picture);
+        if (settings.layers == LayerMethod::Voxels)
+            if (Status s = checkVoxels(picture, eye, settings); !s) return s;
+        const std::vector<views::PosedMesh> solids = views::Posed::visible(passes.posed.solid),
+                                            glass = views::Posed::visible(passes.posed.glass);
+        TextureId solid;
+        if (!picture.drawn.fields.empty() || !solids.empty()) {
+            solid =
+                passes.graph.create("views.solid", {.size = picture.size, .format = graph::Format::RGBA32F});
+            if (Status s = views::recordSolid(passes.graph, store_.context, eye, picture.drawn.fields, solids,
+                                              passes.surface, solid, picture.size);
+                !s)
+                return s;
+        }
+        Result<views::Layers> layers =
+            settings.layers == LayerMethod::Peel
+                ? recordPeeled(passes, glass, solid, settings.maxLayers, keptLayers(picture))
+                : views::recordLayers(passes.graph, store_.context, eye, glass, picture.size, 1, solid);
+        if (!layers) return layers.error();
+        return refract_.record(
+            passes.graph,
+            {.eye = eye,
+             .glass = glass,
+             .layers = *layers,
+             .opaque = solid ? shown : TextureId{},
+             .solid = solid,
+             .environment = picture.environment,
+             .light = views::hasEnvironment(picture.scene) ? &*picture.scene.environment : nullptr,
+             .target = target,
+             .show = picture.scene.view.show,
+             .count = count_},
+            picture.size, settings);
+    }
+
+    bool isUnsettled() const override { return isUnsure_ || counter_.waits(); }
+    // In a browser no answer comes before a frame is over.
+    Result<bool> settle(const Picture& picture) override {
+        constexpr int kPatience = 8; // frames
+        if (counter_.poll()) return true;
+        if (!counter_.waits()) return isUnsure_;
+        if (++unanswered_ < kPatience) return false;
+        const int drawn = counter_.drawn();
+        counter_.reset();
+        if (Status s = count(picture); !s) return s.error();
+        isUnsure_ = false;
+        return counter_.drawn() > drawn;
+    }
+    void forgetRecorded() override {
+        counter_.reset();
+        layers_.current = false;
+    }
+    std::vector<std::string> leftOut(const Picture& picture) const override {
+        if (!picture.drawn.meshes.glass.empty()) return {};
+        return {"refract: no object that is seen lets light through"};
+    }
+    void clear() override {
+        voxelsChecked_ = 0;
+        counter_.reset();
+        counted_.clear();
+        layers_ = {};
+        isUnsure_ = false;
+        count_ = 0;
+    }
+
+private:
+    Status count(const Picture& picture) {
+        std::vector<const views::MeshTextures*> meshes;
+        for (const views::DrawnMesh& mesh : picture.drawn.meshes.glass)
+            meshes.push_back(mesh.mesh);
+        if (meshes != counted_) counter_.reset();
+        counted_ = std::move(meshes);
+        counter_.poll();
+        if (peels(picture) ? counter_.known() : count_ > 0) return Done{};
+        Result<int> count =
+            views::countLayers(store_.pool, store_.context, closeEye(picture), picture.drawn.meshes.glass,
+                               picture.scene.view.time, picture.size);
+        if (!count) return count.error();
+        count_ = std::max(1, *count);
+        counter_.start(count_);
+        return Done{};
+    }
+
+    // As many layers as there were, and a question about what is behind them. Those that are kept are asked
+    // about once.
+    Result<views::Layers> recordPeeled(const Passes& passes, const std::vector<views::PosedMesh>& glass,
+                                       TextureId solid, int most, views::KeptLayers* kept) {
+        const int count = std::min(counter_.drawn(), most);
+        const bool stands = kept && kept->current && kept->count == count;
+        const bool asks = !stands && count == counter_.drawn();
+        isUnsure_ = asks && counter_.waits();
+        unanswered_ = 0;
+        Result<views::Layers> layers = views::recordLayers(
+            passes.graph, store_.context, closeEye(passes.picture), glass, passes.picture.size, count, solid,
+            asks ? counter_.ask() : views::LayerQueries{}, kept);
+        if (kept && isUnsure_) kept->current = false; // to be drawn and asked about again
+        return layers;
+    }
+
+    // Layers stay while all surfaces do and the eye does: light and materials may change.
+    views::KeptLayers* keptLayers(const Picture& picture) {
+        views::SurfaceKey key = views::surfaceKey(picture.scene, picture.size, picture.waters.changes());
+        if (layered_ != key) layers_.current = false;
+        layered_ = std::move(key);
+        return &layers_;
+    }
+
+    Status recordLayer(const Passes& passes, TextureId target) {
+        const scene::View& view = passes.picture.scene.view;
+        if (passes.picture.drawn.meshes.glass.empty()) {
+            views::recordNothing(passes.graph, "nothing that is seen refracts", target);
+            return Done{};
+        }
+        Result<views::Layers> layers =
+            recordPeeled(passes, views::Posed::visible(passes.posed.glass), {}, views::kMostLayers, nullptr);
+        if (!layers) return layers.error();
+        return recordLayerView(passes.graph, store_.context, *layers, view.layer, view.show, target);
+    }
+
+    // Says when surfaces lie too close for the slices. It reads a picture back, so it looks again only when
+    // the number of layers has changed, or the slices.
+    Status checkVoxels(const Picture& picture, const views::Eye& eye, const Settings& settings) {
+        const int key = count_ + 64 * int(settings.slices) + 128 * int(settings.bounds);
+        if (voxelsChecked_ == key) return Done{};
+        Result<views::VoxelCount> count =
+            views::countVoxels(store_.pool, store_.context, eye, picture.drawn.meshes.glass,
+                               picture.scene.view.time, picture.size, voxelSettings(settings));
+        if (!count) return count.error();
+        if (count->sharing > 0)
+            warnOnce("refract: refractive surfaces lie closer than a slice of depth: " +
+                     std::to_string(count->sharing) + " of " + std::to_string(count->surfaces) +
+                     " in all pixels share slices with others; rays take them as lying in one place");
+        voxelsChecked_ = key;
+        return Done{};
+    }
+
+    technique::Store store_;
+    Refract refract_;
+    views::KeptLayers layers_;                        ///< of what the eye sees through,
+    std::optional<views::SurfaceKey> layered_;        ///< as it was seen
+    views::LayerCount counter_;                       ///< of peeled ones
+    std::vector<const views::MeshTextures*> counted_; ///< for which it knows
+    bool isUnsure_ = false;                           ///< nothing was asked about the picture
+    int unanswered_ = 0;                              ///< times that settle() found no answer
+    int count_ = 0;         ///< surfaces of refractive objects behind each other; 0: not known
+    int voxelsChecked_ = 0; ///< with what checkVoxels() looked last; 0: it did not
+};
+
+constexpr Aov kAovs[] = {Aov::Direction,  Aov::Layers,      Aov::Lost,
+                         Aov::LayerDepth, Aov::LayerNormal, Aov::LayerObject};
+constexpr Group kFirst[] = {Group::Mode, Group::Refraction, Group::View, Group::Environment};
+constexpr double kLayers[] = {2, 4, 8, 16};
+constexpr technique::Knob kKnobs[] = {
+    {.id = "maxLayers",
+     .coarse = views::kMostLayers,
+     .steps = kLayers,
+     .isExactAtMost = true,
+     .words = "layers"},
+};
+
+bool refracts(const scene::Scene& scene) { return Refract::need(scene).has_value(); }
+const technique::NotDrawn kLimits[] = {
+    {"through glass, objects that the camera does not see", "rays end on what its view shows", refracts},
+};
+
+} // namespace
+
+extern const technique::Technique kTechnique;
+const technique::Technique kTechnique{
+    .name = "refract",
+    .params = [] { return &Refract::params(); },
+    .need = Refract::need,
+    .acts = [](const lucent::Settings& settings,
+               std::string_view id) { return acts(settings.as<Settings>(), id); },
+    .aovs = kAovs,
+    .knobs = kKnobs,
+    .limits = kLimits,
+    .mode = technique::Mode{.name = "refraction", .place = 1, .first = kFirst, .leads = refracts},
+    .make = [](const technique::Store& store) -> std::unique_ptr<technique::Guest> {
+        return std::make_unique<RefractGuest>(store);
+    },
+};
+
+} // namespace lucent::refract

@@ -1,0 +1,38 @@
+#pragma once
+/// Figures that techniques put into the panel.
+
+#include "scene/Scene.h"
+#include "viewer/Theme.h"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lucent::viewer {
+
+/// One figure, below the controls of an object.
+struct Figure {
+    std::string owner; ///< the object's name
+    std::string text;  ///< the same for those who cannot see it
+    std::string json;  ///< its numbers, a JSON object with "owner" and "text", for the page
+    float height;      ///< CSS pixels
+    /// Draws it at a place [CSS pixels], so wide. Needs a current ImGui window.
+    std::function<void(ImDrawList&, vec2, float, const Theme&)> draw;
+};
+
+/// What a technique adds to the panel.
+struct PanelPart {
+    /// Figures of the visible objects that have any, in the scene's order.
+    std::vector<Figure> (*figures)(const scene::Scene&);
+};
+/// Those of all techniques that are built in; the list is made by CMake.
+std::span<const PanelPart* const> panelParts();
+
+/// All figures of a scene.
+std::vector<Figure> figuresOf(const scene::Scene& scene);
+/// JSON array of them.
+std::string figuresJson(const std::vector<Figure>& figures);
+
+} // namespace lucent::viewer
