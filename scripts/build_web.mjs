@@ -4,7 +4,8 @@
  *   node scripts/build_web.mjs --wasm build/web --out build/web/site
  *
  * --wasm  folder with the modules lucent, lucent-readers, lucent-truth, lucent-check and lucent-bench, .mjs and .wasm each
- * --out   folder of the finished page; the gallery is copied from assets/generated/gallery when it is there
+ * --out   folder of the finished page; the gallery is copied from assets/generated/gallery when it is there, the
+ *         documentation from web/docs to docs/, with the pictures that it shows
  */
 import { build, transform } from 'esbuild';
 import { spawnSync } from 'node:child_process';
@@ -96,6 +97,17 @@ const kPeers = join(kRoot, 'assets/pictures/caustics-peers.png');
 const example = readFileSync(web('example.html'), 'utf8');
 if (existsSync(kPeers)) copyFileSync(kPeers, out('caustics-peers.png'));
 writeFileSync(out('example.html'), existsSync(kPeers) ? example : example.replace(/<figure class="peers">.*?<\/figure>\n/s, ''));
+
+// The documentation: pages and style as they are, pictures beside them.
+const kPictures = '../../assets/pictures/';
+rmSync(out('docs'), { recursive: true, force: true });
+mkdirSync(out('docs/pictures'), { recursive: true });
+for (const name of readdirSync(web('docs')).filter((name) => /\.(html|css)$/.test(name))) {
+  const text = readFileSync(web(`docs/${name}`), 'utf8');
+  for (const [, picture] of text.matchAll(/\.\.\/\.\.\/assets\/pictures\/([\w.-]+)/g))
+    copyFileSync(join(kRoot, 'assets/pictures', picture), out(`docs/pictures/${picture}`));
+  writeFileSync(out(`docs/${name}`), text.replaceAll(kPictures, 'pictures/'));
+}
 for (const module of kModules) copyFileSync(wasm(`${module}.wasm`), out(`${module}.wasm`));
 if (existsSync(kGallery)) {
   rmSync(out('gallery'), { recursive: true, force: true });
