@@ -15,11 +15,10 @@
  * driver. What was measured by hand or before this page stands in web/docs/data/statements.json, dated.
  */
 import { existsSync, readFileSync, statSync, writeFileSync } from 'node:fs';
-import { basename, dirname, join, resolve } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { basename, join } from 'node:path';
 import { parseArgs } from 'node:util';
+import { documentOf, escaped, idOf, kDocs, table } from './docs_page.mjs';
 
-const kDocs = resolve(dirname(fileURLToPath(import.meta.url)), '../web/docs');
 const kRuns = join(kDocs, 'data/runs.json');
 const kStatements = join(kDocs, 'data/statements.json');
 const kPage = join(kDocs, 'measurements.html');
@@ -128,12 +127,6 @@ function readRun(text, shared) {
 
 // --- text
 
-const kEntities = { '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' };
-const escaped = (text) =>
-  String(text)
-    .replace(/[&<>"]/g, (sign) => kEntities[sign])
-    .replaceAll(' %', '\u00a0%');
-
 /** Three digits, with a power of ten where that is shorter. */
 function number(value) {
   if (value == null || !Number.isFinite(value)) return '–';
@@ -144,21 +137,8 @@ function number(value) {
 }
 const percent = (share) => `${number(100 * share)}\u00a0%`;
 
-const idOf = (text) => text.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
 const verdict = (met, text) => `<span class="${met ? 'met' : 'missed'}">${text}</span>`;
 const verdictOf = (met) => (met == null ? '' : verdict(met, met ? '✓ met' : '✗ missed'));
-
-/** @param rows  cells as HTML; the first of a row names it */
-function table(caption, columns, rows) {
-  const head = columns.map((column) => `<th scope="col">${escaped(column)}</th>`).join('');
-  const cellsOf = (cells) => cells.map((cell) => `<td>${cell}</td>`).join('');
-  const body = rows.map(([name, ...cells]) => `<tr><th scope="row">${name}</th>${cellsOf(cells)}</tr>`);
-  const label = escaped(caption);
-  return (
-    `<div class="scroll" tabindex="0" role="region" aria-label="${label}">\n<table>\n<caption>${label}</caption>\n` +
-    `<thead><tr>${head}</tr></thead>\n<tbody>\n${body.join('\n')}\n</tbody>\n</table>\n</div>\n`
-  );
-}
 
 // --- sections
 
@@ -192,8 +172,10 @@ const folded = (summary, content) => `<details>\n<summary>${escaped(summary)}</s
 /** What has a target stands open, the rest folded away. */
 function figuresTable(run) {
   const columns = ['Figure', 'Measured', 'Target', 'Verdict'];
-  const aim = ({ target, atLeast }) => (target == null ? '' : `at ${atLeast ? 'least' : 'most'} ${number(target)}`);
-  const rowOf = (figure) => [escaped(figure.name), number(figure.value), aim(figure), verdictOf(figure.met)];
+  const aim = ({ target, atLeast }) =>
+    target == null ? '' : `at\u00a0${atLeast ? 'least' : 'most'}\u00a0${Number(target.toPrecision(4))}`;
+  const nameOfFigure = ({ name }) => escaped(name.replaceAll('^2', '²'));
+  const rowOf = (figure) => [nameOfFigure(figure), number(figure.value), aim(figure), verdictOf(figure.met)];
   const aimed = run.figures.filter(({ target }) => target != null).map(rowOf);
   const others = run.figures.filter(({ target }) => target == null).map((figure) => rowOf(figure).slice(0, 2));
   return (
@@ -226,7 +208,8 @@ function settingsTable(run) {
 
 function hardTable(run) {
   if (!run.hard) return '';
-  const rows = Object.entries(run.hard).map(([method, found]) => [escaped(method), found.pass, found.error, found.refused]);
+  const rowOf = ([method, { pass, error, refused }]) => [escaped(method), pass, error, refused];
+  const rows = Object.entries(run.hard).map(rowOf);
   const wrong = run.wrong.map(({ method, name, error }) => `${escaped(name)} by ${escaped(method)} (${number(error)})`);
   return (
     table('Hard cases, by what became of them', ['Method', 'pass', 'with an error', 'refused with a message'], rows) +
@@ -309,13 +292,6 @@ function statementSection({ title, date, commit, machine, source, note, columns,
   );
 }
 
-/** The navigation of another page, with this one marked: there is one text of it. */
-function headerOf() {
-  const header = readFileSync(join(kDocs, 'index.html'), 'utf8').match(/<header>.*?<\/header>/s)[0];
-  const own = 'href="measurements.html"';
-  return header.replace(' aria-current="page"', '').replace(own, `${own} aria-current="page"`);
-}
-
 function pageOf(runs, statements) {
   const topicOf = (name) => (kTopics[name] ? name : (kTopicOf[name] ?? name));
   const topics = [...new Set([...Object.keys(kTopics), ...runs.map(({ name }) => topicOf(name))])];
@@ -330,23 +306,7 @@ function pageOf(runs, statements) {
     }))
     .filter(({ body }) => body);
   const contents = sections.map(({ topic, title }) => `<li><a href="#${topic}">${escaped(title)}</a></li>`).join('\n');
-  return `<!doctype html>
-<!-- Made by scripts/measurements.mjs of data/runs.json and data/statements.json: change those, or the script. -->
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>Lucent: measurements</title>
-<link rel="icon" href="data:,">
-<link rel="stylesheet" href="../page.css">
-<link rel="stylesheet" href="docs.css">
-</head>
-<body>
-${headerOf()}
-<main>
-<article>
-<h2>Measurements</h2>
+  const content = `<h2>Measurements</h2>
 <p class="lead">Speed and error of every method, with the target each figure was held against, the machine it was measured
 on, and the date.</p>
 <p>Sections that name a <code>lucent bench</code> run are made of the JSON which that run wrote; <code>scripts/bench
@@ -356,11 +316,13 @@ name and are kept until a run replaces them. Errors are distances from the same 
 <ul>
 ${contents}
 </ul>
-${sections.map(({ topic, title, body }) => `<h2 id="${topic}">${escaped(title)}</h2>\n${body}`).join('')}</article>
-</main>
-</body>
-</html>
-`;
+${sections.map(({ topic, title, body }) => `<h2 id="${topic}">${escaped(title)}</h2>\n${body}`).join('')}`;
+  return documentOf({
+    name: 'measurements.html',
+    title: 'measurements',
+    source: 'Made by scripts/measurements.mjs of data/runs.json and data/statements.json: change those, or the script.',
+    content,
+  });
 }
 
 // --- the command
