@@ -31,7 +31,7 @@ const kTopics = {
   refraction: 'Refraction',
   caustics: 'Caustics',
   subsurface: 'Subsurface scattering',
-  compose: 'Every lamp past every object onto every receiver',
+  compose: 'Every lamp, by way of every object, onto every receiver',
   page: 'The page',
 };
 // Runs whose names are not topics.
