@@ -47,6 +47,7 @@ const kTopicOf = {
 };
 // Figures that are times or ratios of times, by their names in src/measure and scripts/peers.
 const kIsTime = /\btimes?\b|\bms\b|against march|cost of a texel|over that at|transfer against|frames? per/i;
+const kShort = 16; // characters
 const kFluxTolerance = 0.01; // of a cell of the matrix, as src/measure/Compose.h has it
 
 const fail = (message) => {
@@ -273,12 +274,15 @@ function runSection(run) {
   );
 }
 
+/** A cell that is not broken where it is short. */
+const whole = (text) => (text.length > kShort ? escaped(text) : escaped(text).replaceAll(' ', '\u00a0'));
+
 function statementSection({ title, date, commit, machine, source, note, columns, rows, figures, after, picture }) {
   const where = `${date}: ${machine}${commit ? `; commit ${commit}` : ''}. ${source}`;
   const cells = (figures ?? []).map(([figure, value, target, held]) => [
     escaped(figure),
-    escaped(value),
-    escaped(target ?? ''),
+    whole(value),
+    whole(target ?? ''),
     verdictOf(held && held === 'met'),
   ]);
   const image = picture && `<img src="${picture.file}" alt="${escaped(picture.alt)}">`;
