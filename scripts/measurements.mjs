@@ -211,10 +211,12 @@ function hardTable(run) {
   if (!run.hard) return '';
   const rowOf = ([method, { pass, error, refused }]) => [escaped(method), pass, error, refused];
   const rows = Object.entries(run.hard).map(rowOf);
-  const wrong = run.wrong.map(({ method, name, error }) => `${escaped(name)} by ${escaped(method)} (${number(error)})`);
+  const wrong = run.wrong.map(({ method, name, error }) => [escaped(name), escaped(method), number(error)]);
   return (
     table('Hard cases, by what became of them', ['Method', 'pass', 'with an error', 'refused with a message'], rows) +
-    (wrong.length ? `<p>With an error, its RMSE in brackets: ${wrong.join('; ')}.</p>\n` : '')
+    (wrong.length
+      ? folded(`${wrong.length} with an error`, table('Hard cases with an error', ['Case', 'Method', 'RMSE'], wrong))
+      : '')
   );
 }
 
