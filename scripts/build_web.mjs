@@ -1,10 +1,12 @@
 /**
  * Makes the page from its sources and the compiled modules.
  *
- *   node scripts/build_web.mjs --wasm build/web --out build/web/site
+ *   node scripts/build_web.mjs --wasm build/web --out build/web/site [--program build/native/lucent]
  *
  * --wasm  folder with the modules lucent, lucent-readers, lucent-truth, lucent-check and lucent-bench, .mjs and .wasm each
- * --out   folder of the finished page; the gallery is copied from assets/generated/gallery when it is there
+ * --out   folder of the finished page; the gallery is copied from assets/generated/gallery when it is there, the
+ *         documentation from web/docs to docs/, with the pictures that it shows
+ * --program  makes the page of parameters anew of what this program lists; else it is the repository's
  */
 import { build, transform } from 'esbuild';
 import { spawnSync } from 'node:child_process';
@@ -18,7 +20,9 @@ const kRoot = resolve(dirname(fileURLToPath(import.meta.url)), '..');
 const kGallery = join(kRoot, 'assets/generated/gallery');
 const web = (name) => join(kRoot, 'web', name);
 
-const { values: options } = parseArgs({ options: { wasm: { type: 'string' }, out: { type: 'string' } } });
+const { values: options } = parseArgs({
+  options: { wasm: { type: 'string' }, out: { type: 'string' }, program: { type: 'string' } },
+});
 if (!options.wasm || !options.out) fail('--wasm and --out are missing; both must name a folder');
 const wasm = (name) => resolve(options.wasm, name);
 const out = (name) => resolve(options.out, name);
@@ -96,6 +100,21 @@ const kPeers = join(kRoot, 'assets/pictures/caustics-peers.png');
 const example = readFileSync(web('example.html'), 'utf8');
 if (existsSync(kPeers)) copyFileSync(kPeers, out('caustics-peers.png'));
 writeFileSync(out('example.html'), existsSync(kPeers) ? example : example.replace(/<figure class="peers">.*?<\/figure>\n/s, ''));
+
+// The documentation: pages and style as they are, pictures beside them.
+const kPictures = '../../assets/pictures/';
+rmSync(out('docs'), { recursive: true, force: true });
+mkdirSync(out('docs/pictures'), { recursive: true });
+for (const name of readdirSync(web('docs')).filter((name) => /\.(html|css)$/.test(name))) {
+  const text = readFileSync(web(`docs/${name}`), 'utf8');
+  for (const [, picture] of text.matchAll(/\.\.\/\.\.\/assets\/pictures\/([\w.-]+)/g))
+    copyFileSync(join(kRoot, 'assets/pictures', picture), out(`docs/pictures/${picture}`));
+  writeFileSync(out(`docs/${name}`), text.replaceAll(kPictures, 'pictures/'));
+}
+if (options.program) {
+  const command = [join(kRoot, 'scripts/parameters.mjs'), '--program', options.program, '--out', out('docs/parameters.html')];
+  if (spawnSync(process.execPath, command, { stdio: 'inherit' }).status !== 0) fail('the page of parameters cannot be made');
+}
 for (const module of kModules) copyFileSync(wasm(`${module}.wasm`), out(`${module}.wasm`));
 if (existsSync(kGallery)) {
   rmSync(out('gallery'), { recursive: true, force: true });

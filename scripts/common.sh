@@ -45,5 +45,7 @@ build() {
 
 make_assets() { /usr/bin/python3 scripts/make_assets.py || fail "assets: cannot be made; see the lines above"; }
 
-# The page with its module, wasm and gallery, in build/web/site.
-bundle_page() { step page node scripts/build_web.mjs --wasm build/web --out build/web/site; }
+# The page with its module, wasm, gallery and documentation, in build/web/site.
+bundle_page() {
+  step page node scripts/build_web.mjs --wasm build/web --out build/web/site --program build/native/lucent
+}

@@ -149,7 +149,7 @@ export class Controls {
   /**
    * Makes all controls anew.
    * @param controls  descriptors in the order of the panel; those without a group are left out
-   * @param profiles  of the objects that scatter light inside: owner, and text in place of the panel's curves
+   * @param profiles  of the translucent objects: owner, and text in place of the panel's curves
    */
   build(controls, profiles = []) {
     this.#built = contentOf(controls);

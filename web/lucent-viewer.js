@@ -23,11 +23,12 @@ const kNear = '300px'; // around the window: within it viewers load and draw
 const kReleaseAfter = 4000; // ms off screen until the GPU memory goes back
 const kHintTime = 1600; // ms
 const kKeys =
-  'Arrow keys on a relief move the light or turn the environment, page up and page down lift the light or zoom, ' +
-  'shift with arrow keys orbits the camera. Arrow keys in other scenes orbit the camera, page up and page down zoom, ' +
-  'shift with arrow keys turns the environment or moves the light, D lets a drop fall into water. Space plays what ' +
-  'moves, 0 goes back, question mark lists all keys, Escape leaves. In mode paint brackets make the brush smaller and ' +
-  'larger, 1 to 4 choose translucency, blur, glow and outgoing, X erases back to how the object began, G fills.';
+  'Arrow keys on a relief move the light or turn the environment, page up and page down raise or lower the light or ' +
+  'zoom, shift with arrow keys orbits the camera. Arrow keys in other scenes orbit the camera, page up and page down ' +
+  'zoom, shift with arrow keys turns the environment or moves the light, D lets a drop fall into water. Space plays or ' +
+  'pauses, 0 resets camera and light, question mark lists all keys, Escape leaves. In mode paint brackets make the ' +
+  'brush smaller and larger, 1 to 4 choose translucency, blur, glow and outgoing, X erases back to how the object ' +
+  'began, G fills.';
 
 const kStyle = new CSSStyleSheet();
 kStyle.replaceSync(css);
@@ -300,7 +301,7 @@ export class LucentViewer extends HTMLElement {
   }
 
   /**
-   * Of each object that scatters light inside: owner and profile; reach (mm) and whole (the share that leaves again) of
+   * Of each translucent object: owner and profile; reach (mm) and whole (the share that leaves again) of
    * red, green and blue; distances (mm) and values (1/mm²) of its R_d; text, the same in words.
    */
   profiles() {

@@ -168,8 +168,8 @@ class Panel {
     this.#find('progress').value = 0;
     const { checks = [], capabilities = [] } = this.#report ?? {};
     const tables = this.#report && [
-      table('Closed forms', ['What', 'Result', 'Expected', 'Found', 'Tolerance'], checks.map(checkRow)),
-      table('Capabilities', ['What', 'Here', 'Used for', 'Without it', 'Measured here'], capabilities.map(capabilityRow)),
+      table('Closed forms', ['Closed form', 'Result', 'Expected', 'Found', 'Tolerance'], checks.map(checkRow)),
+      table('Capabilities', ['Capability', 'Here', 'Used for', 'Without it', 'Measured here'], capabilities.map(capabilityRow)),
     ];
     this.#find('.tables').replaceChildren(...(tables ?? []));
   }
