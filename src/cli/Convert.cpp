@@ -66,8 +66,7 @@ Status convertMesh(const ConvertOptions& options) {
     if (options.normals || options.forMesh())
         return Error{options.output +
                      ": is a mesh; --normals, --size, --rotate, --margin and --floor-gap make heights"};
-    if (Status possible = checkFolder(options.output); !possible) return possible;
-    if (Status apart = checkNotRead(options.output, {options.input}); !apart) return apart;
+    if (Status possible = checkOutputs({options.output}, {options.input}); !possible) return possible;
     const Result<Bytes> bytes = scene::plainFiles()(options.input);
     if (!bytes) return bytes.error();
     const Result<scene::Mesh> mesh = scene::decodeMesh(*bytes, options.input);
@@ -82,11 +81,11 @@ Status convertMesh(const ConvertOptions& options) {
 Status convert(const ConvertOptions& options) {
     const std::string ending = endingOf(options.output);
     if (ending == ".mesh" || ending == ".obj") return convertMesh(options);
-    if (Status possible = checkImageOutput(options.output); !possible) return possible;
+    if (Status known = checkImageEnding(options.output); !known) return known;
     if (ending == ".png")
         return Error{options.output +
                      ": 8-bit PNG would make terraces of the heights; must be .pfm, .exr or .hdr"};
-    if (Status apart = checkNotRead(options.output, {options.input}); !apart) return apart;
+    if (Status possible = checkOutputs({options.output}, {options.input}); !possible) return possible;
     const Result<Bytes> bytes = scene::plainFiles()(options.input);
     if (!bytes) return bytes.error();
     const Result<HeightSource> source = sourceOf(options, *bytes);

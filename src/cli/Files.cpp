@@ -107,22 +107,27 @@ Result<ivec2> parseSize(const std::string& option, const std::string& text, int 
 }
 
 void addOutput(CLI::App& parser, std::string& path, const std::string& help) {
-    parser.add_option("-o,--output", path, help)->required()->type_name("FILE");
+    parser
+        .add_option("-o,--output", path,
+                    help +
+                        ". Replaces regular files only, and all that the command writes appears or nothing")
+        ->required()
+        ->type_name("FILE");
 }
 
+Status checkImageEnding(const std::string& path) {
+    const std::string ending = fs::path(path).extension().string();
+    if (ending == ".png" || ending == ".hdr" || ending == ".exr" || ending == ".pfm") return Done{};
+    return Error{path + ": ends in no known image type; must be .png, .hdr, .exr or .pfm"};
+}
+
+namespace {
 Status checkFolder(const std::string& path) {
     std::error_code ignored;
     const fs::path folder = fs::path(path).parent_path();
     if (folder.empty() || fs::is_directory(folder, ignored)) return Done{};
     return Error{path + ": cannot be written, " + folder.string() +
                  " is no folder; must be in an existing one"};
-}
-
-Status checkImageOutput(const std::string& path) {
-    const std::string ending = fs::path(path).extension().string();
-    if (ending != ".png" && ending != ".hdr" && ending != ".exr" && ending != ".pfm")
-        return Error{path + ": ends in no known image type; must be .png, .hdr, .exr or .pfm"};
-    return checkFolder(path);
 }
 
 Status checkNotRead(const std::string& output, const std::vector<std::string>& inputs) {
@@ -132,22 +137,21 @@ Status checkNotRead(const std::string& output, const std::vector<std::string>& i
             return Error{output + ": is read as well; must be another file than " + input};
     return Done{};
 }
+} // namespace
+
+Status checkOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+    for (const std::string& output : outputs) {
+        if (Status possible = checkFolder(output); !possible) return possible;
+        if (Status apart = checkNotRead(output, inputs); !apart) return apart;
+    }
+    return lucent::checkOutputs(outputs);
+}
 
 Result<Bytes> encode(const Image& image, const std::string& path) {
     return fs::path(path).extension() == ".exr" ? scene::encodeExr(image) : encodeImage(image, path);
 }
 
-Status writeAll(const std::vector<Output>& outputs) {
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        const Status written = writeFile(outputs[i].path, outputs[i].bytes);
-        if (written) continue;
-        std::error_code ignored;
-        for (std::size_t earlier = 0; earlier < i; ++earlier)
-            fs::remove(outputs[earlier].path, ignored);
-        return written;
-    }
-    return Done{};
-}
+Status writeAll(const std::vector<Output>& outputs) { return writeFiles(outputs); }
 
 Bytes toBytes(const std::string& text) {
     const auto* first = reinterpret_cast<const std::byte*>(text.data());

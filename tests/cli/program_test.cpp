@@ -288,7 +288,7 @@ TEST_F(Program, CompareOverwritesNothingThatItReads) {
     expectRefusal("compare a.pfm b.pfm --flip ./b.pfm",
                   "./b.pfm: is read as well; must be another file than b.pfm");
     expectRefusal("compare a.pfm b.pfm --heatmap heat.png --flip heat.png",
-                  "heat.png: is the file of --heatmap and of --flip; must be two files");
+                  "heat.png: is written twice, as heat.png too; must be two files");
     EXPECT_EQ(text("a.pfm"), a);
 }
 
@@ -297,7 +297,7 @@ TEST_F(Program, CompareWritesBothPicturesOrNone) {
     write("b.pfm", Image(2, 1, 1));
     std::filesystem::create_directory(path("flip.png")); // cannot be written
     expectRefusal("compare a.pfm b.pfm --heatmap heat.png --flip flip.png",
-                  "flip.png: cannot be written (Is a directory)");
+                  "flip.png: is a folder; must be a regular file, or a new one");
 }
 
 TEST_F(Program, CompareMeasuresHowVisibleTheDifferenceIs) {
