@@ -21,6 +21,7 @@ using scene::HeightSource;
 
 struct ConvertOptions {
     std::string input, output, size, rotate, margin, floorGap;
+    std::vector<std::string> allowed;
     bool normals = false;
 
     bool forMesh() const { return !(size.empty() && rotate.empty() && margin.empty() && floorGap.empty()); }
@@ -67,7 +68,7 @@ Status convertMesh(const ConvertOptions& options) {
         return Error{options.output +
                      ": is a mesh; --normals, --size, --rotate, --margin and --floor-gap make heights"};
     if (Status possible = checkOutputs({options.output}, {options.input}); !possible) return possible;
-    const Result<Bytes> bytes = scene::plainFiles()(options.input);
+    const Result<Bytes> bytes = scene::plainFiles(options.input, options.allowed)(options.input);
     if (!bytes) return bytes.error();
     const Result<scene::Mesh> mesh = scene::decodeMesh(*bytes, options.input);
     if (!mesh) return mesh.error();
@@ -86,7 +87,7 @@ Status convert(const ConvertOptions& options) {
         return Error{options.output +
                      ": 8-bit PNG would make terraces of the heights; must be .pfm, .exr or .hdr"};
     if (Status possible = checkOutputs({options.output}, {options.input}); !possible) return possible;
-    const Result<Bytes> bytes = scene::plainFiles()(options.input);
+    const Result<Bytes> bytes = scene::plainFiles(options.input, options.allowed)(options.input);
     if (!bytes) return bytes.error();
     const Result<HeightSource> source = sourceOf(options, *bytes);
     if (!source) return source.error();
@@ -115,6 +116,7 @@ Command addConvert(CLI::App& program) {
         ->required();
     addOutput(*parser, options->output,
               "Heights: .pfm, .exr or .hdr; a mesh: .mesh (all of it, read fastest) or .obj (its rest)");
+    addAllow(*parser, options->allowed);
     parser->add_flag("--normals", options->normals,
                      "The image is a normal map: integrates it by least squares");
     parser->add_option("--size", options->size, "Mesh: texels of the height map [512x512]")->type_name("WxH");

@@ -24,6 +24,7 @@ void SceneOptions::addTo(CLI::App& parser) {
                     "Changes a parameter of the scene; lucent list names them. May be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+    addAllow(parser, allowed);
 }
 
 void SceneOptions::addAovTo(CLI::App& parser, const std::string& help) {
@@ -50,7 +51,7 @@ Result<scene::Aov> parseAov(const std::string& text) {
 } // namespace
 
 Result<scene::Scene> SceneOptions::load() const {
-    Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), frame::techniques());
+    Result<scene::Scene> scene = scene::load(path, scene::plainFiles(path, allowed), frame::techniques());
     if (!scene) return scene;
     for (const std::string& set : sets)
         if (Status applied = applySet(*scene, set); !applied) return applied.error();
@@ -106,6 +107,16 @@ Result<ivec2> parseSize(const std::string& option, const std::string& text, int 
     return ivec2(int(width), int(height));
 }
 
+void addAllow(CLI::App& parser, std::vector<std::string>& folders) {
+    parser
+        .add_option("--allow", folders,
+                    "Folder beneath which files may be read that the input names, beside its own. May be "
+                    "repeated")
+        ->type_name("DIR")
+        ->check(CLI::ExistingDirectory)
+        ->allow_extra_args(false);
+}
+
 void addOutput(CLI::App& parser, std::string& path, const std::string& help) {
     parser
         .add_option("-o,--output", path,
@@ -159,7 +170,7 @@ Bytes toBytes(const std::string& text) {
 }
 
 Result<Image> readImage(const std::string& path, Encoding encoding) {
-    Result<Bytes> bytes = scene::plainFiles()(path);
+    Result<Bytes> bytes = scene::plainFiles(path)(path);
     if (!bytes) return bytes.error();
     return decodeImage(*bytes, path, encoding);
 }

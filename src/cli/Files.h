@@ -22,6 +22,7 @@ struct SceneOptions {
     std::string size;                 ///< "WxH"; empty: the scene's own
     std::vector<std::string> sets;    ///< "KEY=VALUE"
     std::string aov;                  ///< empty: what the scene shows
+    std::vector<std::string> allowed; ///< folders that it may read beside its own
 
     void addTo(CLI::App& parser);
     void addAovTo(CLI::App& parser, const std::string& help);
@@ -41,6 +42,9 @@ CLI::Validator integerIn(std::int64_t low, std::int64_t high);
 
 /// "512x256" as pixels. Error "OPTION: is TEXT; must be ..."
 Result<ivec2> parseSize(const std::string& option, const std::string& text, int largest);
+
+/// Adds --allow.
+void addAllow(CLI::App& parser, std::vector<std::string>& folders);
 
 /// Adds -o/--output.
 void addOutput(CLI::App& parser, std::string& path, const std::string& help);
