@@ -159,6 +159,9 @@ Status checkOutputs(const std::vector<std::string>& outputs, const std::vector<s
 }
 
 Result<Bytes> encode(const Image& image, const std::string& path) {
+    if (const ivec2 bad = findNonFinite(image); bad.x >= 0)
+        return Error{path + ": the picture is NaN or infinite at pixel (" + std::to_string(bad.x) + ", " +
+                     std::to_string(bad.y) + "); must be finite everywhere"};
     return fs::path(path).extension() == ".exr" ? scene::encodeExr(image) : encodeImage(image, path);
 }
 

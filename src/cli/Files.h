@@ -57,7 +57,8 @@ Status checkImageEnding(const std::string& path);
 /// for no file.
 Status checkOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
-/// Encodes by the ending of `path`: .exr as well as what encodeImage() knows.
+/// Encodes by the ending of `path`: .exr as well as what encodeImage() knows. Error for values that are not
+/// finite.
 Result<Bytes> encode(const Image& image, const std::string& path);
 
 /// Writes all of them, or none when one fails.

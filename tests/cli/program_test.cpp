@@ -170,6 +170,20 @@ TEST_F(Program, TruthWritesTheModelsValues) {
     EXPECT_FLOAT_EQ(image->pixels[0], 0.3f / std::hypot(0.3f, 0.3f)); // 0.3 m aside, 0.05 + 0.25 m up
 }
 
+TEST_F(Program, APictureThatIsNotFiniteIsRefused) {
+    Image sky(2, 1, 3);
+    std::fill(sky.pixels.begin(), sky.pixels.end(), 3e38f);
+    write("sky.pfm", sky);
+    write("mirror.json", std::string(R"({ "lucent": 1, "size": [4, 4], "camera": { "eye": [0, 0, 3] },
+  "environment": { "source": "sky.pfm", "intensity": 1000 },
+  "objects": [ { "name": "ball", "shape": { "type": "sphere" }, "material": { "reflectance": [1, 1, 1] } } ] })"));
+    for (const char* name : {"out.pfm", "out.exr"})
+        expectRefusal(
+            std::string("truth mirror.json -o ") + name,
+            name +
+                std::string(": the picture is NaN or infinite at pixel (0, 0); must be finite everywhere"));
+}
+
 TEST_F(Program, StoppingTheTruthLeavesNoFile) {
     writeBump("bump.pfm");
     // Thousands of directions and a large picture: minutes of work.
