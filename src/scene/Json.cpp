@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace lucent::scene {
 namespace {
@@ -77,7 +78,8 @@ public:
     bool end_array() { return close(); }
     bool key(std::string& name) {
         Json& object = *open_.back();
-        if (object.find(name)) return fail("key " + inQuotes(name) + " stands here twice; must be unique");
+        if (!keys_.back().insert(name).second)
+            return fail("key " + inQuotes(name) + " stands here twice; must be unique");
         object.keys.push_back(name);
         keyLine_ = position_.line;
         return true;
@@ -112,10 +114,12 @@ private:
     bool open(Json::Type type) {
         if (open_.size() == kMaxDepth) return fail("nested deeper than 32; must be flatter");
         open_.push_back(&add(type)); // stays valid: its parent grows only after it is closed
+        keys_.emplace_back();
         return true;
     }
     bool close() {
         open_.pop_back();
+        keys_.pop_back();
         return true;
     }
 
@@ -123,6 +127,7 @@ private:
     const Position& position_;
     const std::string& name_;
     std::vector<Json*> open_;
+    std::vector<std::unordered_set<std::string>> keys_; // of each of these
     int keyLine_ = 1;
     Error error_;
 };

@@ -253,10 +253,12 @@ private:
 
     std::vector<std::uint32_t>& partNamed(std::string_view name) {
         if (name.empty()) name = "default";
-        for (auto& [known, indices] : parts_)
-            if (known == name) return indices;
-        return parts_.emplace_back(name, std::vector<std::uint32_t>()).second;
+        const auto [known, isNew] = partNumbers_.emplace(name, parts_.size());
+        if (isNew) parts_.emplace_back(name, std::vector<std::uint32_t>());
+        return parts_[known->second].second;
     }
+
+    static constexpr std::size_t kMostCorners = 4096;
 
     void readFace(std::string_view rest) {
         face_.clear();
@@ -273,6 +275,9 @@ private:
         }
         if (face_.size() < 3)
             return lines_.fail("f has " + std::to_string(face_.size()) + " corners; must have three or more");
+        if (face_.size() > kMostCorners) // cutting takes the square of their number
+            return lines_.fail("f has " + std::to_string(face_.size()) + " corners; must have at most " +
+                               std::to_string(kMostCorners));
         if (!indices_) indices_ = &partNamed("");
         for (const std::array<std::size_t, 3>& triangle : triangulate(points_))
             for (const std::size_t corner : triangle)
@@ -330,6 +335,7 @@ private:
     std::vector<vec3> positions_, normals_;
     std::unordered_map<Corner, std::uint32_t, Hash> vertices_;
     std::vector<std::pair<std::string, std::vector<std::uint32_t>>> parts_; // by material, as they come
+    std::unordered_map<std::string, std::size_t> partNumbers_;              // in these, by name
     std::vector<std::uint32_t>* indices_ = nullptr;                         // of the part that faces go to
     std::vector<std::uint32_t> face_;
     std::vector<dvec3> points_;
