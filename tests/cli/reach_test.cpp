@@ -88,6 +88,15 @@ TEST_F(Reach, IsForRegularFilesOnly) {
     expectRefusal("truth /dev/zero -o out.pfm", "/dev/zero: is a device or a pipe; must be a regular file");
 }
 
+TEST_F(Reach, MessagesQuoteNothingOfWhatIsNoStrokeScript) {
+    write("scenes/notes.txt", std::string("hunter2\n"));
+    write("scenes/painted.json", std::string(R"({ "lucent": 1, "objects": [ { "name": "ball",
+  "shape": { "type": "sphere" }, "material": { "preset": "marble" }, "paint": { "strokes": "notes.txt" } } ] })"));
+    expectRefusal(
+        "truth scenes/painted.json -o out.pfm",
+        "scenes/painted.json:2: objects.ball.paint.strokes: scenes/notes.txt:1:1: is no JSON; must be");
+}
+
 // A folder may hold more than the scene's author should see.
 TEST_F(Reach, MessagesQuoteNothingOfWhatIsNoMaterialFile) {
     write("scenes/notes.txt", std::string("newmtl a\nhunter2 one\nKd hunter2 0 0\n"));
