@@ -113,15 +113,14 @@ void addAllow(CLI::App& parser, std::vector<std::string>& folders) {
                     "Folder beneath which files may be read that the input names, beside its own. May be "
                     "repeated")
         ->type_name("DIR")
-        ->check(CLI::ExistingDirectory)
+        ->check(CLI::Validator(CLI::ExistingDirectory).description(""))
         ->allow_extra_args(false);
 }
 
 void addOutput(CLI::App& parser, std::string& path, const std::string& help) {
     parser
         .add_option("-o,--output", path,
-                    help +
-                        ". Replaces regular files only, and all that the command writes appears or nothing")
+                    help + ". Replaces regular files only; all files of a command are written or none")
         ->required()
         ->type_name("FILE");
 }

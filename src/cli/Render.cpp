@@ -184,12 +184,12 @@ Command addRender(CLI::App& program) {
         ->add_option("--time", options->time,
                      "Moment that is shown of what moves, in s; else the scene's own")
         ->type_name("S");
-    CLI::Option* frames =
-        parser
-            ->add_option(
-                "--frames", options->frames,
-                "Renders so many pictures, a step of time apart, and numbers them: FILE-0001.png, ...")
-            ->check(integerIn(1, kMostFrames));
+    CLI::Option* frames = parser
+                              ->add_option("--frames", options->frames,
+                                           "Renders so many pictures, a step of time apart, and numbers "
+                                           "them: FILE-0001.png, ...; those that "
+                                           "are finished stay when a later one fails")
+                              ->check(integerIn(1, kMostFrames));
     parser->add_option("--fps", options->fps, "Pictures a second of a sequence")
         ->check(integerIn(1, 1000))
         ->needs(frames)
