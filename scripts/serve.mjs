@@ -26,15 +26,14 @@ export const kPolicy =
 
 /** The file that an address names, or nothing when it lies outside of the folder, is not there or is no address. */
 function fileAt(root, address) {
-  let path;
   try {
-    path = join(root, decodeURIComponent(new URL(address, 'http://localhost').pathname));
+    let path = join(root, decodeURIComponent(new URL(address, 'http://localhost').pathname));
+    if (path !== root && !path.startsWith(root + sep)) return undefined;
+    if (statSync(path).isDirectory()) path = join(path, 'index.html');
+    return statSync(path).isFile() ? path : undefined;
   } catch {
     return undefined;
   }
-  if (path !== root && !path.startsWith(root + sep)) return undefined;
-  if (statSync(path, { throwIfNoEntry: false })?.isDirectory()) path = join(path, 'index.html');
-  return statSync(path, { throwIfNoEntry: false })?.isFile() ? path : undefined;
 }
 
 /** @return {Promise<{address: string, close: () => void}>}  once the server listens on 127.0.0.1 */
@@ -50,7 +49,9 @@ export function serve(folder, port = 0) {
       'Access-Control-Allow-Origin': '*', // a sandboxed frame has no origin, and modules are fetched with one
       'Cache-Control': 'no-cache',
     });
-    createReadStream(path).pipe(response);
+    const file = createReadStream(path);
+    file.on('error', () => response.destroy()); // the answer has begun: cut, it is known to be no whole file
+    file.pipe(response);
   });
   return new Promise((done, failed) => {
     server.on('error', failed);

@@ -1,11 +1,55 @@
 /** Brings files to the module: scenes with everything they name, and what a person opens. */
 import { LucentError } from './runtime.js';
-import { callWasm } from './wasm.js';
+import { callWasm, isAbort } from './wasm.js';
 
 const kForeign = /\.(exr|glb|gltf|obj)$/i;
 const kMesh = /\.(glb|gltf|obj|mesh)$/i;
 
-async function fetchBytes(url, name) {
+/** An address as seen from another; undefined where there is none. */
+function addressOf(name, from) {
+  try {
+    return new URL(name, from);
+  } catch {
+    return undefined;
+  }
+}
+
+/**
+ * How far a scene reaches: to what lies beneath its own folder, or beneath a folder that the page allows.
+ *
+ * @param url      of the scene
+ * @param allowed  addresses of folders
+ */
+export class Reach {
+  #folders;
+  constructor(url, allowed = []) {
+    this.#folders = [url, ...allowed].flatMap((one) => addressOf('.', one)?.href ?? []); // blob: has no folder
+  }
+
+  /** The address of a file. Throws a LucentError when it lies outside. @param from  address of the file that names it */
+  find(name, from) {
+    const address = addressOf(name, from);
+    if (address && this.#holds(address)) return address;
+    const folder = this.#folders[0] ?? 'the scene';
+    throw new LucentError(
+      'scene',
+      `${name}: lies outside ${folder}; must lie beneath it, or beneath an address that allow names`,
+    );
+  }
+  /** What was fetched may come from elsewhere than was asked. */
+  check({ redirected, url }) {
+    if (redirected) this.find(url, url);
+  }
+
+  // A browser takes .. and %2e out of an address; a server may take %2f for a slash.
+  #holds({ protocol, href, pathname }) {
+    if (protocol === 'data:') return true;
+    return !/%2f|%5c/i.test(pathname) && this.#folders.some((folder) => href.startsWith(folder));
+  }
+}
+
+/** @param reach  of the scene that names the file; none where the page itself does */
+async function fetchBytes(url, name, reach) {
   let response;
   try {
     response = await fetch(url);
@@ -16,6 +60,7 @@ async function fetchBytes(url, name) {
     );
   }
   if (!response.ok) throw new LucentError('fetch', `${name}: the server answers ${response.status}; must be there`);
+  reach?.check(response);
   return new Uint8Array(await response.arrayBuffer());
 }
 
@@ -38,6 +83,16 @@ function loadReaders() {
 async function toPlain(name, bytes, part) {
   if (!kForeign.test(name)) return bytes;
   const wasm = await loadReaders();
+  try {
+    return await convert(wasm, name, bytes, part);
+  } catch (error) {
+    if (!isAbort(error)) throw error;
+    readers = undefined; // the next file gets a fresh module
+    throw new LucentError('scene', `${name}: cannot be read (${error.message}); must need less memory`);
+  }
+}
+
+async function convert(wasm, name, bytes, part) {
   if (!callWasm(wasm, 'reader_is_foreign', name, bytes)) return bytes;
   const parts = new Map([[name, bytes]]);
   callWasm(wasm, 'reader_file_put', name, bytes);
@@ -56,7 +111,7 @@ async function toPlain(name, bytes, part) {
 }
 
 /** Parts of a file that was fetched lie beside it. */
-const beside = (url) => (name) => fetchBytes(new URL(name, url), name);
+const beside = (url, reach) => async (name) => fetchBytes(reach.find(name, url), name, reach);
 
 /** Parts of a file that a person opened are among those opened with it. */
 const among = (files) => async (name) => {
@@ -69,9 +124,10 @@ const fileName = (url) => decodeURIComponent(url.pathname.split('/').pop());
 /**
  * Fetches a scene and every file it names.
  * @param starting  promise of the runtime: the scene is on its way meanwhile
+ * @param allowed   addresses of folders beneath which files may lie, beside the scene's own
  * @return {Promise<{path: string, files: Map<string, Uint8Array>}>}  the scene's own name and all files by name
  */
-export async function fetchScene(starting, url) {
+export async function fetchScene(starting, url, allowed) {
   const path = fileName(url) || url.href;
   const [runtime, scene] = await Promise.all([starting, fetchBytes(url, path)]);
   runtime.call('file_put', path, scene);
@@ -79,9 +135,10 @@ export async function fetchScene(starting, url) {
   runtime.call('file_forget', path);
   if (error) throw new LucentError('scene', error);
   const files = new Map([[path, scene]]);
+  const reach = new Reach(url, allowed);
   const fetchOne = async (name) => {
-    const address = new URL(name, url);
-    return [name, await toPlain(name, await fetchBytes(address, name), beside(address))];
+    const address = reach.find(name, url);
+    return [name, await toPlain(name, await fetchBytes(address, name, reach), beside(address, reach))];
   };
   for (const [name, bytes] of await Promise.all(names.map(fetchOne))) files.set(name, bytes);
   return { path, files };
@@ -101,7 +158,7 @@ export function loadFiles(runtime, handle, { path, files }) {
 /** The name and the bytes of one picture, in a form that the module reads. */
 export async function fetchPicture(url) {
   const name = fileName(url);
-  return { name, bytes: await toPlain(name, await fetchBytes(url, name), beside(url)) };
+  return { name, bytes: await toPlain(name, await fetchBytes(url, name), beside(url, new Reach(url))) };
 }
 
 /** Of files dropped together the one that is opened: a mesh before its parts. */

@@ -1,6 +1,8 @@
 /**
  * <lucent-viewer src="coin.json" controls poster="coin.jpg" loading="lazy" alt="A coin"></lucent-viewer>
  *
+ * A scene names files beneath its own folder; allow="https://models.example/ ../maps/" adds folders.
+ *
  * Shows a scene that a person can light. Besides the attributes above every parameter of the scene is an attribute
  * and, in camel case, a property: light-intensity="2" is viewer.lightIntensity = 2.
  *
@@ -68,6 +70,7 @@ export class LucentViewer extends HTMLElement {
   #handle = 0; // the module's viewer, 0: none yet
   #task = 0; // number of the newest load: older ones give up
   #src = null; // what is loaded or on its way
+  #shown = null; // what is loaded
   #near = false; // the element or its surroundings are on the screen
   #seen = false; // the element itself is
   #play; // the button
@@ -189,6 +192,13 @@ export class LucentViewer extends HTMLElement {
   }
   set poster(value) {
     this.setAttribute('poster', value);
+  }
+  /** Addresses of folders, with blanks between them, beneath which the scene's files may lie beside its own folder. */
+  get allow() {
+    return this.getAttribute('allow') ?? '';
+  }
+  set allow(value) {
+    this.setAttribute('allow', value);
   }
   get truth() {
     return this.getAttribute('truth') ?? '';
@@ -399,7 +409,7 @@ export class LucentViewer extends HTMLElement {
     const files = file instanceof Blob ? [file] : [...file];
     const task = ++this.#task;
     try {
-      await this.#start();
+      if (!(await this.#start(task))) return;
       await openOwn(this.#runtime, this.#handle, files, kind);
       if (task === this.#task) this.#takeScene(mainFile(files).name);
     } catch (error) {
@@ -429,33 +439,56 @@ export class LucentViewer extends HTMLElement {
     else this.#emit('contextrestored');
   }
 
+  /** @param handle  of the viewer in whose call the module ended */
+  moduleEnded(error, handle) {
+    const isLoaded = this.loaded && this.#src === this.#shown;
+    const isInnocent = handle !== this.#handle && (handle !== 0 || isLoaded);
+    this.#forget();
+    this.#settled.splice(0).forEach((resolve) => resolve());
+    this.#fail(error);
+    if (isInnocent) this.#loadSource();
+  }
+
   // ---- loading ----
 
-  async #start() {
-    this.#runtime ??= await Runtime.shared();
-    this.#display ??= this.#canvas.getContext(this.#runtime.displayContext);
-    if (this.#handle) return;
+  // False, and nothing done, where a load is no longer wanted: the element was removed, or loads something else.
+  async #start(task) {
+    const runtime = await Runtime.shared();
+    if (task !== this.#task) return false;
+    this.#runtime = runtime;
+    this.#display ??= this.#canvas.getContext(runtime.displayContext);
+    if (this.#handle) return true;
     this.#handle = this.#runtime.call('viewer_create');
     this.#runtime.add(this);
     this.#themeChanged();
     this.#layout();
     this.#resizeViewer();
+    return true;
   }
 
-  async #loadSource() {
+  /** @param again  whether to try once more where another viewer ended the module */
+  async #loadSource(again = true) {
     if (!this.src || this.src === this.#src) return;
     const task = ++this.#task;
     this.#src = this.src;
     this.#status.textContent = 'Loading…';
     try {
-      const scene = await fetchScene(Runtime.shared(), new URL(this.src, document.baseURI));
-      await this.#start();
-      if (task !== this.#task) return;
+      const allowed = this.allow.split(/\s+/).filter(Boolean);
+      const scene = await fetchScene(
+        Runtime.shared(),
+        new URL(this.src, document.baseURI),
+        allowed.map((address) => new URL(address, document.baseURI)),
+      );
+      if (!(await this.#start(task))) return;
       const message = loadFiles(this.#runtime, this.#handle, scene);
       if (message) throw new LucentError('scene', message);
       this.#takeScene(this.src);
     } catch (error) {
-      if (task === this.#task) this.#fail(error);
+      if (task !== this.#task) return;
+      this.#fail(error);
+      if (error.code !== 'abort' || !again) return;
+      this.#src = null;
+      this.#loadSource(false);
     }
   }
 
@@ -463,6 +496,7 @@ export class LucentViewer extends HTMLElement {
   #takeScene(name) {
     this.#status.textContent = 'Drawing…';
     this.#complete = false;
+    this.#shown = this.#src;
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#defineProperties();
     for (const control of this.#controls)
@@ -490,13 +524,19 @@ export class LucentViewer extends HTMLElement {
   }
 
   #destroy() {
+    const handle = this.#handle;
+    this.#forget();
+    if (!handle) return;
+    this.#runtime.remove(this);
+    this.#runtime.call('viewer_destroy', handle);
+  }
+
+  // As before the first load.
+  #forget() {
     this.#task++;
     this.#truth.cancel();
-    this.#src = null;
+    this.#src = this.#shown = null;
     this.#controls = [];
-    if (!this.#handle) return;
-    this.#runtime.remove(this);
-    this.#runtime.call('viewer_destroy', this.#handle);
     this.#handle = 0;
     clearTimeout(this.#timers.release);
   }

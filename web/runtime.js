@@ -5,11 +5,11 @@
  * away as a bitmap.
  */
 import createLucent from 'lucent-wasm'; // the build names the file
-import { callWasm } from './wasm.js';
+import { callWasm, isAbort } from './wasm.js';
 
 /** An error with a code that pages can test and a message that people can read. */
 export class LucentError extends Error {
-  /** @param {'fetch'|'scene'|'file'|'value'|'gpu'} code */
+  /** @param {'fetch'|'scene'|'file'|'value'|'gpu'|'abort'} code */
   constructor(code, message) {
     super(message);
     this.code = code;
@@ -37,9 +37,16 @@ function resize(canvas, width, height) {
 
 export class Runtime {
   static #shared;
-  /** The page's runtime, started by the first viewer that asks. Rejects with a LucentError. */
+  /**
+   * The page's runtime, started by the first viewer that asks, and anew after it has ended or could not start. Rejects
+   * with a LucentError.
+   */
   static shared() {
-    return (this.#shared ??= this.#start());
+    this.#shared ??= this.#start().catch((error) => {
+      this.#shared = undefined;
+      throw error;
+    });
+    return this.#shared;
   }
 
   static async #start() {
@@ -62,6 +69,7 @@ export class Runtime {
   #gl;
   #frame = 0;
   #lost = false;
+  #ended = null; // why the module does nothing any more
   #wanting = new Set(); // viewers that want the next frame
   #viewers = new Set();
 
@@ -73,8 +81,16 @@ export class Runtime {
     canvas.addEventListener('webglcontextrestored', () => this.#restore());
   }
 
+  /** Throws a LucentError when the module ends in the call, or has ended before: then every viewer was told. */
   call(name, ...values) {
-    return callWasm(this.#wasm, name, ...values);
+    if (this.#ended) throw this.#ended;
+    try {
+      return callWasm(this.#wasm, name, ...values);
+    } catch (error) {
+      if (!isAbort(error)) throw error;
+      this.#end(error, name.startsWith('viewer_') ? values[0] : 0);
+      throw this.#ended;
+    }
   }
   text(name, ...values) {
     return this.#wasm.UTF8ToString(this.call(name, ...values));
@@ -104,8 +120,8 @@ export class Runtime {
   }
 
   /**
-   * @param viewer  has render(seconds), true while it wants another frame, and contextLost(),
-   *                contextRestored(message)
+   * @param viewer  has render(seconds), true while it wants another frame, contextLost(), contextRestored(message),
+   *                and moduleEnded(error, handle): a LucentError, and of which viewer the call was, 0: of none
    */
   add(viewer) {
     this.#viewers.add(viewer);
@@ -152,8 +168,30 @@ export class Runtime {
 
   #tick(now) {
     this.#frame = 0;
-    for (const viewer of [...this.#wanting]) if (!viewer.render(now / 1000)) this.#wanting.delete(viewer);
+    for (const viewer of [...this.#wanting]) {
+      try {
+        if (!viewer.render(now / 1000)) this.#wanting.delete(viewer);
+      } catch (error) {
+        if (error !== this.#ended) throw error;
+        return; // all viewers know
+      }
+    }
     this.#schedule();
+  }
+
+  // Memory that ran out, or a mistake of ours: what the module holds is not to be trusted any more. The next one who asks
+  // for the page's runtime gets a fresh one.
+  #end({ message }, handle) {
+    this.#ended = new LucentError(
+      'abort',
+      `lucent.wasm: ended (${message}); the scenes of the page may need more memory than it has`,
+    );
+    Runtime.#shared = undefined;
+    cancelAnimationFrame(this.#frame);
+    this.#wanting.clear();
+    this.#gl.getExtension('WEBGL_lose_context')?.loseContext(); // browsers keep few contexts
+    for (const viewer of [...this.#viewers]) viewer.moduleEnded(this.#ended, handle);
+    this.#viewers.clear();
   }
 
   // Emscripten knows contexts by number; after a loss the restored one is registered anew with its extensions.
@@ -164,6 +202,7 @@ export class Runtime {
   }
 
   #lose(event) {
+    if (this.#ended) return;
     event.preventDefault(); // else the browser never gives it back
     this.#lost = true;
     cancelAnimationFrame(this.#frame);

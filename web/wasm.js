@@ -1,7 +1,14 @@
+/** Whether a module ended with this error: it is of no use any more. */
+export const isAbort = (error) => error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
+
 /** Calls a compiled function: text and byte arrays (pointer and length) are lent to it for the call. */
 export function callWasm(wasm, name, ...values) {
   const lent = [];
-  const lend = (size) => lent[lent.push(wasm._malloc(size || 1)) - 1];
+  const lend = (size) => {
+    const pointer = wasm._malloc(size || 1);
+    if (!pointer) throw new WebAssembly.RuntimeError(`no memory is left for ${size} bytes`);
+    return lent[lent.push(pointer) - 1];
+  };
   const plain = values.flatMap((value) => {
     if (typeof value === 'string') {
       const size = wasm.lengthBytesUTF8(value) + 1;

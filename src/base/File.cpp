@@ -1,53 +1,60 @@
 #include "base/File.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <memory>
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lucent {
 namespace {
 
-struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+Error failed(const std::string& path, int reason) {
+    return {path + ": cannot be read (" + std::strerror(reason) + ")"};
+}
+
+/// A file that is open for reading.
+class OpenFile {
+public:
+    // A pipe would wait for its other end before anybody could ask what it is.
+    explicit OpenFile(const std::string& path)
+        : file_(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+    ~OpenFile() {
+        if (file_ >= 0) close(file_);
+    }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+
+    explicit operator bool() const { return file_ >= 0; }
+    bool isDeviceOrPipe() const {
+        struct stat found;
+        return fstat(file_, &found) == 0 && !S_ISREG(found.st_mode) && !S_ISDIR(found.st_mode);
+    }
+    ssize_t take(std::span<std::byte> block) const {
+        ssize_t count = -1;
+        do
+            count = read(file_, block.data(), block.size());
+        while (count < 0 && errno == EINTR);
+        return count;
+    }
+
+private:
+    int file_;
 };
-using OpenFile = std::unique_ptr<std::FILE, Close>;
-
-Error failed(const std::string& path, const char* what, int reason) {
-    return {path + ": cannot be " + what + " (" + std::strerror(reason) + ")"};
-}
-
-bool writeAll(const std::string& path, std::span<const std::byte> bytes) {
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (!file) return false;
-    const bool written = bytes.empty() || std::fwrite(bytes.data(), bytes.size(), 1, file) == 1;
-    return std::fclose(file) == 0 && written; // a full disk may show only when the last bytes are flushed
-}
 
 } // namespace
 
 Result<Bytes> readFile(const std::string& path) {
-    const OpenFile file(std::fopen(path.c_str(), "rb"));
-    if (!file) return failed(path, "read", errno);
+    const OpenFile file(path);
+    if (!file) return failed(path, errno);
+    if (file.isDeviceOrPipe()) return Error{path + ": is a device or a pipe; must be a regular file"};
     Bytes bytes;
     std::byte block[1 << 16];
-    while (const std::size_t count = std::fread(block, 1, sizeof block, file.get()))
+    ssize_t count = 0;
+    while ((count = file.take(block)) > 0)
         bytes.insert(bytes.end(), block, block + count);
-    if (std::ferror(file.get())) return failed(path, "read", errno);
+    if (count < 0) return failed(path, errno);
     return bytes;
-}
-
-Status writeFile(const std::string& path, std::span<const std::byte> bytes) {
-    const std::string temporary = path + "." + std::to_string(getpid()) + ".part"; // one per process
-    std::error_code ignored;
-    if (!writeAll(temporary, bytes) || std::rename(temporary.c_str(), path.c_str()) != 0) {
-        const int reason = errno;
-        std::filesystem::remove(temporary, ignored);
-        return failed(path, "written", reason);
-    }
-    return Done{};
 }
 
 } // namespace lucent

@@ -104,7 +104,7 @@ Result<Image> decodeHdr(std::span<const std::byte> bytes, const std::string& nam
     int width = 0, height = 0;
     if (std::sscanf(line.c_str(), "-Y %d +X %d", &height, &width) != 2)
         return Error{name + ": has the layout \"" + line + "\"; must be -Y height +X width"};
-    if (Status size = checkImageSize(width, height, name); !size) return size.error();
+    if (Status size = checkImageSize(width, height, 3, name); !size) return size.error();
     // A run codes at most 127 pixels of a channel in two bytes: fewer bytes than this cannot hold the
     // picture.
     if (input.left() < std::size_t(height) * 4) return damaged;

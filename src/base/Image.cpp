@@ -7,6 +7,7 @@
 #include "base/Text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -88,32 +89,103 @@ Result<Image> decodeWith(Decoder<Sample> decode, std::span<const std::byte> byte
     return toFloat(std::move(frame), samples.get(), encoding);
 }
 
+std::uint32_t bigEndian(std::span<const std::byte> bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i)
+        value = value << 8 | std::uint32_t(bytes[i]);
+    return value;
+}
+
 // Width and height, which stand at fixed places of a PNG file.
-dvec2 pngSize(std::span<const std::byte> bytes) {
-    const auto bigEndian = [&](std::size_t at) {
-        double value = 0;
-        for (std::size_t i = at; i < at + 4; ++i)
-            value = value * 256 + double(bytes[i]);
-        return value;
-    };
-    return {bigEndian(16), bigEndian(20)};
+dvec2 pngSize(std::span<const std::byte> bytes) { return {bigEndian(bytes, 16), bigEndian(bytes, 20)}; }
+
+// At most: what is transparent may be told by a colour or a palette.
+int pngChannels(std::span<const std::byte> bytes) {
+    const bool isGrey = bytes[25] == std::byte(0), isGreyAlpha = bytes[25] == std::byte(4);
+    return isGrey || isGreyAlpha ? 2 : 4;
+}
+
+// CRC-32 as PNG has it (RFC 1950's polynomial, reflected). zlib's is faster, but its tables would add 8 KB to
+// a page.
+std::uint32_t checksum(std::span<const std::byte> bytes) {
+    static const auto table = [] {
+        std::array<std::uint32_t, 256> table{};
+        for (std::uint32_t i = 0; i < table.size(); ++i) {
+            std::uint32_t crc = i;
+            for (int bit = 0; bit < 8; ++bit)
+                crc = crc & 1 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
+            table[i] = crc;
+        }
+        return table;
+    }();
+    std::uint32_t crc = ~0u;
+    for (const std::byte byte : bytes)
+        crc = crc >> 8 ^ table[(crc ^ std::uint32_t(byte)) & 0xff];
+    return ~crc;
+}
+
+// stb looks at none of the checksums that follow the chunks. What is cut short it notices itself.
+Status checkChunks(std::span<const std::byte> bytes, const std::string& name) {
+    constexpr std::size_t kSignature = 8, kFrame = 12; // length, type and checksum
+    for (std::size_t at = kSignature; bytes.size() - at >= kFrame;) {
+        const std::size_t length = bigEndian(bytes, at);
+        if (length > bytes.size() - at - kFrame) break;
+        const auto covered = bytes.subspan(at + 4, length + 4);
+        if (bigEndian(bytes, at + 8 + length) != checksum(covered))
+            return Error{name + ": the chunk at byte " + std::to_string(at) +
+                         " has another checksum; must be a whole PNG file"};
+        at += kFrame + length;
+    }
+    return Done{};
 }
 
 Result<Image> decodePng(std::span<const std::byte> bytes, const std::string& name, Encoding encoding) {
-    if (bytes.size() < 25) return damaged(name, "PNG", true);
+    if (bytes.size() < 26) return damaged(name, "PNG", true);
     const dvec2 side = pngSize(bytes);
-    if (Status size = checkImageSize(side.x, side.y, name); !size) return size.error();
+    if (Status size = checkImageSize(side.x, side.y, pngChannels(bytes), name); !size) return size.error();
+    if (Status sound = checkChunks(bytes, name); !sound) return sound.error();
     if (bytes[24] == std::byte(16)) // bits a sample
         return decodeWith<stbi_us>(stbi_load_16_from_callbacks, bytes, name, "PNG", encoding);
     return decodeWith<stbi_uc>(stbi_load_from_callbacks, bytes, name, "PNG", encoding);
 }
 
+// Where stb would find the marker behind `at`: fill bytes, what is stuffed into the coded picture and its
+// restarts are passed. The end of the file when there is none.
+std::size_t nextMarker(std::span<const std::byte> bytes, std::size_t at) {
+    for (; at + 1 < bytes.size(); ++at) {
+        const unsigned code = unsigned(bytes[at + 1]);
+        const bool isRestart = code >= 0xd0 && code <= 0xd7;
+        if (bytes[at] == std::byte(0xff) && code != 0xff && code != 0 && !isRestart) return at + 1;
+    }
+    return bytes.size();
+}
+
+// Whether every Huffman table has at most the 256 codes that stb has room for: it does not look.
+bool hasSoundTables(std::span<const std::byte> bytes) {
+    constexpr unsigned kEnd = 0xd9, kTables = 0xc4;
+    const auto byteAt = [&](std::size_t at) { return at < bytes.size() ? std::size_t(bytes[at]) : 0; };
+    for (std::size_t at = nextMarker(bytes, 2); at < bytes.size() && byteAt(at) != kEnd;) {
+        const std::size_t length = byteAt(at + 1) << 8 | byteAt(at + 2), end = at + 1 + length;
+        for (std::size_t table = at + 3; byteAt(at) == kTables && table < end;) {
+            std::size_t codes = 0;
+            for (std::size_t i = 1; i <= 16; ++i) // numbers of codes by length, behind the table's name
+                codes += byteAt(table + i);
+            if (codes > 256) return false;
+            table += 17 + codes;
+        }
+        at = nextMarker(bytes, std::max(end, at + 1));
+    }
+    return true;
+}
+
 Result<Image> decodeJpeg(std::span<const std::byte> bytes, const std::string& name, Encoding encoding) {
+    if (!hasSoundTables(bytes))
+        return Error{name + ": has a Huffman table of more than 256 codes; must be a whole JPEG file"};
     Source source{bytes};
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_callbacks(&kCallbacks, &source, &width, &height, &channels))
         return damaged(name, "JPEG", source.exhausted);
-    if (Status size = checkImageSize(width, height, name); !size) return size.error();
+    if (Status size = checkImageSize(width, height, channels, name); !size) return size.error();
     return decodeWith<stbi_uc>(stbi_load_from_callbacks, bytes, name, "JPEG", encoding);
 }
 
@@ -166,11 +238,16 @@ std::string pixelName(const Image& image, std::size_t sample) {
 
 } // namespace
 
-Status checkImageSize(double width, double height, const std::string& name) {
+Status checkImageSize(double width, double height, int channels, const std::string& name) {
     const auto legal = [](double side) {
         return side >= 1 && side <= kMaxImageSide && side == std::floor(side);
     };
-    if (legal(width) && legal(height) && width * height <= kMaxImagePixels) return Done{};
+    const double pixels = width * height, bytes = pixels * channels * double(sizeof(float));
+    if (legal(width) && legal(height) && pixels <= kMaxImagePixels && bytes > kMaxImageBytes)
+        return Error{name + ": is " + shortest(width) + " x " + shortest(height) + " pixels of " +
+                     std::to_string(channels) + " channels; must be at most " +
+                     shortest(kMaxImageBytes / channels / sizeof(float)) + " pixels of so many"};
+    if (legal(width) && legal(height) && pixels <= kMaxImagePixels) return Done{};
     return Error{name + ": is " + shortest(width) + " x " + shortest(height) + " pixels; must be 1 to " +
                  std::to_string(kMaxImageSide) + " a side and at most 67 million in all"};
 }

@@ -65,7 +65,7 @@ Result<Image> decodePfm(std::span<const std::byte> bytes, const std::string& nam
     if (!parseNumber(header.word(), width) || !parseNumber(header.word(), height) ||
         !parseNumber(header.word(), scale) || scale == 0)
         return Error{name + ": the PFM header is damaged; must be PF or Pf, width, height, scale"};
-    if (Status size = checkImageSize(width, height, name); !size) return size.error();
+    if (Status size = checkImageSize(width, height, channels, name); !size) return size.error();
     const std::size_t row = std::size_t(width) * std::size_t(channels) * sizeof(float);
     const std::size_t start = header.at + 1, needed = row * std::size_t(height); // one blank ends the header
     if (bytes.size() < start + needed)

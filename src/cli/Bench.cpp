@@ -128,7 +128,7 @@ std::shared_ptr<const Image> thinned(std::shared_ptr<const Image> heights, int s
 // The heights of a gallery scene's first height field, for a field 1 m wide with at most `side` texels a
 // side.
 Result<measure::BenchField> fieldOf(const std::string& path, int side) {
-    const Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), technique::tables());
+    const Result<scene::Scene> scene = scene::load(path, scene::plainFiles(path), technique::tables());
     if (!scene) return scene.error();
     for (const scene::Object& object : scene->objects)
         if (const auto* field = std::get_if<scene::HeightField>(&object.shape))
@@ -138,7 +138,7 @@ Result<measure::BenchField> fieldOf(const std::string& path, int side) {
 }
 
 Result<measure::BenchEnvironment> environmentOf(const std::string& path) {
-    const Result<Bytes> bytes = scene::plainFiles()(path);
+    const Result<Bytes> bytes = scene::plainFiles(path)(path);
     if (!bytes) return bytes.error();
     const auto map = scene::loadEnvironmentMap(path, *bytes);
     if (!map) return map.error();
@@ -173,7 +173,7 @@ Result<std::optional<measure::BenchMesh>> meshOf(const std::string& path) {
         std::fprintf(stderr, "bench: %s: is not there; %s is left out\n", path.c_str(), name.c_str());
         return std::optional<measure::BenchMesh>();
     }
-    const Result<Bytes> bytes = scene::plainFiles()(path);
+    const Result<Bytes> bytes = scene::plainFiles(path)(path);
     if (!bytes) return bytes.error();
     const Result<scene::Scene> scene = scene::sceneFromMesh(path, *bytes, technique::tables());
     if (!scene) return scene.error();

@@ -106,20 +106,16 @@ Result<Bytes> flipPicture(const Findings& found, const std::string& path) {
     return encode(measure::heatMap(map, Image(map.width, map.height, 1), 1), path);
 }
 
-Status checkOutputs(const CompareOptions& options) {
-    for (const std::string& output : {options.heatMap, options.flipMap}) {
-        if (output.empty()) continue;
-        if (Status possible = checkImageOutput(output); !possible) return possible;
-        if (Status apart = checkNotRead(output, {options.image, options.reference, options.mask}); !apart)
-            return apart;
-    }
-    if (!options.heatMap.empty() && options.heatMap == options.flipMap)
-        return Error{options.heatMap + ": is the file of --heatmap and of --flip; must be two files"};
-    return Done{};
+Status checkComparePaths(const CompareOptions& options) {
+    const std::vector<std::string> outputs{options.heatMap, options.flipMap};
+    for (const std::string& output : outputs)
+        if (!output.empty())
+            if (Status known = checkImageEnding(output); !known) return known;
+    return checkOutputs(outputs, {options.image, options.reference, options.mask});
 }
 
 Status compare(const CompareOptions& options) {
-    if (Status possible = checkOutputs(options); !possible) return possible;
+    if (Status possible = checkComparePaths(options); !possible) return possible;
     const Result<Image> image = readImage(options.image, Encoding::Srgb);
     if (!image) return image.error();
     const Result<Image> reference = readImage(options.reference, Encoding::Srgb);

@@ -21,6 +21,7 @@ using scene::HeightSource;
 
 struct ConvertOptions {
     std::string input, output, size, rotate, margin, floorGap;
+    std::vector<std::string> allowed;
     bool normals = false;
 
     bool forMesh() const { return !(size.empty() && rotate.empty() && margin.empty() && floorGap.empty()); }
@@ -66,9 +67,8 @@ Status convertMesh(const ConvertOptions& options) {
     if (options.normals || options.forMesh())
         return Error{options.output +
                      ": is a mesh; --normals, --size, --rotate, --margin and --floor-gap make heights"};
-    if (Status possible = checkFolder(options.output); !possible) return possible;
-    if (Status apart = checkNotRead(options.output, {options.input}); !apart) return apart;
-    const Result<Bytes> bytes = scene::plainFiles()(options.input);
+    if (Status possible = checkOutputs({options.output}, {options.input}); !possible) return possible;
+    const Result<Bytes> bytes = scene::plainFiles(options.input, options.allowed)(options.input);
     if (!bytes) return bytes.error();
     const Result<scene::Mesh> mesh = scene::decodeMesh(*bytes, options.input);
     if (!mesh) return mesh.error();
@@ -82,12 +82,12 @@ Status convertMesh(const ConvertOptions& options) {
 Status convert(const ConvertOptions& options) {
     const std::string ending = endingOf(options.output);
     if (ending == ".mesh" || ending == ".obj") return convertMesh(options);
-    if (Status possible = checkImageOutput(options.output); !possible) return possible;
+    if (Status known = checkImageEnding(options.output); !known) return known;
     if (ending == ".png")
         return Error{options.output +
                      ": 8-bit PNG would make terraces of the heights; must be .pfm, .exr or .hdr"};
-    if (Status apart = checkNotRead(options.output, {options.input}); !apart) return apart;
-    const Result<Bytes> bytes = scene::plainFiles()(options.input);
+    if (Status possible = checkOutputs({options.output}, {options.input}); !possible) return possible;
+    const Result<Bytes> bytes = scene::plainFiles(options.input, options.allowed)(options.input);
     if (!bytes) return bytes.error();
     const Result<HeightSource> source = sourceOf(options, *bytes);
     if (!source) return source.error();
@@ -116,6 +116,7 @@ Command addConvert(CLI::App& program) {
         ->required();
     addOutput(*parser, options->output,
               "Heights: .pfm, .exr or .hdr; a mesh: .mesh (all of it, read fastest) or .obj (its rest)");
+    addAllow(*parser, options->allowed);
     parser->add_flag("--normals", options->normals,
                      "The image is a normal map: integrates it by least squares");
     parser->add_option("--size", options->size, "Mesh: texels of the height map [512x512]")->type_name("WxH");

@@ -25,6 +25,7 @@ void SceneOptions::addTo(CLI::App& parser) {
                     "Changes a parameter of the scene; lucent list names them. May be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+    addAllow(parser, allowed);
 }
 
 void SceneOptions::addAovTo(CLI::App& parser, const std::string& help) {
@@ -51,7 +52,7 @@ Result<scene::Aov> parseAov(const std::string& text) {
 } // namespace
 
 Result<scene::Scene> SceneOptions::load() const {
-    Result<scene::Scene> scene = scene::load(path, scene::plainFiles(), technique::tables());
+    Result<scene::Scene> scene = scene::load(path, scene::plainFiles(path, allowed), technique::tables());
     if (!scene) return scene;
     for (const std::string& set : sets)
         if (Status applied = applySet(*scene, set); !applied) return applied.error();
@@ -107,23 +108,37 @@ Result<ivec2> parseSize(const std::string& option, const std::string& text, int 
     return ivec2(int(width), int(height));
 }
 
-void addOutput(CLI::App& parser, std::string& path, const std::string& help) {
-    parser.add_option("-o,--output", path, help)->required()->type_name("FILE");
+void addAllow(CLI::App& parser, std::vector<std::string>& folders) {
+    parser
+        .add_option("--allow", folders,
+                    "Folder beneath which files may be read that the input names, beside its own. May be "
+                    "repeated")
+        ->type_name("DIR")
+        ->check(CLI::Validator(CLI::ExistingDirectory).description(""))
+        ->allow_extra_args(false);
 }
 
+void addOutput(CLI::App& parser, std::string& path, const std::string& help) {
+    parser
+        .add_option("-o,--output", path,
+                    help + ". Replaces regular files only; all files of a command are written or none")
+        ->required()
+        ->type_name("FILE");
+}
+
+Status checkImageEnding(const std::string& path) {
+    const std::string ending = fs::path(path).extension().string();
+    if (ending == ".png" || ending == ".hdr" || ending == ".exr" || ending == ".pfm") return Done{};
+    return Error{path + ": ends in no known image type; must be .png, .hdr, .exr or .pfm"};
+}
+
+namespace {
 Status checkFolder(const std::string& path) {
     std::error_code ignored;
     const fs::path folder = fs::path(path).parent_path();
     if (folder.empty() || fs::is_directory(folder, ignored)) return Done{};
     return Error{path + ": cannot be written, " + folder.string() +
                  " is no folder; must be in an existing one"};
-}
-
-Status checkImageOutput(const std::string& path) {
-    const std::string ending = fs::path(path).extension().string();
-    if (ending != ".png" && ending != ".hdr" && ending != ".exr" && ending != ".pfm")
-        return Error{path + ": ends in no known image type; must be .png, .hdr, .exr or .pfm"};
-    return checkFolder(path);
 }
 
 Status checkNotRead(const std::string& output, const std::vector<std::string>& inputs) {
@@ -133,22 +148,24 @@ Status checkNotRead(const std::string& output, const std::vector<std::string>& i
             return Error{output + ": is read as well; must be another file than " + input};
     return Done{};
 }
+} // namespace
+
+Status checkOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+    for (const std::string& output : outputs) {
+        if (Status possible = checkFolder(output); !possible) return possible;
+        if (Status apart = checkNotRead(output, inputs); !apart) return apart;
+    }
+    return lucent::checkOutputs(outputs);
+}
 
 Result<Bytes> encode(const Image& image, const std::string& path) {
+    if (const ivec2 bad = findNonFinite(image); bad.x >= 0)
+        return Error{path + ": the picture is NaN or infinite at pixel (" + std::to_string(bad.x) + ", " +
+                     std::to_string(bad.y) + "); must be finite everywhere"};
     return fs::path(path).extension() == ".exr" ? scene::encodeExr(image) : encodeImage(image, path);
 }
 
-Status writeAll(const std::vector<Output>& outputs) {
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        const Status written = writeFile(outputs[i].path, outputs[i].bytes);
-        if (written) continue;
-        std::error_code ignored;
-        for (std::size_t earlier = 0; earlier < i; ++earlier)
-            fs::remove(outputs[earlier].path, ignored);
-        return written;
-    }
-    return Done{};
-}
+Status writeAll(const std::vector<Output>& outputs) { return writeFiles(outputs); }
 
 Bytes toBytes(const std::string& text) {
     const auto* first = reinterpret_cast<const std::byte*>(text.data());
@@ -156,7 +173,7 @@ Bytes toBytes(const std::string& text) {
 }
 
 Result<Image> readImage(const std::string& path, Encoding encoding) {
-    Result<Bytes> bytes = scene::plainFiles()(path);
+    Result<Bytes> bytes = scene::plainFiles(path)(path);
     if (!bytes) return bytes.error();
     return decodeImage(*bytes, path, encoding);
 }

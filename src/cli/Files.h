@@ -3,6 +3,7 @@
 
 #include "base/File.h"
 #include "base/Image.h"
+#include "base/Output.h"
 #include "base/Result.h"
 #include "scene/Scene.h"
 
@@ -18,9 +19,10 @@ namespace lucent::cli {
 /// The scene of a command and what its options change in it.
 struct SceneOptions {
     std::string path;
-    std::string size;              ///< "WxH"; empty: the scene's own
-    std::vector<std::string> sets; ///< "KEY=VALUE"
-    std::string aov;               ///< empty: what the scene shows
+    std::string size;                 ///< "WxH"; empty: the scene's own
+    std::vector<std::string> sets;    ///< "KEY=VALUE"
+    std::string aov;                  ///< empty: what the scene shows
+    std::vector<std::string> allowed; ///< folders that it may read beside its own
 
     void addTo(CLI::App& parser);
     void addAovTo(CLI::App& parser, const std::string& help);
@@ -41,26 +43,24 @@ CLI::Validator integerIn(std::int64_t low, std::int64_t high);
 /// "512x256" as pixels. Error "OPTION: is TEXT; must be ..."
 Result<ivec2> parseSize(const std::string& option, const std::string& text, int largest);
 
+/// Adds --allow.
+void addAllow(CLI::App& parser, std::vector<std::string>& folders);
+
 /// Adds -o/--output.
 void addOutput(CLI::App& parser, std::string& path, const std::string& help);
 
-/// Refuses a path that could not be written after hours of work: its folder must be there.
-Status checkFolder(const std::string& path);
+/// Refuses an output whose ending is that of no image.
+Status checkImageEnding(const std::string& path);
 
-/// The same for an image, whose ending must be known as well.
-Status checkImageOutput(const std::string& path);
+/// Refuses what could not be written after hours of work: the folders of all outputs must be there, what they
+/// replace must be regular files, no two may be one, and none may be a file that the command reads. "" stands
+/// for no file.
+Status checkOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
-/// Refuses an output that is one of the files a command reads.
-Status checkNotRead(const std::string& output, const std::vector<std::string>& inputs);
-
-/// Encodes by the ending of `path`: .exr as well as what encodeImage() knows.
+/// Encodes by the ending of `path`: .exr as well as what encodeImage() knows. Error for values that are not
+/// finite.
 Result<Bytes> encode(const Image& image, const std::string& path);
 
-/// A file to write.
-struct Output {
-    std::string path;
-    Bytes bytes;
-};
 /// Writes all of them, or none when one fails.
 Status writeAll(const std::vector<Output>& outputs);
 

@@ -17,8 +17,7 @@ struct MergeOptions {
 };
 
 Status merge(const MergeOptions& options) {
-    if (Status possible = options.output.check(); !possible) return possible;
-    if (Status kept = options.output.checkNotAmong(options.parts); !kept) return kept;
+    if (Status possible = options.output.check(options.parts); !possible) return possible;
     std::vector<truth::Part> parts;
     for (const std::string& path : options.parts) {
         const Result<Bytes> bytes = readFile(path);

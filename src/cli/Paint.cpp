@@ -46,9 +46,10 @@ Result<scene::Object*> objectOf(const PaintOptions& options, scene::Scene& scene
 
 Status checkPlaces(const PaintOptions& options, const std::vector<std::string>& inputs) {
     const fs::path folder = fs::absolute(options.scene.path).parent_path();
+    if (Status possible = checkOutputs({options.output, options.entering, options.leaving}, inputs);
+        !possible)
+        return possible;
     for (const std::string* path : {&options.output, &options.entering, &options.leaving}) {
-        if (Status possible = checkFolder(*path); !possible) return possible;
-        if (Status apart = checkNotRead(*path, inputs); !apart) return apart;
         std::error_code ignored;
         if (!fs::equivalent(fs::absolute(*path).parent_path(), folder, ignored))
             return Error{*path + ": lies elsewhere than " + options.scene.path +

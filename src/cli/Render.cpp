@@ -103,16 +103,13 @@ Result<scene::Scene> loadScene(const RenderOptions& options) {
     return scene;
 }
 
-Status checkOutputs(const RenderOptions& options) {
-    if (Status possible = checkImageOutput(options.output); !possible) return possible;
-    if (Status possible = checkFolder(options.stats); !possible) return possible;
+Status checkRenderPaths(const RenderOptions& options) {
+    if (Status known = checkImageEnding(options.output); !known) return known;
     const Result<std::vector<std::string>> inputs = options.scene.files();
     if (!inputs) return inputs.error();
     std::vector<std::string> outputs = pathsOf(options);
     outputs.push_back(options.stats);
-    for (const std::string& output : outputs)
-        if (Status apart = checkNotRead(output, *inputs); !apart) return apart;
-    return Done{};
+    return checkOutputs(outputs, *inputs);
 }
 
 Result<Bytes> encodePicture(frame::Renderer& renderer, const scene::Scene& scene, const std::string& path) {
@@ -123,19 +120,24 @@ Result<Bytes> encodePicture(frame::Renderer& renderer, const scene::Scene& scene
     return encode(*image, path);
 }
 
-// Draws, writes and adds the scene as it stands.
-Status renderOne(frame::Renderer& renderer, const scene::Scene& scene, const std::string& path,
+// Draws, writes and adds the scene as it stands. The last picture brings the statistics of all.
+Status renderOne(const RenderOptions& options, const gl::Context& context, frame::Renderer& renderer,
+                 const scene::Scene& scene, const std::string& path, bool isLast,
                  std::vector<Drawn>& pictures) {
     if (Status finished = renderer.finish(scene, pictures.size() + 1, scene.size); !finished) return finished;
     Result<Bytes> encoded = encodePicture(renderer, scene, path);
     if (!encoded) return encoded.error();
     pictures.push_back({path, scene.view.time, renderer.stats()});
-    return writeAll({{path, std::move(*encoded)}});
+    std::vector<Output> outputs{{path, std::move(*encoded)}};
+    if (isLast && !options.stats.empty())
+        outputs.push_back({options.stats, toBytes(statsJson(options, scene.size, context, pictures))});
+    return writeAll(outputs);
 }
 
 // Picture by picture: what was finished stays when it is stopped. Stopped once, it finishes the one at hand.
-Status renderAll(const RenderOptions& options, frame::Renderer& renderer, scene::Scene& scene,
-                 std::vector<Drawn>& pictures) {
+Status renderAll(const RenderOptions& options, const gl::Context& context, frame::Renderer& renderer,
+                 scene::Scene& scene) {
+    std::vector<Drawn> pictures;
     const std::vector<std::string> paths = pathsOf(options);
     const float start = scene.view.time;
     if (paths.size() > 1)
@@ -151,24 +153,22 @@ Status renderAll(const RenderOptions& options, frame::Renderer& renderer, scene:
                              std::to_string(paths.size()) + " pictures",
                          Fault::Machine};
         scene.view.time = start + float(i) / float(options.fps);
-        if (Status drawn = renderOne(renderer, scene, paths[i], pictures); !drawn) return drawn;
+        const bool isLast = i + 1 == paths.size();
+        if (Status drawn = renderOne(options, context, renderer, scene, paths[i], isLast, pictures); !drawn)
+            return drawn;
     }
     return Done{};
 }
 
 Status render(const RenderOptions& options) {
-    if (Status possible = checkOutputs(options); !possible) return possible;
+    if (Status possible = checkRenderPaths(options); !possible) return possible;
     Result<scene::Scene> scene = loadScene(options);
     if (!scene) return scene.error();
     const Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
     if (!context) return context.error();
 
     frame::Renderer renderer(**context);
-    std::vector<Drawn> pictures;
-    if (Status drawn = renderAll(options, renderer, *scene, pictures); !drawn) return drawn;
-    if (options.stats.empty()) return Done{};
-    const std::string stats = statsJson(options, scene->size, **context, pictures);
-    return writeAll({{options.stats, toBytes(stats)}});
+    return renderAll(options, **context, renderer, *scene);
 }
 } // namespace
 
@@ -184,12 +184,12 @@ Command addRender(CLI::App& program) {
         ->add_option("--time", options->time,
                      "Moment that is shown of what moves, in s; else the scene's own")
         ->type_name("S");
-    CLI::Option* frames =
-        parser
-            ->add_option(
-                "--frames", options->frames,
-                "Renders so many pictures, a step of time apart, and numbers them: FILE-0001.png, ...")
-            ->check(integerIn(1, kMostFrames));
+    CLI::Option* frames = parser
+                              ->add_option("--frames", options->frames,
+                                           "Renders so many pictures, a step of time apart, and numbers "
+                                           "them: FILE-0001.png, ...; those that "
+                                           "are finished stay when a later one fails")
+                              ->check(integerIn(1, kMostFrames));
     parser->add_option("--fps", options->fps, "Pictures a second of a sequence")
         ->check(integerIn(1, 1000))
         ->needs(frames)

@@ -14,8 +14,7 @@ struct ReportOptions {
 };
 
 Status report(const ReportOptions& options) {
-    if (Status possible = checkFolder(options.output); !possible) return possible;
-    if (Status apart = checkNotRead(options.output, options.reports); !apart) return apart;
+    if (Status possible = checkOutputs({options.output}, options.reports); !possible) return possible;
     std::vector<std::string> reports;
     for (const std::string& path : options.reports) {
         const Result<Bytes> bytes = readFile(path);

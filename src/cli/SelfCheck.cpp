@@ -38,8 +38,7 @@ void printCapabilities(const std::vector<measure::Capability>& rows) {
 }
 
 Status selfCheck(const std::string& output) {
-    if (!output.empty())
-        if (Status possible = checkFolder(output); !possible) return possible;
+    if (Status possible = checkOutputs({output}, {}); !possible) return possible;
     const Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
     if (!context) return context.error();
     measure::SelfCheck check(**context);

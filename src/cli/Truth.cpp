@@ -201,18 +201,17 @@ Status checkOptions(const TruthOptions& options) {
     return Done{};
 }
 
-Status checkOutput(const TruthOptions& options) {
-    if (options.tile.empty()) return options.output.check();
+Status checkOutput(const TruthOptions& options, const std::vector<std::string>& inputs) {
+    if (options.tile.empty()) return options.output.check(inputs);
     if (!options.output.errors.empty())
         return Error{"--errors: is of the whole picture; must be given to lucent merge"};
-    return checkFolder(options.output.picture);
+    return checkOutputs({options.output.picture}, inputs);
 }
 
 Status makeTruth(TruthOptions options) {
-    if (Status possible = checkOutput(options); !possible) return possible;
     const Result<std::vector<std::string>> read = options.scene.files();
     if (!read) return read.error();
-    if (Status kept = options.output.checkNotAmong(*read); !kept) return kept;
+    if (Status possible = checkOutput(options, *read); !possible) return possible;
     const Result<scene::Scene> scene = options.scene.load();
     if (!scene) return scene.error();
     if (options.estimator.empty()) options.estimator = chosenEstimator(*scene, options.antialias);

@@ -28,18 +28,13 @@ void TruthOutput::addTo(CLI::App& parser) {
         ->type_name("FILE");
 }
 
-Status TruthOutput::check() const {
-    if (Status possible = checkImageOutput(picture); !possible) return possible;
-    if (errors.empty()) return Done{};
+Status TruthOutput::check(const std::vector<std::string>& inputs) const {
+    if (Status known = checkImageEnding(picture); !known) return known;
     if (std::filesystem::path(errors).extension() == ".png")
         return Error{errors + ": PNG cannot hold standard errors; must be .hdr, .exr or .pfm"};
-    return checkImageOutput(errors);
-}
-
-Status TruthOutput::checkNotAmong(const std::vector<std::string>& inputs) const {
-    for (const std::string& output : {picture, facts(), errors})
-        if (Status kept = checkNotRead(output, inputs); !kept) return kept;
-    return Done{};
+    if (!errors.empty())
+        if (Status known = checkImageEnding(errors); !known) return known;
+    return checkOutputs({picture, facts(), errors}, inputs);
 }
 
 Status TruthOutput::write(const truth::Facts& what, const truth::Picture& solved) const {

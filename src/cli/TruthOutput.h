@@ -19,10 +19,8 @@ struct TruthOutput {
     void addTo(CLI::App& parser);
     /// Where the facts go.
     std::string facts() const { return picture + ".json"; }
-    /// Refuses paths that could not be written after hours of work.
-    Status check() const;
-    /// Refuses to write over files that are read.
-    Status checkNotAmong(const std::vector<std::string>& inputs) const;
+    /// Refuses paths that could not be written after hours of work, or are read.
+    Status check(const std::vector<std::string>& inputs) const;
     /// Writes the picture, its facts beside it as PICTURE.json, and the standard errors where they are
     /// wanted; prints what the picture's own noise is. All or nothing.
     Status write(const truth::Facts& what, const truth::Picture& solved) const;

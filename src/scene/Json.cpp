@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace lucent::scene {
 namespace {
@@ -50,8 +51,8 @@ private:
 // Builds the tree from the parser's events; the names of its members are the parser's.
 class Builder {
 public:
-    Builder(Json& root, const Position& position, const std::string& name)
-        : root_(root), position_(position), name_(name) {}
+    Builder(Json& root, const Position& position, const std::string& name, bool quotes)
+        : root_(root), position_(position), name_(name), quotes_(quotes) {}
 
     const Error& error() const { return error_; }
 
@@ -77,7 +78,8 @@ public:
     bool end_array() { return close(); }
     bool key(std::string& name) {
         Json& object = *open_.back();
-        if (object.find(name)) return fail("key " + inQuotes(name) + " stands here twice; must be unique");
+        if (!keys_.back().insert(name).second)
+            return fail("key " + inQuotes(name) + " stands here twice; must be unique");
         object.keys.push_back(name);
         keyLine_ = position_.line;
         return true;
@@ -85,7 +87,7 @@ public:
     bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& exception) {
         const std::string what = exception.what();
         const std::size_t dash = what.find(" - "); // before it stand the parser's own names and position
-        return fail(dash == what.npos ? what : what.substr(dash + 3));
+        return quotes_ ? fail(dash == what.npos ? what : what.substr(dash + 3)) : fail("is no JSON; must be");
     }
 
 private:
@@ -112,17 +114,21 @@ private:
     bool open(Json::Type type) {
         if (open_.size() == kMaxDepth) return fail("nested deeper than 32; must be flatter");
         open_.push_back(&add(type)); // stays valid: its parent grows only after it is closed
+        keys_.emplace_back();
         return true;
     }
     bool close() {
         open_.pop_back();
+        keys_.pop_back();
         return true;
     }
 
     Json& root_;
     const Position& position_;
     const std::string& name_;
+    const bool quotes_;
     std::vector<Json*> open_;
+    std::vector<std::unordered_set<std::string>> keys_; // of each of these
     int keyLine_ = 1;
     Error error_;
 };
@@ -152,11 +158,11 @@ std::string Json::describe() const {
     return {};
 }
 
-Result<Json> parseJson(std::span<const std::byte> text, const std::string& name) {
+Result<Json> parseJson(std::span<const std::byte> text, const std::string& name, bool quotes) {
     const char* begin = reinterpret_cast<const char*>(text.data());
     Json root;
     Position position;
-    Builder builder(root, position, name);
+    Builder builder(root, position, name, quotes);
     if (!nlohmann::json::sax_parse(Reader(begin, &position), Reader(begin + text.size(), &position),
                                    &builder))
         return builder.error();

@@ -29,8 +29,11 @@ struct Json {
 
 /// Reads one JSON text (RFC 8259).
 ///
+/// @param quotes  whether messages may repeat what stands there: not of a file that only a scene names, which
+/// may be
+///                any
 /// @return  Error "NAME:LINE:COLUMN: what; expected" for bad syntax, a key given twice, nesting deeper than
 /// 32
-Result<Json> parseJson(std::span<const std::byte> text, const std::string& name);
+Result<Json> parseJson(std::span<const std::byte> text, const std::string& name, bool quotes = true);
 
 } // namespace lucent::scene

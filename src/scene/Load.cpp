@@ -8,12 +8,14 @@
 #include "scene/JsonReading.h"
 #include "scene/Keys.h"
 #include "scene/MaterialPresets.h"
+#include "scene/Memory.h"
 #include "scene/Mesh.h"
 #include "scene/Painting.h"
 #include "scene/Strokes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace lucent::scene {
 namespace {
@@ -103,6 +105,14 @@ private:
                   Target& target) {
         const Json* member = place.json.find(key);
         return !member || (this->*read)(place.at(*member, key), target);
+    }
+
+    // --- memory ---
+    // Refuses the value of a key that asks for more than is left.
+    bool spend(const Place& place, std::string_view key, const std::string& value, double bytes) {
+        const Json* json = place.json.find(key);
+        const std::string why = whyTooLarge(value, bytes_ += bytes);
+        return why.empty() || fail(place.at(json ? *json : place.json, key), why);
     }
 
     // --- files ---
@@ -212,12 +222,12 @@ private:
     bool readObjects(const Place& place, std::vector<Object>& objects) {
         if (!expect(place, Json::Type::Array, "a list of at least one object")) return false;
         if (place.json.items.empty()) return fail(place, " is empty; must hold at least one object");
+        std::set<std::string> names;
         for (std::size_t i = 0; i < place.json.items.size(); ++i) {
             std::vector<Object> read(1);
             if (!readObject(place, place.json.items[i], std::to_string(i), read)) return false;
             for (Object& object : read) {
-                const auto same = [&](const Object& other) { return other.name == object.name; };
-                if (std::any_of(objects.begin(), objects.end(), same))
+                if (!names.insert(object.name).second)
                     return fail(place.at(place.json.items[i], std::to_string(i)),
                                 ".name is " + inQuotes(object.name) +
                                     ", as another object's; must be unique");
@@ -386,8 +396,10 @@ private:
             return fail(place.at(*side, "side"), " is given beside maps; must stand without them");
         if (!map && !place.json.find("strokes"))
             return fail(place, " holds no paint; must have entering, leaving or strokes");
+        const int side = map ? map->width : source.side;
+        if (!spend(place, "side", std::to_string(side), bytesOfPaint(side))) return false;
         Result<std::shared_ptr<const Painting>> painted =
-            paint(object, files.strokes, map ? map->width : source.side, files.entering, files.leaving);
+            paint(object, files.strokes, side, files.entering, files.leaving);
         if (!painted) return fail(place, ": " + painted.error().message);
         Painting whole = **painted;
         whole.enteringFile = files.enteringFile;
@@ -503,8 +515,10 @@ private:
         object.shape = alternative<Shape>(index);
         if (object.isField()) return readHeightField(place, object.field());
         if (auto* mesh = std::get_if<MeshShape>(&object.shape)) return readMesh(place, *mesh);
+        const auto* water = std::get_if<Water>(&object.shape);
         return readKeys(place, typeOf(object.shape).keys, {dataOf(object.shape)}) &&
-               keepStatus(place, check(object.shape));
+               keepStatus(place, check(object.shape)) &&
+               (!water || spend(place, "cells", std::to_string(water->cells), bytesOf(*water)));
     }
     bool readHeightField(const Place& place, HeightField& field) {
         return readKeys(place, shapeTypes()[0].keys, {&field, &field.source}) && readHeights(place, field) &&
@@ -528,6 +542,12 @@ private:
         if (!found) return fail(place, " has no heights; must have one of heights, normalMap, mesh");
         if (!refuseMeshKeys(place, field.source.kind) ||
             !optional(place, "resolution", &Loader::readSize, field.source.resolution))
+            return false;
+
+        const ivec2 resolution = field.source.resolution;
+        if (field.source.kind == HeightSource::Kind::Mesh &&
+            !spend(place, "resolution", std::to_string(resolution.x) + " x " + std::to_string(resolution.y),
+                   bytesOfHeights(resolution)))
             return false;
 
         const Place member = place.at(*found, foundKey);
@@ -565,6 +585,7 @@ private:
     const ReadFile& read_;
     std::span<const ParamTable* const> techniques_;
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const Mesh>> meshes_; // by source and part
+    double bytes_ = 0; // that what was read asks for
 };
 
 } // namespace

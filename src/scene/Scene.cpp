@@ -2,6 +2,7 @@
 
 #include "base/Text.h"
 #include "scene/Keys.h"
+#include "scene/Memory.h"
 #include "scene/Mesh.h"
 #include "scene/Translucency.h"
 
@@ -378,11 +379,16 @@ Status checkAll(const Scene& scene) {
     if (Status legal = at("camera", check(scene.camera)); !legal) return legal;
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (Status legal = at("lights." + std::to_string(i), check(scene.lights[i])); !legal) return legal;
+    double bytes = 0;
     for (const Object& object : scene.objects) {
         const std::string path = "objects." + object.name;
         if (Status legal = at(path + ".shape", check(object.shape)); !legal) return legal;
         if (Status legal = at(path + ".material", check(object.material)); !legal) return legal;
         if (Status legal = at(path + ".wave", check(object.wave)); !legal) return legal;
+        if (const auto* water = std::get_if<Water>(&object.shape)) {
+            const std::string why = whyTooLarge(std::to_string(water->cells), bytes += bytesOf(*water));
+            if (!why.empty()) return Error{path + ".shape.cells" + why};
+        }
     }
     return Done{};
 }

@@ -252,7 +252,7 @@ void writeStrokes(JsonWriter& json, std::span<const Stroke> strokes) {
 }
 
 Result<std::vector<Stroke>> parseStrokes(std::span<const std::byte> text, const std::string& name) {
-    const Result<Json> root = parseJson(text, name);
+    const Result<Json> root = parseJson(text, name, false);
     if (!root) return root.error();
     return StrokeReading(name).readScript({*root, ""});
 }

@@ -21,7 +21,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little); // the order of the bytes in a part
 
 constexpr std::string_view kMagic = "lucent part ";
-constexpr std::size_t kLongestFirstLine = 32; // magic, up to 19 digits, line feed
+constexpr std::size_t kLongestFirstLine = 64; // magic, up to 19 digits, checksum, line feed
 
 /// FNV-1a, 64 bits: no two scenes meet by accident, and nobody forges tiles.
 class Hash {
@@ -242,6 +242,8 @@ std::string sidecar(const Facts& facts, const Picture& picture) {
     return json.text();
 }
 
+// "lucent part LENGTH CHECKSUM", the checksum of all that follows; LENGTH bytes of JSON; the pixels as they
+// lie in memory.
 Bytes encodePart(const Part& part) {
     JsonWriter json;
     json.beginObject();
@@ -250,11 +252,17 @@ Bytes encodePart(const Part& part) {
     if (part.rows.energy) writeEnergy(json, *part.rows.energy);
     json.end();
     const std::string header = json.text();
-    const std::string start = std::string(kMagic) + std::to_string(header.size()) + "\n" + header;
+    Bytes content;
+    append(content, std::as_bytes(std::span(header)));
+    append(content, std::as_bytes(std::span(part.rows.values.pixels)));
+    append(content, std::as_bytes(std::span(part.rows.errors.pixels)));
+    Hash checksum;
+    checksum.add(content);
+    const std::string line =
+        std::string(kMagic) + std::to_string(header.size()) + " " + checksum.text() + "\n";
     Bytes bytes;
-    append(bytes, std::as_bytes(std::span(start)));
-    append(bytes, std::as_bytes(std::span(part.rows.values.pixels)));
-    append(bytes, std::as_bytes(std::span(part.rows.errors.pixels)));
+    append(bytes, std::as_bytes(std::span(line)));
+    append(bytes, content);
     return bytes;
 }
 
@@ -264,7 +272,8 @@ Result<Part> decodePart(std::span<const std::byte> bytes, const std::string& nam
     const std::size_t line = start.find('\n');
     if (start.rfind(kMagic, 0) != 0 || line == std::string::npos)
         return Error{name + ": is no part of a truth; must be a file that lucent truth --tile wrote"};
-    const std::size_t length = std::size_t(std::strtoull(start.c_str() + kMagic.size(), nullptr, 10));
+    char* end = nullptr;
+    const std::size_t length = std::size_t(std::strtoull(start.c_str() + kMagic.size(), &end, 10));
     const Error damaged{name +
                         ": the header of the part is damaged; must be as lucent truth --tile wrote it"};
     if (length > bytes.size() - line - 1) return damaged;
@@ -279,7 +288,8 @@ Result<Part> decodePart(std::span<const std::byte> bytes, const std::string& nam
     std::optional<EnergyBook> energy;
     if (part.facts.photons > 0) energy = readEnergy(reader);
     if (!reader.complete()) return damaged;
-    if (Status size = checkImageSize(part.facts.size.x, part.facts.size.y, name); !size) return size.error();
+    if (Status size = checkImageSize(part.facts.size.x, part.facts.size.y, 4, name); !size)
+        return size.error();
 
     const int rows = part.facts.rowsOf(part.tile);
     const std::size_t pixels = std::size_t(part.facts.size.x) * std::size_t(rows);
@@ -287,6 +297,13 @@ Result<Part> decodePart(std::span<const std::byte> bytes, const std::string& nam
     if (bytes.size() != needed)
         return Error{name + ": has " + std::to_string(bytes.size()) + " bytes; must have " +
                      std::to_string(needed)};
+    Hash found;
+    found.add(bytes.subspan(line + 1));
+    if (" " + found.text() !=
+        start.substr(std::size_t(end - start.c_str()), line - std::size_t(end - start.c_str())))
+        return Error{
+            name +
+            ": has another checksum than its first line says; must be as lucent truth --tile wrote it"};
     part.rows = Picture({part.facts.size.x, rows});
     part.rows.energy = energy;
     const std::byte* data = bytes.data() + line + 1 + length;

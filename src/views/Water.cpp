@@ -1,5 +1,7 @@
 #include "views/Water.h"
 
+#include "base/Text.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -148,6 +150,11 @@ void WaterSheet::step() {
         if (one.step == done_) draw(*drop_, one.drop);
 }
 
+double WaterSheet::workUntil(float time) const {
+    const double wanted = std::floor(double(time) / seconds_), done = double(done_);
+    return (wanted < done ? wanted : wanted - done) * double(cells_.x) * double(cells_.y);
+}
+
 bool WaterSheet::advance(float time, int most) {
     constexpr double kRounding = 1e-5; // of a step: times come as floats
     const double steps = double(time) / seconds_;
@@ -196,6 +203,10 @@ Result<bool> Waters::advance(const scene::Scene& scene) {
             }
             sheet = std::move(*made);
         }
+        if (const double work = sheet->workUntil(scene.view.time); work > kMostWork)
+            return Error{"view.time: is " + shortest(scene.view.time) + ", to which the waves of objects." +
+                         scene.objects[std::size_t(i)].name + " take " + shortest(work) +
+                         " steps of cells; must take at most " + shortest(kMostWork)};
         there &= sheet->advance(scene.view.time, kStepsAtOnce);
     }
     return there;

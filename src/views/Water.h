@@ -36,6 +36,8 @@ public:
     static Result<std::unique_ptr<WaterSheet>> create(gl::Context& context, const scene::Water& water);
 
     bool shows(const scene::Water& water) const;
+    /// What advance() would compute to be at `time` [s]: steps times cells.
+    double workUntil(float time) const;
     /// Goes on to `time` [s], or begins anew where that lies behind; drops of the pointer that fell later are
     /// then forgotten.
     ///
@@ -81,12 +83,17 @@ public:
     /// 1/120 s.
     static constexpr int kStepsAtOnce = 240;
 
+    /// Steps times cells that may lie between what a sheet shows and the time that is asked for: half a
+    /// minute for llvmpipe, an hour and a half of the time of 128 x 128 cells. Time that runs goes on without
+    /// end.
+    static constexpr double kMostWork = 1e10;
+
     explicit Waters(gl::Context& context) : context_(context) {}
 
     /// Brings every sheet nearer to scene.view.time. A sheet whose shape has changed begins anew.
     ///
-    /// @return whether all of them are there; if not, what is drawn shows an earlier time, and another call
-    /// goes
+    /// Error where the time lies too far ahead. @return whether all of them are there; if not, what is drawn
+    /// shows an earlier time, and another call goes
     ///         on
     Result<bool> advance(const scene::Scene& scene);
     /// A drop falls into an object, which advance() has met as water, at the time that it shows.

@@ -34,6 +34,11 @@ int acceptedBeginnings(const Bytes& file) {
     return accepted;
 }
 
+Bytes flipped(Bytes file, std::size_t at) {
+    file[at] ^= std::byte(1);
+    return file;
+}
+
 std::string messageOf(const Bytes& file, const std::string& name) {
     const Result<Image> image = decodeImage(file, name, Encoding::Linear);
     return image ? "no error" : image.error().message;
@@ -221,6 +226,39 @@ TEST(Image, FirstNonFinitePixelIsFound) {
     image.at(1, 1)[1] = std::numeric_limits<float>::infinity();
     image.at(2, 1)[0] = std::nanf("");
     EXPECT_EQ(findNonFinite(image), ivec2(1, 1));
+}
+
+TEST(Image, APngWithAFlippedBitIsRefused) {
+    const Bytes png = makePng(2, 2, 8, 0, {std::byte(1), std::byte(2), std::byte(3), std::byte(4)});
+    const std::string must = " has another checksum; must be a whole PNG file";
+    EXPECT_EQ(messageOf(png, "a.png"), "no error");
+    EXPECT_EQ(messageOf(flipped(png, 30), "a.png"), "a.png: the chunk at byte 8" + must); // IHDR's own
+    EXPECT_EQ(messageOf(flipped(png, 33 + 8 + 8), "a.png"), "a.png: the chunk at byte 33" + must); // in IDAT
+}
+
+TEST(Image, AJpegWithTooManyHuffmanCodesIsRefused) {
+    const Image image = pattern(8, 8, 3);
+    std::vector<std::uint8_t> samples(image.pixels.size(), 128);
+    Bytes jpeg;
+    stbi_write_jpg_to_func(appendTo, &jpeg, 8, 8, 3, samples.data(), 90);
+    ASSERT_EQ(messageOf(jpeg, "a.jpg"), "no error");
+    const auto mark = [](const Bytes& bytes, unsigned code) {
+        std::size_t at = 0;
+        while (bytes[at] != std::byte(0xff) || bytes[at + 1] != std::byte(code))
+            ++at;
+        return at;
+    };
+    Bytes many = jpeg;
+    many[mark(jpeg, 0xc4) + 5 + 15] = std::byte(255); // codes of 16 bits
+    EXPECT_EQ(messageOf(many, "a.jpg"),
+              "a.jpg: has a Huffman table of more than 256 codes; must be a whole JPEG file");
+    // The same behind the picture's coded data, where a second scan could stand.
+    Bytes late(jpeg.begin(), jpeg.end() - 2);
+    for (const int value : {0xff, 0xc4, 0, 19, 0})
+        late.push_back(std::byte(value));
+    late.insert(late.end(), 16, std::byte(255));
+    EXPECT_EQ(messageOf(late, "a.jpg"),
+              "a.jpg: has a Huffman table of more than 256 codes; must be a whole JPEG file");
 }
 
 } // namespace

@@ -170,6 +170,20 @@ TEST_F(Program, TruthWritesTheModelsValues) {
     EXPECT_FLOAT_EQ(image->pixels[0], 0.3f / std::hypot(0.3f, 0.3f)); // 0.3 m aside, 0.05 + 0.25 m up
 }
 
+TEST_F(Program, APictureThatIsNotFiniteIsRefused) {
+    Image sky(2, 1, 3);
+    std::fill(sky.pixels.begin(), sky.pixels.end(), 3e38f);
+    write("sky.pfm", sky);
+    write("mirror.json", std::string(R"({ "lucent": 1, "size": [4, 4], "camera": { "eye": [0, 0, 3] },
+  "environment": { "source": "sky.pfm", "intensity": 1000 },
+  "objects": [ { "name": "ball", "shape": { "type": "sphere" }, "material": { "reflectance": [1, 1, 1] } } ] })"));
+    for (const char* name : {"out.pfm", "out.exr"})
+        expectRefusal(
+            std::string("truth mirror.json -o ") + name,
+            name +
+                std::string(": the picture is NaN or infinite at pixel (0, 0); must be finite everywhere"));
+}
+
 TEST_F(Program, StoppingTheTruthLeavesNoFile) {
     writeBump("bump.pfm");
     // Thousands of directions and a large picture: minutes of work.
@@ -288,7 +302,7 @@ TEST_F(Program, CompareOverwritesNothingThatItReads) {
     expectRefusal("compare a.pfm b.pfm --flip ./b.pfm",
                   "./b.pfm: is read as well; must be another file than b.pfm");
     expectRefusal("compare a.pfm b.pfm --heatmap heat.png --flip heat.png",
-                  "heat.png: is the file of --heatmap and of --flip; must be two files");
+                  "heat.png: is written twice, as heat.png too; must be two files");
     EXPECT_EQ(text("a.pfm"), a);
 }
 
@@ -297,7 +311,7 @@ TEST_F(Program, CompareWritesBothPicturesOrNone) {
     write("b.pfm", Image(2, 1, 1));
     std::filesystem::create_directory(path("flip.png")); // cannot be written
     expectRefusal("compare a.pfm b.pfm --heatmap heat.png --flip flip.png",
-                  "flip.png: cannot be written (Is a directory)");
+                  "flip.png: is a folder; must be a regular file, or a new one");
 }
 
 TEST_F(Program, CompareMeasuresHowVisibleTheDifferenceIs) {

@@ -28,7 +28,7 @@ protected:
                  "wave": { "amplitude": [1, 0, 0], "direction": [0, 0, 1], "wavelength": 100 } } ] })");
     }
     Image load(const std::string& name) const {
-        const auto bytes = scene::plainFiles()(path(name));
+        const auto bytes = scene::plainFiles(path(name))(path(name));
         EXPECT_TRUE(bytes.ok());
         const auto image = decodeImage(*bytes, name, Encoding::Linear);
         EXPECT_TRUE(image.ok());

@@ -211,6 +211,11 @@ TEST_F(Truth, ADamagedTileIsRefused) {
     write("damaged.tile", std::string(whole).replace(width, 11, "\"width\": -1"));
     expectRefusal("merge damaged.tile -o out.pfm",
                   "damaged.tile: the header of the part is damaged; must be as lucent truth --tile wrote it");
+    std::string flipped = whole; // one bit of one pixel
+    flipped[flipped.size() - 100] = char(flipped[flipped.size() - 100] ^ 1);
+    write("flipped.tile", flipped);
+    expectRefusal("merge flipped.tile -o out.pfm", "flipped.tile: has another checksum than its first line "
+                                                   "says; must be as lucent truth --tile wrote it");
     write("empty.tile", std::string());
     expectRefusal("merge empty.tile -o out.pfm",
                   "empty.tile: is no part of a truth; must be a file that lucent truth --tile wrote");

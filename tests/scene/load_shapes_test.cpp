@@ -320,6 +320,28 @@ TEST(LoadShapes, WavesRunThroughEverythingButFieldsAndWater) {
               "scenes/a.json:3: objects.ball.wave.direction is 0 0 0; must have a length");
 }
 
+// 64 bits may take 16 GiB, which five sheets of 4097 x 4097 vertices pass; in a page one does.
+TEST(LoadShapes, MoreWaterThanMemoryIsRefusedByNameBeforeAnyIsTaken) {
+    const auto pools = [](int count, int cells) {
+        std::string objects;
+        for (int i = 0; i < count; ++i)
+            objects += std::string(i ? "," : "") + "\n{ \"name\": \"" + std::string(1, char('a' + i)) +
+                       R"(", "shape": { "type": "water", "cells": )" + std::to_string(cells) + " } }";
+        return "{ \"lucent\": 1, \"objects\": [" + objects + " ] }";
+    };
+    const std::string why =
+        ".shape.cells is 4096: with it all objects take about 18.8 GiB of memory; must take at "
+        "most 16 GiB";
+    EXPECT_EQ(messageOf(pools(5, 4096)), "scenes/a.json:6: objects.e" + why);
+    Result<Scene> scene = test::load({}, pools(5, 64));
+    ASSERT_TRUE(scene) << scene.error().message;
+    for (const char* pool : {"a", "b", "c", "d"})
+        ASSERT_TRUE(setParam(*scene, std::string("objects.") + pool + ".shape.cells", "4096"));
+    const Status set = setParam(*scene, "objects.e.shape.cells", "4096");
+    ASSERT_FALSE(set);
+    EXPECT_EQ(set.error().message, "objects.e" + why);
+}
+
 TEST(LoadShapes, AMeshWithItsOwnMaterialIsOneObject) {
     const Result<Scene> scene = test::load(withMesh(twoMaterials()),
                                            objectOf(kMesh + R"(, "flatNormals": true)", R"("material": {})"));

@@ -129,7 +129,7 @@ TEST(Obj, WrongLinesAreNamed) {
     EXPECT_EQ(messageOf("mtllib b.mtl\n" + kSquare + "f 1 2 3\n", {{"m/b.mtl", "newmtl a\nTr 1.5\n"}}),
               "m/b.mtl:2: Tr is 1.500000; must be in [0, 1]");
     EXPECT_EQ(messageOf("mtllib b.mtl\n" + kSquare + "f 1 2 3\n", {{"m/b.mtl", "Kd 1 1 1\n"}}),
-              "m/b.mtl:1: Kd comes before a material; must follow newmtl");
+              "m/b.mtl:1: a line comes before a material; must follow newmtl");
 }
 
 TEST(Obj, WrittenMeshesComeBackToTheBit) {

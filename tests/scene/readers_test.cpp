@@ -73,7 +73,7 @@ TEST(Readers, OtherFilesPassUnchanged) {
 TEST(Readers, PlainFilesReadFromDiskAndTranslate) {
     const std::string folder = testing::TempDir();
     ASSERT_TRUE(writeFile(folder + "lucent_square.glb", test::squareGlb()));
-    const ReadFile files = plainFiles();
+    const ReadFile files = plainFiles(folder + "lucent_scene.json");
     const Result<Bytes> mesh = files(folder + "lucent_square.glb");
     ASSERT_TRUE(mesh) << mesh.error().message;
     EXPECT_TRUE(decodeMesh(*mesh, "a"));

@@ -135,6 +135,9 @@ TEST(Part, OtherFilesAndBrokenPartsAreRefused) {
                                    {"\"width\": 5", "\"width\": 0"}})
         EXPECT_EQ(complaint(replaced(from, to)),
                   "a.tile: the header of the part is damaged; must be as lucent truth --tile wrote it");
+    EXPECT_EQ(
+        complaint(replaced("\"seed\": 4294967295", "\"seed\": 4294967294")),
+        "a.tile: has another checksum than its first line says; must be as lucent truth --tile wrote it");
 }
 
 TEST(Fingerprint, ChangesWithEveryTexelAndParameter) {

@@ -279,6 +279,23 @@ TEST_F(WaterTest, ACallComputesAtMostSoManySteps) {
     EXPECT_EQ(waters.changes(), changes);
 }
 
+TEST_F(WaterTest, ATimeFarAheadIsRefusedAndTimeThatRunsIsNot) {
+    scene::Water water;
+    water.cells = 4;
+    scene::Scene scene = sceneOf(water);
+    Waters waters(*context);
+    scene.view.time = 1e6f; // 120 million steps of 16 cells
+    ASSERT_TRUE(waters.advance(scene));
+    std::get<scene::Water>(scene.objects[0].shape).cells = 128;
+    const Result<bool> far = waters.advance(scene);
+    ASSERT_FALSE(far);
+    EXPECT_EQ(far.error().message,
+              "view.time: is 1000000, to which the waves of objects.pool take 1.96608e+12 steps of "
+              "cells; must take at most 1e+10");
+    scene.view.time = 1;
+    EXPECT_TRUE(waters.advance(scene));
+}
+
 TEST_F(WaterTest, FastWavesOnFineGridsStayFinite) {
     // 3 m/s over cells of 1/512 m: 1536 cells a second, which steps of 1/120 s cannot hold.
     scene::Scene scene = sceneOf({.size = {0.25f, 0.01f}, .cells = 128, .speed = 3, .amplitude = 0.01f});

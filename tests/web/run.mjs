@@ -17,7 +17,9 @@ import { parseArgs } from 'node:util';
 const kFolder = dirname(fileURLToPath(import.meta.url));
 const kDrivers = ['swiftshader', 'llvmpipe'];
 // What hands and attributes do does not hang on who draws: the quicker driver.
-const kOnOneDriver = { 'docs.test.mjs': 'llvmpipe', 'controls.test.mjs': 'llvmpipe', 'element.test.mjs': 'llvmpipe', 'gestures.test.mjs': 'llvmpipe' };
+const kOnOneDriver = Object.fromEntries(
+  ['controls', 'docs', 'element', 'gestures', 'limits', 'serve'].map((name) => [`${name}.test.mjs`, 'llvmpipe']),
+);
 // Much of a test is waiting, compiling and JavaScript, which take one core.
 const kWorkers = 2;
 // These begin, so that the last worker does not end long after the others.

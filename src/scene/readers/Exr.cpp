@@ -122,8 +122,9 @@ Result<Image> decodeExr(std::span<const std::byte> bytes, const std::string& nam
     if (ParseEXRHeaderFromMemory(&header, &version, data, bytes.size(), &message) != TINYEXR_SUCCESS)
         return damaged(name, message);
     const EXRBox2i& window = header.data_window;
-    const Status size = checkImageSize(double(window.max_x) - window.min_x + 1,
-                                       double(window.max_y) - window.min_y + 1, name);
+    const Status size =
+        checkImageSize(double(window.max_x) - window.min_x + 1, double(window.max_y) - window.min_y + 1,
+                       std::min(header.num_channels, 4), name);
     if (!size) return size.error();
 
     const Result<Channels> channels = findChannels(header, name);

@@ -99,6 +99,21 @@ std::string listed(const std::set<std::string>& words) {
     return text;
 }
 
+/// Tells what has the same name apart: a, a', a'3, a'4, ...
+class UniqueNames {
+public:
+    std::string unique(const std::string& name) {
+        std::string given = name;
+        for (int& count = counts_[name]; !taken_.insert(given).second;)
+            given = name + "'" + (++count > 1 ? std::to_string(count + 1) : "");
+        return given;
+    }
+
+private:
+    std::set<std::string> taken_;
+    std::map<std::string, int> counts_; // of names given again
+};
+
 /// Puts a file together in three steps: the tree of nodes, what of it moves, and the triangles. Of a file in
 /// which nothing moves all triangles stand in the pose of rest, and there is no rig.
 class GltfReader {
@@ -273,6 +288,9 @@ private:
             readNumbers(model_, sampler.output, type, "values of an animation", name_);
         if (!pass(values)) return false;
         channel.values.assign(values->begin(), values->end());
+        if ((animated_ += channel.values.size() + channel.times.size()) > kMostVertices)
+            return fail("has more than " + std::to_string(kMostVertices) +
+                        " numbers in its animation; must have fewer");
         if (channel.times.empty()) return fail("has an animation without times; must have one or more");
         mesh_.rig.duration =
             std::max(mesh_.rig.duration, *std::max_element(channel.times.begin(), channel.times.end()));
@@ -282,7 +300,35 @@ private:
 
     bool moves() const { return !mesh_.rig.channels.empty(); }
 
+    // One mesh may hang on many nodes, so that a small file can mean a large scene: counted before memory is
+    // taken.
+    bool checkAmount() {
+        std::size_t vertices = 0, corners = 0;
+        const auto countOf = [&](int accessor) {
+            const tinygltf::Accessor* found = element(model_.accessors, accessor);
+            return found ? found->count : 0; // others are refused when they are read
+        };
+        for (const int index : order_) {
+            if (!at(index).inScene || node(index).mesh < 0) continue;
+            for (const tinygltf::Primitive& primitive :
+                 model_.meshes[std::size_t(node(index).mesh)].primitives) {
+                const auto positions = primitive.attributes.find("POSITION");
+                if (positions == primitive.attributes.end()) continue;
+                const std::size_t count = countOf(positions->second);
+                vertices += count;
+                corners += primitive.indices < 0 ? count : countOf(primitive.indices);
+                if (vertices <= kMostVertices && corners <= kMostCorners) continue;
+                return fail("has more than " + std::to_string(kMostVertices) + " vertices or " +
+                            std::to_string(kMostCorners) +
+                            " corners of triangles where its nodes put them; must "
+                            "have fewer");
+            }
+        }
+        return true;
+    }
+
     bool addMeshes() {
+        if (!checkAmount()) return false;
         for (const int index : order_) {
             if (!at(index).inScene || node(index).mesh < 0) continue;
             const tinygltf::Mesh& mesh = model_.meshes[std::size_t(node(index).mesh)];
@@ -412,6 +458,10 @@ private:
             return to.size() == count || fail("has a morph target of " + std::to_string(to.size()) +
                                               " vertices for " + std::to_string(count) + "; must be as many");
         };
+        if (count * primitive.targets.size() > kMostVertices)
+            return fail("has " + std::to_string(primitive.targets.size()) + " morph targets of " +
+                        std::to_string(count) + " vertices; must displace at most " +
+                        std::to_string(kMostVertices) + " in all");
         for (const std::map<std::string, int>& from : primitive.targets) {
             MorphTarget& target = piece.rig.targets.emplace_back();
             if (!read(from, "POSITION", target.positions) || !read(from, "NORMAL", target.normals))
@@ -571,14 +621,12 @@ private:
     // Triangles in the order of their materials; false when there are none.
     bool finishParts() {
         const bool named = indicesOf_.size() > 1 || !indicesOf_.contains(kNoMaterial);
-        std::set<std::string> names;
+        UniqueNames names;
         for (const auto& [index, indices] : indicesOf_) {
             if (indices.empty()) continue;
             const tinygltf::Material* material = element(model_.materials, index);
             std::string name = material ? material->name : "default";
-            if (name.empty()) name = "material " + std::to_string(index);
-            while (!names.insert(name).second)
-                name += "'";
+            name = names.unique(name.empty() ? "material " + std::to_string(index) : name);
             if (named)
                 mesh_.parts.push_back({name, std::uint32_t(mesh_.indices.size()),
                                        std::uint32_t(indices.size()),
@@ -588,6 +636,7 @@ private:
         return !mesh_.indices.empty();
     }
 
+    static constexpr std::size_t kMostVertices = std::size_t(1) << 24, kMostCorners = 6 * kMostVertices;
     static constexpr int kNoMaterial = std::numeric_limits<int>::max(); // comes last
 
     const tinygltf::Model& model_;
@@ -598,6 +647,7 @@ private:
     std::vector<mat4> rest_; // of joints, as Pose has them
     std::map<int, int> firstOfSkin_;
     std::map<int, std::vector<std::uint32_t>> indicesOf_; // by material
+    std::size_t animated_ = 0;                            // numbers of the animation
     std::set<std::string> unread_;
     Error error_;
 };

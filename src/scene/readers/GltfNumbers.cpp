@@ -8,7 +8,14 @@
 namespace lucent::scene {
 namespace {
 
-constexpr std::size_t kMaxUnstored = std::size_t(1) << 26; // a number in the file must not eat memory
+// A number in the file must not eat memory: of elements that it does not store it may have as many as bytes
+// that it does. What uses those, displacements of stored vertices for instance, has some of each.
+std::size_t mostUnstored(const tinygltf::Model& model) {
+    std::size_t bytes = 0;
+    for (const tinygltf::Buffer& buffer : model.buffers)
+        bytes += buffer.data.size();
+    return bytes;
+}
 
 // `count` elements of a buffer view, each `stride` bytes apart.
 struct View {
@@ -80,11 +87,12 @@ public:
             for (std::size_t i = 0; i < accessor.count; ++i)
                 for (std::size_t c = 0; c < width; ++c)
                     values.push_back(component(dense->at(i), c));
-        } else if (accessor.count <= kMaxUnstored) {
+        } else if (accessor.count <= mostUnstored(model_)) {
             values.resize(accessor.count * width); // zeros unless sparse values follow
         } else {
             return fail("has an accessor of " + std::to_string(accessor.count) +
-                        " elements without data; must have at most " + std::to_string(kMaxUnstored));
+                        " elements without data; must have at most " + std::to_string(mostUnstored(model_)) +
+                        ", as many as the file has bytes of data");
         }
         if (!accessor.sparse.isSparse) return values;
 

@@ -80,7 +80,9 @@ std::optional<float> toNumber(std::string_view word) {
 /// Reads values of lines and remembers what was wrong with the first bad one.
 class LineReader {
 public:
-    LineReader(const std::string& name, std::span<const std::byte> bytes) : name_(name), lines_(bytes) {}
+    /// @param quotes  whether messages may repeat words of the file
+    LineReader(const std::string& name, std::span<const std::byte> bytes, bool quotes)
+        : name_(name), lines_(bytes), quotes_(quotes) {}
 
     bool next(std::string_view& keyword, std::string_view& rest) {
         while (error_.empty() && lines_.next(rest))
@@ -99,7 +101,8 @@ public:
     float number(std::string_view keyword, std::string_view& rest) {
         const std::string_view word = nextWord(rest);
         const std::optional<float> value = toNumber(word);
-        if (!value) fail(std::string(keyword) + " has \"" + std::string(word) + "\"; must be a number");
+        const std::string found = quotes_ ? "\"" + std::string(word) + "\"" : "what is none";
+        if (!value) fail(std::string(keyword) + " has " + found + "; must be a number");
         return value.value_or(0);
     }
     const std::string& error() const { return error_; }
@@ -107,16 +110,28 @@ public:
 private:
     const std::string& name_;
     Lines lines_;
+    bool quotes_;
     std::string error_;
 };
 
 using Materials = std::map<std::string, Material, std::less<>>;
 using Names = std::set<std::string>;
 
+// Keywords of the material format by their names. Others are not repeated: an .obj may name any file beside
+// it as its materials, and what is said of that may be seen by people who should not read it.
+std::string nameOf(std::string_view keyword) {
+    constexpr std::string_view kKnown[] = {
+        "Ks",     "Ns",     "Tf",    "Pr",       "Pm",       "Ps",     "Pc",     "Pcr",    "aniso",
+        "anisor", "norm",   "bump",  "disp",     "decal",    "refl",   "map_Ka", "map_Kd", "map_Ks",
+        "map_Ke", "map_Ns", "map_d", "map_Bump", "map_bump", "map_Pr", "map_Pm", "map_Ps", "sharpness"};
+    const bool known = std::find(std::begin(kKnown), std::end(kKnown), keyword) != std::end(kKnown);
+    return known ? std::string(keyword) : "lines of unknown kinds";
+}
+
 // What Wavefront's material format says that means the same here.
 Status readMaterials(const std::string& name, std::span<const std::byte> bytes, Materials& materials,
                      Names& unread) {
-    LineReader lines(name, bytes);
+    LineReader lines(name, bytes, false);
     Material* material = nullptr;
     std::string_view keyword, rest;
     while (lines.next(keyword, rest)) {
@@ -124,7 +139,7 @@ Status readMaterials(const std::string& name, std::span<const std::byte> bytes, 
             material = &materials[std::string(trimmed(rest))];
             material->ior = 1; // the format's default
         } else if (!material) {
-            lines.fail(std::string(keyword) + " comes before a material; must follow newmtl");
+            lines.fail("a line comes before a material; must follow newmtl");
         } else if (keyword == "Kd") {
             material->diffuse = lines.vector(keyword, rest);
         } else if (keyword == "Ke") {
@@ -140,7 +155,7 @@ Status readMaterials(const std::string& name, std::span<const std::byte> bytes, 
             material->transmission = keyword == "d" ? 1 - part : part;
         } else if (keyword != "Ka" &&
                    keyword != "illum") { // light of renderers past, and their choice of terms
-            unread.insert(std::string(keyword));
+            unread.insert(nameOf(keyword));
         }
     }
     if (!lines.error().empty()) return Error{lines.error()};
@@ -184,7 +199,8 @@ std::vector<std::array<std::size_t, 3>> triangulate(const std::vector<dvec3>& co
 
 class ObjReader {
 public:
-    ObjReader(const std::string& name, std::span<const std::byte> bytes) : name_(name), lines_(name, bytes) {}
+    ObjReader(const std::string& name, std::span<const std::byte> bytes)
+        : name_(name), lines_(name, bytes, true) {}
 
     Result<Mesh> read(Materials materials, Names unread) {
         unread_ = std::move(unread);
@@ -237,10 +253,12 @@ private:
 
     std::vector<std::uint32_t>& partNamed(std::string_view name) {
         if (name.empty()) name = "default";
-        for (auto& [known, indices] : parts_)
-            if (known == name) return indices;
-        return parts_.emplace_back(name, std::vector<std::uint32_t>()).second;
+        const auto [known, isNew] = partNumbers_.emplace(name, parts_.size());
+        if (isNew) parts_.emplace_back(name, std::vector<std::uint32_t>());
+        return parts_[known->second].second;
     }
+
+    static constexpr std::size_t kMostCorners = 4096;
 
     void readFace(std::string_view rest) {
         face_.clear();
@@ -257,6 +275,9 @@ private:
         }
         if (face_.size() < 3)
             return lines_.fail("f has " + std::to_string(face_.size()) + " corners; must have three or more");
+        if (face_.size() > kMostCorners) // cutting takes the square of their number
+            return lines_.fail("f has " + std::to_string(face_.size()) + " corners; must have at most " +
+                               std::to_string(kMostCorners));
         if (!indices_) indices_ = &partNamed("");
         for (const std::array<std::size_t, 3>& triangle : triangulate(points_))
             for (const std::size_t corner : triangle)
@@ -314,6 +335,7 @@ private:
     std::vector<vec3> positions_, normals_;
     std::unordered_map<Corner, std::uint32_t, Hash> vertices_;
     std::vector<std::pair<std::string, std::vector<std::uint32_t>>> parts_; // by material, as they come
+    std::unordered_map<std::string, std::size_t> partNumbers_;              // in these, by name
     std::vector<std::uint32_t>* indices_ = nullptr;                         // of the part that faces go to
     std::vector<std::uint32_t> face_;
     std::vector<dvec3> points_;

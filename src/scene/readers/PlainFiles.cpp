@@ -1,12 +1,14 @@
 #include "scene/readers/Readers.h"
 
+#include "base/Beneath.h"
+
 namespace lucent::scene {
 
-ReadFile plainFiles() {
-    return [](const std::string& path) -> Result<Bytes> {
-        Result<Bytes> bytes = readFile(path);
+ReadFile plainFiles(const std::string& path, const std::vector<std::string>& allowed) {
+    return [read = readBeneath(path, allowed)](const std::string& wanted) -> Result<Bytes> {
+        Result<Bytes> bytes = read(wanted);
         if (!bytes) return bytes;
-        return toPlain(path, std::move(*bytes), readFile);
+        return toPlain(wanted, std::move(*bytes), read);
     };
 }
 

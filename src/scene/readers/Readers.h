@@ -20,7 +20,8 @@ Result<Bytes> toPlain(const std::string& name, Bytes bytes, const ReadFile& read
 /// Linear floats as EXR (32-bit float, 1, 3 or 4 channels, ZIP).
 Result<Bytes> encodeExr(const Image& image);
 
-/// readFile() with every foreign file turned into its plain form: what native programs load scenes with.
-ReadFile plainFiles();
+/// What native programs load the file `path` with and all that it names: readBeneath() with every foreign
+/// file turned into its plain form.
+ReadFile plainFiles(const std::string& path, const std::vector<std::string>& allowed = {});
 
 } // namespace lucent::scene
