@@ -1,5 +1,5 @@
 // relief/model.glsl: the illumination d of one point of a height field by one light (height-field thesis 2017, ch. 3,
-// with the corrections in README "Where the thesis is loose").
+// with the corrections of web/docs/papers.html).
 //
 // in    uLights  light/sample.glsl
 #include "lib/quadratic.glsl"

@@ -55,6 +55,13 @@ Result<Renderer::State::Moment> Renderer::State::momentOf(const scene::Scene& sc
     Result<views::Drawn> all = views::drawnOf(scene, images, waters, true);
     if (!all) return all.error();
     moment.all = std::move(*all);
+    // Light goes on as if it were not there; only quantities of surfaces show it.
+    const scene::Aov show = scene.view.show;
+    if (show == scene::Aov::Color || show == scene::Aov::Irradiance || show == scene::Aov::Radiosity)
+        for (views::Drawn* one : {&moment.drawn, &moment.all})
+            std::erase_if(one->meshes.glass, [&](const views::DrawnMesh& mesh) {
+                return scene::changesNoLight(scene, *mesh.object);
+            });
     if (hasEnvironment(scene)) {
         Result<graph::TextureHandle> map = images.image(scene.environment->map);
         if (!map) return map.error();

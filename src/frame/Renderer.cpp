@@ -84,7 +84,6 @@ Result<technique::Balance> Renderer::balance(const scene::Scene& scene, std::str
     if (found == s.members.end()) return technique::Balance{};
     Result<State::Moment> moment = s.momentOf(scene);
     if (!moment) return moment.error();
-    moment->drawn = {}; // maps show what is hidden as well
     return found->guest->balance(s.pictureOf(*moment));
 }
 

@@ -139,7 +139,7 @@ const ParamTable& samplingParams() {
                         "its part of the map."}),
         declare(&Sampling::environment,
                 {.id = "environmentSampling",
-                 .label = "Choice of directions",
+                 .label = "Environment sampling",
                  .group = Group::Environment,
                  .doc = "Where those directions are: evenly all around, or more of them where the map is "
                         "bright.",

@@ -240,7 +240,7 @@ Status addBook(gl::Context& context, const Subject& subject, std::vector<Ratio>&
     // Triangles cover whole texels: what they cover too much of one is within a thousandth.
     ratios.push_back(
         {subject.name + ": flux on receivers over flux met", total(energy->received) / met, 1.001, false});
-    ratios.push_back({subject.name + ": flux met that no entry of the book explains",
+    ratios.push_back({subject.name + ": incident flux missing from the energy balance",
                       std::abs(others / met - 1), 0.005, false});
     return Done{};
 }

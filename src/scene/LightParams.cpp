@@ -36,7 +36,7 @@ const ParamTable& pointLightParams() {
                         "the inverse square."}),
         declare(&PointLight::falloff,
                 {.id = "falloff",
-                 .label = "Fading",
+                 .label = "Falloff",
                  .group = Group::Light,
                  .doc = "Whether the light fades with the square of the distance, as lamps do.",
                  .choices = kFalloffNames}),

@@ -433,4 +433,15 @@ Status setParam(Scene& scene, std::string_view path, std::string_view value) {
     return assign(scene, path, value);
 }
 
+bool changesNoLight(const Scene& scene, const Object& object) {
+    const auto isVacuum = [](const Material& material) {
+        return material.transmission == 1 && material.ior == 1 && material.dispersion == 0 &&
+               material.absorption() == vec3(0);
+    };
+    return object.material.isRefractive() &&
+           std::all_of(scene.objects.begin(), scene.objects.end(), [&](const Object& one) {
+               return !one.material.isRefractive() || isVacuum(one.material);
+           });
+}
+
 } // namespace lucent::scene

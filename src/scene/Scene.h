@@ -315,6 +315,10 @@ struct Scene {
     Quality quality;
 };
 
+/// Whether an object lets all light through as it came: it has the index of the vacuum, absorbs nothing, and
+/// stands in no other medium.
+bool changesNoLight(const Scene& scene, const Object& object);
+
 const ParamTable& heightFieldParams();
 const ParamTable& heightSourceParams(); ///< read when loaded; not bound by bindParams()
 const ParamTable& meshParams();

@@ -66,7 +66,7 @@ std::span<const Param> modeParams() {
         declare(
             &ModeSettings::mode,
             {.id = "mode",
-             .label = "What stands first",
+             .label = "Mode",
              .group = Group::Mode,
              .doc = "Which sliders stand first, and which views Show offers: those of the light on a relief, "
                     "of what is seen through glass and water, of the light that these throw, or of light "

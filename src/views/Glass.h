@@ -13,7 +13,7 @@ struct GlassBlock {
     vec4 ior, absorption;
 };
 GlassBlock glassBlock(const scene::Material& material);
-/// Offsets of the ends of an array GlassBlock glass[kMostGlass + 1] at `offset`, for a BlockLayout.
+/// Offsets of the ends of an array GlassBlock glass[kMostGlass] at `offset`, for a BlockLayout.
 std::vector<graph::BlockLayout::Member> glassMembers(std::size_t offset);
 
 /// Indices of refraction at the lines C, d and F (656, 588, 486 nm), which stand for red, green and blue:

@@ -395,7 +395,7 @@ TEST_F(Caustics, WithoutBlendingOfFloatsAFocusLosesLessThanAPercentOfItsLight) {
 
 TEST_F(Caustics, ASceneWithoutLampGlassOrReceiverNeedsNoCaustics) {
     scene::Scene scene = floorUnder(glass(scene::Sphere{1}, 1.5f, {0, 2, 0}), 4);
-    EXPECT_EQ(caustics::Caustics::need(scene), "object \"glass\" throws the lamps' light on \"matt\"");
+    EXPECT_EQ(caustics::Caustics::need(scene), "object \"glass\" casts a caustic on \"matt\"");
     scene::Scene dark = scene, opaque = scene, floating = scene;
     dark.lights.clear();
     opaque.objects.pop_back();

@@ -70,6 +70,20 @@ struct Composed : support::GlTest {
     }
 };
 
+TEST_F(Composed, AnIndexOfOneIsThePictureWithoutTheObject) {
+    addFloor();
+    scene.lights.push_back(scene::PointLight{.position = {0.4f, 1.8f, 0.3f}});
+    const Image without = picture();
+    addBall();
+    scene.objects.back().material.ior = 1;
+    EXPECT_EQ(picture().pixels, without.pixels);
+    scene.objects.back().material.ior = 1.0001f; // bends light, if ever so little
+    EXPECT_NE(picture().pixels, without.pixels);
+    scene.objects.back().material.ior = 1;
+    scene.view.show = scene::Aov::Layers;
+    EXPECT_GT(runs("views.peel"), 0); // quantities of surfaces show it
+}
+
 TEST_F(Composed, ABallOfGlassRunsItsTwoLayersAndTheTraceOnly) {
     addBall();
     EXPECT_EQ(runs("views.peel"), 2);

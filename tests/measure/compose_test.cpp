@@ -21,6 +21,15 @@ TEST_F(Compose, ABoxAReliefAndAFloorShadeEachOtherWithinTheTarget) {
     }
 }
 
+TEST_F(Compose, WhatTheCameraDoesNotSeeStandsInTheWayOfScatteringAndOfCaustics) {
+    for (const auto& [between, receiver] : {std::array{"relief", "marble slab"},
+                                            {"relief", "floor through glass"},
+                                            {"marble ball", "floor through glass"}}) {
+        const ComposeCell cell = measureCompose(*context, "distant", between, receiver);
+        EXPECT_TRUE(cell.isMet()) << cell.name() << ": " << cell.misplaced << ", flux " << cell.flux;
+    }
+}
+
 TEST_F(Compose, ACellWithoutAFigureSaysWhy) {
     EXPECT_EQ(measureCompose(*context, "point", "nothing", "floor in a mirror").notDrawn,
               "mirrors show the environment only");

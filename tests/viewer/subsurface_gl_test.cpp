@@ -194,8 +194,9 @@ TEST_F(SubsurfaceTest, TheCurvesAreSaidInWords) {
     // Total reflectance of a half space of marble: 0.830, 0.791, 0.753. At 19.5 mm the dipole of red has 1.0
     // % of its light left: (0.456 + 2.86) / 19.5 e^(-0.1175 * 19.5) / (0.948 + 0.714).
     const std::string text = profile()["text"];
-    EXPECT_EQ(
-        text.find("Light inside ball, dipole: red reaches 19.5 mm, 83.0 % leaves again; green reaches "), 0)
+    EXPECT_EQ(text.find("Subsurface scattering of ball, dipole: red reaches 19.5 mm, 83.0 % leaves again; "
+                        "green reaches "),
+              0)
         << text;
     EXPECT_NE(text.find(" 79.1 % leaves again; blue reaches "), std::string::npos) << text;
     EXPECT_NE(text.find(" 75.3 % leaves again."), std::string::npos) << text;

@@ -132,7 +132,7 @@ test('what only the program solves is said by name', async () => {
   assert.deepEqual(caustics, {
     code: 'scene',
     message:
-      'truth: object "water" throws the lamps\' light on "floor", which the page does not solve; must be solved by the ' +
+      'truth: object "water" casts a caustic on "floor", which the page does not solve; must be solved by the ' +
       'program (lucent truth)',
   });
   await set(page, 'view.show', 'irradiance');

@@ -65,7 +65,7 @@ test('blur and glow move the coefficients, and these move them', async () => {
 
 test('a screen reader hears how far light goes, as the curves show it', async () => {
   const page = await open('');
-  assert.match(await profile(page), /^Light inside ball, dipole: red reaches [\d.]+ mm, 83\.0 % leaves again; /);
+  assert.match(await profile(page), /^Subsurface scattering of ball, dipole: red reaches [\d.]+ mm, 83\.0 % leaves again; /);
   const [{ whole, distances, values }] = await call(page, 'profiles');
   assert.ok(Math.abs(whole[2] - 0.753) < 1e-3);
   assert.ok(distances.length === values.length && values[0][0] > values.at(-1)[0]);

@@ -1,8 +1,8 @@
 #pragma once
 /// The uniform blocks of shaders/caustics.
 
-#include "views/Glass.h"
 #include "light/ShadowMap.h"
+#include "views/Glass.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -27,7 +27,7 @@ inline std::vector<graph::BlockLayout::Member> viewAndLampMembers(std::size_t vi
 struct PhotonBlock {
     views::ViewBlock view;
     LampBlock lamp;
-    views::GlassBlock glass[views::kMostGlass + 1];
+    views::GlassBlock glass[views::kMostGlass];
     vec4 tint{1};
     int count = 0, channel = 0, border = 0;
     int padding = 0;

@@ -205,7 +205,7 @@ const ParamTable& Caustics::params() {
                         "whose light is gathered there.",
                  .choices = kDeposits}),
         declare(&Settings::grid, {.id = "grid",
-                                  .label = "Rays of a light",
+                                  .label = "Rays a side",
                                   .min = 2,
                                   .max = 1024,
                                   .low = 32,
@@ -216,7 +216,7 @@ const ParamTable& Caustics::params() {
                                          "mirrors."}),
         declare(&Settings::refine,
                 {.id = "refine",
-                 .label = "Finer at edges",
+                 .label = "Adaptive refinement",
                  .group = Group::Caustics,
                  .doc =
                      "Where neighbouring rays part, as at outlines, light is traced by single pixels of the "
@@ -234,7 +234,7 @@ const ParamTable& Caustics::params() {
                                      .doc = "Texels along a side of the image in which light adds up."}),
         declare(&Settings::pointMap,
                 {.id = "pointMap",
-                 .label = "Map of a lamp all around",
+                 .label = "Map of a point light",
                  .group = Group::Caustics,
                  .doc =
                      "How the image in which light adds up lies about a lamp with receivers all around: as "
@@ -252,7 +252,7 @@ const ParamTable& Caustics::params() {
                                           "them."}),
         declare(&Settings::receiverLayers,
                 {.id = "receiverLayers",
-                 .label = "Receivers behind each other",
+                 .label = "Receiver layers",
                  .min = 1,
                  .max = 2,
                  .group = Group::Caustics,
@@ -271,7 +271,7 @@ const ParamTable& Caustics::params() {
                  .doc = "Kinds of light that glass with dispersion bends differently: 3 stand for red, green "
                         "and blue, more for as many parts of the spectrum."}),
     };
-    static const ParamTable table = tableOf<Settings>("caustics", list, "All lamps");
+    static const ParamTable table = tableOf<Settings>("caustics", list, "Caustics");
     return table;
 }
 
@@ -287,7 +287,7 @@ std::optional<std::string> Caustics::need(const scene::Scene& scene) {
     const scene::Object* bends = find(bendsLight);
     const scene::Object* receives = find([&](const scene::Object& one) { return !bendsLight(one); });
     if (scene.lights.empty() || !bends || !receives) return std::nullopt;
-    return "object \"" + bends->name + "\" throws the lamps' light on \"" + receives->name + "\"";
+    return "object \"" + bends->name + "\" casts a caustic on \"" + receives->name + "\"";
 }
 
 Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,

@@ -24,7 +24,7 @@ public:
     Status prepare(const technique::Picture& picture) override {
         plan_.reset();
         Result<Plan> plan = caustics_.plan(store_.pool, picture.scene, picture.eye, picture.all.meshes,
-                                           picture.drawn.fields, settingsOf(picture.scene));
+                                           picture.all.fields, settingsOf(picture.scene));
         if (!plan) return plan.error();
         plan_ = std::move(*plan);
         return Done{};
@@ -57,7 +57,7 @@ public:
     Result<technique::Balance> balance(const technique::Picture& picture) override {
         if (!plan_) return technique::Balance{};
         Result<Energy> energy = caustics_.measure(store_.pool, picture.scene, picture.eye, picture.all.meshes,
-                                                  picture.drawn.fields, *plan_, settingsOf(picture.scene));
+                                                  picture.all.fields, *plan_, settingsOf(picture.scene));
         if (!energy) return energy.error();
         return technique::Balance{{"met", energy->met},           {"received", energy->received},
                                   {"absorbed", energy->absorbed}, {"reflected", energy->reflected},
@@ -74,7 +74,7 @@ private:
                 .solids = passes.posed.solid,
                 .surface = surface,
                 .size = passes.picture.size,
-                .fields = passes.picture.drawn.fields};
+                .fields = passes.picture.all.fields};
     }
 
     technique::Store store_;

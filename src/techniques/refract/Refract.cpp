@@ -21,7 +21,7 @@ constexpr std::string_view kPathLengths[] = {"geometric", "optical"};
 struct RefractBlock {
     views::ViewBlock view;
     mat4 mapFromWorld{1};
-    views::GlassBlock glass[views::kMostGlass + 1];
+    views::GlassBlock glass[views::kMostGlass];
     int count = 0, hasEnvironment = 0;
     float intensity = 1;
     int around = 0;
@@ -145,7 +145,7 @@ const ParamTable& Refract::params() {
     static const Param list[] = {
         declare(&Settings::layers,
                 {.id = "layers",
-                 .label = "Surfaces by",
+                 .label = "Layer method",
                  .group = Group::Refraction,
                  .doc = "How surfaces behind each other are found: peeled one after the other, with their "
                         "normals; as the thesis has it, by slices of depth that two passes fill, which "
@@ -170,19 +170,19 @@ const ParamTable& Refract::params() {
                                     .choices = kSlices}),
         declare(&Settings::bounds,
                 {.id = "bounds",
-                 .label = "Slices between",
+                 .label = "Slice bounds",
                  .group = Group::Refraction,
                  .doc = "Of voxels: a pixel's own first and last surface, or those of all.",
                  .choices = kBounds}),
         declare(&Settings::peeling,
                 {.id = "peeling",
-                 .label = "Slices are read",
+                 .label = "Slice peeling",
                  .group = Group::Refraction,
                  .doc = "Of voxels: once, in a pass of their own, or whenever a ray looks.",
                  .choices = kPeelings}),
         declare(&Settings::trace,
                 {.id = "trace",
-                 .label = "Rays by",
+                 .label = "Ray tracing",
                  .group = Group::Refraction,
                  .doc = "How rays meet surfaces: by pyramids of depths that skip what is empty, exactly; or "
                         "by the thesis's five halvings a layer, which follow no total reflection and see no "
@@ -197,13 +197,13 @@ const ParamTable& Refract::params() {
                  .choices = kNormals}),
         declare(&Settings::pathLength,
                 {.id = "pathLength",
-                 .label = "Absorption by",
+                 .label = "Absorption length",
                  .group = Group::Refraction,
                  .doc = "Along which length light is absorbed: the way itself, or, as the thesis has it, "
                         "that times the index of refraction.",
                  .choices = kPathLengths}),
     };
-    static const ParamTable table = tableOf<Settings>("refract", list, "Layers and tracing");
+    static const ParamTable table = tableOf<Settings>("refract", list, "Layers and ray tracing");
     return table;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Light on and in a height field by one integral: the length that light travels inside the solid
-/// (height-field thesis 2017, ch. 3), with the corrections that the README lists.
+/// (height-field thesis 2017, ch. 3), with the corrections of
+/// web/docs/papers.html.
 
 #include "graph/FrameGraph.h"
 #include "light/Occlusion.h"

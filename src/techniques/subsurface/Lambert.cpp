@@ -163,9 +163,11 @@ Result<LampShadow> recordLampShadow(graph::FrameGraph& graph, gl::Context& conte
                                     const views::LampPoint& lamp) {
     const views::Bounds receivers = views::seenBy(in.eye, boundsOfAll(objects));
     const int size = lamp.isPart ? kShadowSize / 2 : kShadowSize;
-    LampShadow shadow{views::shadowViews(lamp.source, boundsOfAll(in.casters), receivers, size), {}};
+    LampShadow shadow{views::shadowViews(lamp.source, boundsOfAll(in.casters, in.fields), receivers, size),
+                      {}};
     if (shadow.views.faces.empty()) return shadow;
-    Result<TextureId> drawn = views::recordShadow(graph, context, shadow.views, in.casters, receivers);
+    Result<TextureId> drawn =
+        views::recordShadow(graph, context, shadow.views, in.casters, receivers, in.fields);
     if (!drawn) return drawn.error();
     shadow.map = *drawn;
     return shadow;

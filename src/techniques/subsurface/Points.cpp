@@ -202,11 +202,12 @@ ivec2 pixelsOf(const views::Eye& eye, const scene::Object& object, const Grid& g
 
 Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const views::LampPoint& lamp,
                          const views::Eye& face, const views::PosedMesh& object,
-                         const std::vector<views::PosedMesh>& casters, const Grid& grid) {
+                         const std::vector<views::PosedMesh>& casters,
+                         const std::vector<views::DrawnObject>& fields, const Grid& grid) {
     const views::Bounds bounds = views::boundsOf(*object.drawn.object);
     const ivec2 size = pixelsOfGrazed(pixelsOf(face, *object.drawn.object, grid), face, bounds, grid);
     const TextureId surface = graph.create("subsurface.lit", {.size = size, .format = Format::RGBA32F});
-    if (Status s = views::recordSurface(graph, context, face, {}, casters, surface, size); !s)
+    if (Status s = views::recordSurface(graph, context, face, fields, casters, surface, size); !s)
         return s.error();
     TextureId paint;
     if (object.drawn.paint) {

@@ -43,10 +43,12 @@ ivec2 pixelsOf(const views::Eye& eye, const scene::Object& object, const Grid& g
 /// Points of an object that a lamp sees.
 ///
 /// @param face     one of the lamp's views of the object
-/// @param casters  all that stands in the light's way, the object among them
+/// @param casters  all meshes that stand in the light's way, the object among them
+/// @param fields   height fields that do
 Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const views::LampPoint& lamp,
                          const views::Eye& face, const views::PosedMesh& object,
-                         const std::vector<views::PosedMesh>& casters, const Grid& grid);
+                         const std::vector<views::PosedMesh>& casters,
+                         const std::vector<views::DrawnObject>& fields, const Grid& grid);
 
 /// Points of all surfaces of an object behind each other along an axis, one list a layer.
 ///

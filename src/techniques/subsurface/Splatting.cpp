@@ -417,11 +417,11 @@ Status Splatter::splat(const Target& target, const Points& points) {
 
 Status Splatter::lit(const Target& target, const views::LampPoint& lamp) {
     if (lamp.color == vec3(0)) return Done{};
-    const views::ShadowViews views =
-        views::shadowViews(lamp.source, boundsOfAll(in_.casters), target.bounds, target.layout.grid.most);
+    const views::ShadowViews views = views::shadowViews(lamp.source, boundsOfAll(in_.casters, in_.fields),
+                                                        target.bounds, target.layout.grid.most);
     for (const views::Eye& face : views.faces) {
         Result<Points> points =
-            recordLit(graph_, context_, lamp, face, target.mesh, in_.casters, target.layout.grid);
+            recordLit(graph_, context_, lamp, face, target.mesh, in_.casters, in_.fields, target.layout.grid);
         if (!points) return points.error();
         if (Status s = splat(target, *points); !s) return s;
     }

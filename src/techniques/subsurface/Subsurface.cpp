@@ -406,14 +406,14 @@ const ParamTable& Subsurface::params() {
                         "blurred until these suffice."}),
         declare(&Settings::exit,
                 {.id = "exit",
-                 .label = "Light that leaves",
+                 .label = "Fresnel on exit",
                  .group = Group::Subsurface,
                  .doc = "Whole: what arrives below the surface leaves it; paper: the surface keeps its mean "
                         "reflection a second time, as in the dissertation's eq. 6.13.",
                  .choices = kExits}),
         declare(&Settings::blurEnergy,
                 {.id = "blurEnergy",
-                 .label = "Light where blur is painted",
+                 .label = "Energy of painted blur",
                  .group = Group::Light,
                  .doc =
                      "Kept: as much leaves however far it spreads; paper: as the dissertation's eq. 7.4 has "
@@ -433,13 +433,13 @@ const ParamTable& Subsurface::params() {
                  "are lost, and thinner parts shine alike on both sides."}),
         declare(&Settings::temporal,
                 {.id = "temporal",
-                 .label = "Steady between pictures",
+                 .label = "Temporal history",
                  .group = Group::Subsurface,
                  .doc = "Mixes what leaves with what left there in the picture before, so that few splats "
                         "flicker less where things turn. It changes no single picture, and none that is "
                         "drawn again as it was."}),
     };
-    static const ParamTable table = tableOf<Settings>("subsurface", list, "Light inside");
+    static const ParamTable table = tableOf<Settings>("subsurface", list, "Subsurface scattering");
     return table;
 }
 

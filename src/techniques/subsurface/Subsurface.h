@@ -49,6 +49,7 @@ struct Inputs {
     const std::vector<views::PosedMesh>& solids;  ///< visible ones; those that scatter are drawn
     const std::vector<views::PosedMesh>& casters; ///< all that stands in the light's way, hidden or not:
                                                   ///< opaque, scattering, mirrors and refractive
+    std::vector<views::DrawnObject> fields{};     ///< height fields that do as well
     graph::TextureId surface;                     ///< views.surface
     graph::TextureHandle environment;             ///< lat-long map of scene.environment; None without one
     graph::TextureId target;                      ///< RGBA32F

@@ -53,6 +53,7 @@ public:
                                    .eye = picture.eye,
                                    .solids = seen,
                                    .casters = casters,
+                                   .fields = passes.posed.fields,
                                    .surface = passes.surface,
                                    .environment = picture.environment,
                                    .target = shown,
@@ -142,6 +143,13 @@ const technique::NotDrawn kLimits[] = {
                 });
      },
      scene::PaintMap::Blur},
+    {"layers and thickness of a translucent material", "method diffusion solves the body itself",
+     [](const scene::Scene& scene) {
+         return solves(scene) && std::any_of(scene.objects.begin(), scene.objects.end(), [](const auto& one) {
+                    return one.material.isScattering() &&
+                           (!one.material.layers.empty() || one.material.thickness > 0);
+                });
+     }},
     {"light that scatters once inside objects", "diffusion leaves it out (dissertation ch. 6)", scatters},
     {"light that scattering objects send each other", "they receive lamps and the environment",
      [](const scene::Scene& scene) {

@@ -143,6 +143,8 @@ std::optional<Volumes::Key> Body::key() const {
         if (caster.drawn.water) return std::nullopt;
         key.objects.push_back(views::objectKey(*caster.drawn.object, time));
     }
+    for (const views::DrawnObject& field : in_.fields)
+        key.objects.push_back(views::objectKey(*field.object, time));
     std::vector<float>& numbers = key.numbers;
     const auto add = [&numbers](const auto& vector) {
         for (int i = 0; i < vector.length(); ++i)
@@ -164,6 +166,7 @@ std::optional<Volumes::Key> Body::key() const {
     for (const diffusion::Medium& medium : diffusion::mediaOf(mesh_.drawn.object->material))
         numbers.insert(numbers.end(),
                        {float(medium.scattering), float(medium.absorption), float(medium.ior)});
+    numbers.push_back(mesh_.drawn.object->material.surfaceIor()); // by which light enters
     for (const int layers : plan_.layers)
         numbers.push_back(float(layers));
     add(ivec2(settings_.cells, views::samplingOf(in_.scene).lamp));
@@ -308,16 +311,17 @@ Status Body::light() {
     const Grid grid{.pixel = cells_.width / 4, .levels = 1, .most = context_.caps().maxTextureSize};
     for (const views::LampPoint& lamp : views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp)) {
         if (lamp.color == vec3(0)) continue;
-        const views::ShadowViews views =
-            views::shadowViews(lamp.source, boundsOfAll(in_.casters), bounds_, 2 * settings_.cells);
+        const views::ShadowViews views = views::shadowViews(lamp.source, boundsOfAll(in_.casters, in_.fields),
+                                                            bounds_, 2 * settings_.cells);
         for (const views::Eye& face : views.faces) {
-            Result<Points> points = recordLit(graph_, context_, lamp, face, mesh_, in_.casters, grid);
+            Result<Points> points =
+                recordLit(graph_, context_, lamp, face, mesh_, in_.casters, in_.fields, grid);
             if (!points) return points.error();
             if (Status s = lay(*points, lamp.place); !s) return s;
         }
     }
     if (in_.environment == graph::TextureHandle::None) return Done{};
-    const auto entering = enteringSky(*in_.scene.environment, mesh_.drawn.object->material.ior);
+    const auto entering = enteringSky(*in_.scene.environment, mesh_.drawn.object->material.surfaceIor());
     for (int axis = 0; axis < 3; ++axis) {
         Result<std::vector<Points>> layers = recordSky(graph_, context_, eyeAlong(cells_, axis), mesh_,
                                                        plan_.layers[std::size_t(axis)], entering, grid);

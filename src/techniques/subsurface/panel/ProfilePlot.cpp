@@ -125,7 +125,7 @@ std::vector<ProfilePlot> profilePlots(const scene::Scene& scene) {
 }
 
 std::string describe(const ProfilePlot& plot) {
-    std::string text = "Light inside " + plot.owner + ", " + std::string(plot.profile) + ":";
+    std::string text = "Subsurface scattering of " + plot.owner + ", " + std::string(plot.profile) + ":";
     for (std::size_t c = 0; c < 3; ++c)
         text += (c ? "; " : " ") + std::string(kColors[c]) + format(" reaches %.3g mm,", plot.reach[c]) +
                 format(" %.1f %% leaves again", 100 * plot.whole[c]);
