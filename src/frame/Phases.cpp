@@ -55,13 +55,6 @@ Result<Renderer::State::Moment> Renderer::State::momentOf(const scene::Scene& sc
     Result<views::Drawn> all = views::drawnOf(scene, images, waters, true);
     if (!all) return all.error();
     moment.all = std::move(*all);
-    // Light goes on as if it were not there; only quantities of surfaces show it.
-    const scene::Aov show = scene.view.show;
-    if (show == scene::Aov::Color || show == scene::Aov::Irradiance || show == scene::Aov::Radiosity)
-        for (views::Drawn* one : {&moment.drawn, &moment.all})
-            std::erase_if(one->meshes.glass, [&](const views::DrawnMesh& mesh) {
-                return scene::changesNoLight(scene, *mesh.object);
-            });
     if (hasEnvironment(scene)) {
         Result<graph::TextureHandle> map = images.image(scene.environment->map);
         if (!map) return map.error();
@@ -166,6 +159,7 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
         if (*carried) flux = *carried;
     }
     const std::vector<views::PosedMesh> solids = views::Posed::visible(passes.posed.solid);
+    const std::vector<views::PosedMesh> refractive = views::changingLight(picture.scene, passes.posed.glass);
     const views::Lit lit{.eye = picture.eye,
                          .size = size,
                          .surface = passes.surface,
@@ -173,7 +167,7 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
                          .solids = solids,
                          .casters = passes.posed.fields,
                          .opaque = passes.posed.solid,
-                         .refractive = passes.posed.glass,
+                         .refractive = refractive,
                          .shadowSize = views::samplingOf(picture.scene).shadowSize};
     const std::span<const views::LampPoint> some(lights.data() + next, std::size_t(end - next));
     Result<views::Occlusion> occlusion = views::recordOcclusion(passes.graph, context, lit, some);

@@ -164,8 +164,10 @@ double targetOf(std::string_view between, std::string_view receiver) {
 // What scatters and is not seen only stands in the way: its light on others is interreflection.
 scene::Scene withBlackOccluders(scene::Scene scene) {
     for (scene::Object& object : scene.objects)
-        if (!object.visible && object.material.isScattering())
-            object.material = scene::Material{.diffuse = vec3(0)};
+        if (!object.visible && object.material.isScattering()) {
+            object.material = {};
+            object.material.diffuse = vec3(0);
+        }
     return scene;
 }
 

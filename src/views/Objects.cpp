@@ -29,6 +29,17 @@ Result<Posed> recordPosed(graph::FrameGraph& graph, gl::Context& context, const 
     return Posed{all.fields, std::move(*solid), std::move(*glass)};
 }
 
+std::vector<DrawnMesh> changingLight(const scene::Scene& scene, std::vector<DrawnMesh> glass) {
+    std::erase_if(glass, [&](const DrawnMesh& mesh) { return scene::changesNoLight(scene, *mesh.object); });
+    return glass;
+}
+
+std::vector<PosedMesh> changingLight(const scene::Scene& scene, std::vector<PosedMesh> glass) {
+    std::erase_if(glass,
+                  [&](const PosedMesh& mesh) { return scene::changesNoLight(scene, *mesh.drawn.object); });
+    return glass;
+}
+
 void recordNothing(graph::FrameGraph& graph, const char* reason, graph::TextureId target) {
     graph.addPass("views.nothing", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(reason);

@@ -36,6 +36,10 @@ struct Posed {
 Result<Posed> recordPosed(graph::FrameGraph& graph, gl::Context& context, const Drawn& all, float time,
                           KeptTriangles* kept);
 
+/// Those refractive objects that light does not pass as if they were not there (scene::changesNoLight()).
+std::vector<DrawnMesh> changingLight(const scene::Scene& scene, std::vector<DrawnMesh> glass);
+std::vector<PosedMesh> changingLight(const scene::Scene& scene, std::vector<PosedMesh> glass);
+
 /// Adds a pass that leaves an image empty.
 void recordNothing(graph::FrameGraph& graph, const char* reason, graph::TextureId target);
 

@@ -76,12 +76,13 @@ TEST_F(Composed, AnIndexOfOneIsThePictureWithoutTheObject) {
     const Image without = picture();
     addBall();
     scene.objects.back().material.ior = 1;
-    EXPECT_EQ(picture().pixels, without.pixels);
-    scene.objects.back().material.ior = 1.0001f; // bends light, if ever so little
-    EXPECT_NE(picture().pixels, without.pixels);
-    scene.objects.back().material.ior = 1;
-    scene.view.show = scene::Aov::Layers;
-    EXPECT_GT(runs("views.peel"), 0); // quantities of surfaces show it
+    const Image within = picture();
+    for (std::size_t i = 0; i < without.pixels.size(); ++i)
+        if (i % 4 != 3 && without.pixels[i - i % 4 + 3] > 0) {
+            ASSERT_NEAR(within.pixels[i], without.pixels[i], 1e-5) << i;
+        }
+    for (const char* pass : {"caustics.photon", "caustics.lookup"})
+        EXPECT_EQ(runs(pass), 0) << pass;
 }
 
 TEST_F(Composed, ABallOfGlassRunsItsTwoLayersAndTheTraceOnly) {

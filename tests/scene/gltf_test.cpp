@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 namespace lucent::scene {
 namespace {
@@ -57,6 +58,23 @@ TEST(Gltf, NodesAreScaledTurnedAndMoved) {
     const Mesh mirrored = read(squareGlb(R"(, "scale": [-1,1,1])"), error);
     EXPECT_EQ(mirrored.indices, (std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2}))
         << "a mirror turns triangles round";
+}
+
+TEST(Gltf, TrianglesWithoutNormalsAreFlat) {
+    std::string error;
+    // The last corner is lifted: the two triangles of the square lie in two planes.
+    Bytes buffer = squareBuffer<std::uint16_t>();
+    const float lifted = 1;
+    std::memcpy(buffer.data() + 11 * sizeof(float), &lifted, sizeof lifted);
+    const Mesh mesh = read(glb(buffer, gltf(buffer, 5123, "", "", "")), error);
+    ASSERT_EQ(error, "");
+    ASSERT_EQ(mesh.positions.size(), 6u);
+    for (std::size_t i = 0; i < 6; i += 3) {
+        const auto at = [&](std::size_t corner) { return mesh.positions[mesh.indices[i + corner]]; };
+        const vec3 across = glm::normalize(glm::cross(at(1) - at(0), at(2) - at(0)));
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            EXPECT_LT(glm::distance(mesh.normals[mesh.indices[i + corner]], across), 1e-6f);
+    }
 }
 
 TEST(Gltf, StripsAndFansBecomeTriangles) {

@@ -64,6 +64,19 @@ TEST(Obj, NormalsOfTheFileAreKeptAndPartVertices) {
     EXPECT_LT(glm::distance(mesh.normals[3], vec3(0, 0.6f, 0.8f)), 1e-7f);
 }
 
+TEST(Obj, FacesWithoutNormalsAreFlatOutsideOfSmoothingGroups) {
+    // Two squares at a right angle, along y.
+    const std::string roof = kSquare + "v 1 0 -1\nv 1 1 -1\n";
+    const Mesh flat = sound(roof + "f 1 2 3 4\nf 2 5 6 3\n");
+    ASSERT_EQ(flat.positions.size(), 8u);
+    EXPECT_EQ(flat.normals[1], vec3(0, 0, 1));
+    EXPECT_EQ(flat.normals[4], vec3(1, 0, 0));
+    EXPECT_EQ(sound(roof + "s 1\nf 1 2 3 4\ns off\nf 2 5 6 3\n").positions.size(), 8u);
+    const Mesh smooth = sound(roof + "s 1\nf 1 2 3 4\nf 2 5 6 3\n");
+    ASSERT_EQ(smooth.positions.size(), 6u);
+    EXPECT_LT(glm::distance(smooth.normals[1], glm::normalize(vec3(1, 0, 1))), 1e-6f);
+}
+
 TEST(Obj, HollowPolygonsAreCutWithoutLossOrOverlap) {
     // A square of side 3 with a bite of 1 x 2 from its right side: area 7, and no triangle is turned round.
     const Mesh mesh = sound("v 0 0 0\nv 3 0 0\nv 3 1 0\nv 1 1 0\nv 1 2 0\nv 3 2 0\nv 3 3 0\nv 0 3 0\n"
@@ -101,7 +114,7 @@ TEST(Obj, WhatIsNotReadIsNamedOnce) {
     sound("mtllib none.mtl\n" + kSquare + "s 1\nusemtl x\nf 1 2 3\nl 1 2\ncurv 0 1 2\nv 1 2 3 0.5 0.5 0.5\n");
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
               "warning: m/a.obj: not read: colours of vertices, curv, materials (m/none.mtl: cannot be read "
-              "(none)), points and lines, smoothing groups\n");
+              "(none)), points and lines\n");
 }
 
 TEST(Obj, WrongLinesAreNamed) {

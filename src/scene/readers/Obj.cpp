@@ -219,14 +219,16 @@ public:
     }
 
 private:
-    /// A vertex of ours: a position with a normal, -1 for none.
+    /// A vertex of ours: a position with a normal, -1 for none; then faces of one smoothing group share it,
+    /// and other faces have their own.
     struct Corner {
-        std::int64_t position = -1, normal = -1;
+        std::int64_t position = -1, normal = -1, group = 0;
         bool operator==(const Corner&) const = default;
     };
     struct Hash {
         std::size_t operator()(const Corner& c) const {
-            return std::size_t(c.position) * 1000003u ^ std::size_t(c.normal);
+            return (std::size_t(c.position) * 1000003u ^ std::size_t(c.normal)) * 1000003u ^
+                   std::size_t(c.group);
         }
     };
 
@@ -243,12 +245,20 @@ private:
             indices_ = &partNamed(trimmed(rest));
             hasMaterials_ = true;
         } else if (keyword == "s") {
-            hasSmoothing_ = true;
+            smoothing_ = groupOf(trimmed(rest));
         } else if (keyword == "p" || keyword == "l") {
             unread_.insert("points and lines");
         } else if (keyword != "vt" && keyword != "g" && keyword != "o" && keyword != "mtllib") {
             unread_.insert(std::string(keyword));
         }
+    }
+
+    // "off" and 0: none; groups are numbers, and any other word counts as one.
+    static std::int64_t groupOf(std::string_view word) {
+        if (word.empty() || word == "off") return 0;
+        std::int64_t number = 0;
+        const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
+        return problem == std::errc() ? std::abs(number) : 1;
     }
 
     std::vector<std::uint32_t>& partNamed(std::string_view name) {
@@ -263,6 +273,7 @@ private:
     void readFace(std::string_view rest) {
         face_.clear();
         points_.clear();
+        const std::int64_t group = smoothing_ > 0 ? smoothing_ : -++faces_;
         for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
             const std::size_t first = std::min(word.find('/'), word.size()),
                               second = std::min(word.find('/', first + 1), word.size());
@@ -270,6 +281,7 @@ private:
             if (second < word.size())
                 corner.normal = place(word.substr(second + 1), normals_.size(), "normal");
             if (!lines_.error().empty()) return;
+            if (corner.normal < 0) corner.group = group;
             face_.push_back(vertex(corner));
             points_.emplace_back(positions_[std::size_t(corner.position)]);
         }
@@ -305,7 +317,8 @@ private:
         return known->second;
     }
 
-    // Those that the file leaves out, or gives no direction, follow from the triangles.
+    // Those that the file leaves out, or gives no direction, follow from the faces around: of the vertex, so
+    // that they are flat outside of smoothing groups.
     void finishNormals() {
         std::vector<std::uint32_t> all;
         for (const auto& [name, indices] : parts_)
@@ -314,7 +327,6 @@ private:
         for (std::size_t i = 0; i < found.size(); ++i) {
             const float length = glm::length(mesh_.normals[i]);
             mesh_.normals[i] = length == 0 ? found[i] : mesh_.normals[i] / length;
-            if (length == 0 && hasSmoothing_) unread_.insert("smoothing groups");
         }
     }
 
@@ -340,7 +352,8 @@ private:
     std::vector<std::uint32_t> face_;
     std::vector<dvec3> points_;
     Names unread_;
-    bool hasSmoothing_ = false, hasMaterials_ = false;
+    std::int64_t smoothing_ = 0, faces_ = 0; // group that is in force, 0: none; faces so far
+    bool hasMaterials_ = false;
     Mesh mesh_;
 };
 

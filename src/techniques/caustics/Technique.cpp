@@ -23,7 +23,7 @@ public:
 
     Status prepare(const technique::Picture& picture) override {
         plan_.reset();
-        Result<Plan> plan = caustics_.plan(store_.pool, picture.scene, picture.eye, picture.all.meshes,
+        Result<Plan> plan = caustics_.plan(store_.pool, picture.scene, picture.eye, meshesOf(picture),
                                            picture.all.fields, settingsOf(picture.scene));
         if (!plan) return plan.error();
         plan_ = std::move(*plan);
@@ -56,7 +56,7 @@ public:
 
     Result<technique::Balance> balance(const technique::Picture& picture) override {
         if (!plan_) return technique::Balance{};
-        Result<Energy> energy = caustics_.measure(store_.pool, picture.scene, picture.eye, picture.all.meshes,
+        Result<Energy> energy = caustics_.measure(store_.pool, picture.scene, picture.eye, meshesOf(picture),
                                                   picture.all.fields, *plan_, settingsOf(picture.scene));
         if (!energy) return energy.error();
         return technique::Balance{{"met", energy->met},           {"received", energy->received},
@@ -67,10 +67,14 @@ public:
     void clear() override { plan_.reset(); }
 
 private:
-    static Inputs inputs(const technique::Passes& passes, TextureId surface) {
+    static views::DrawnMeshes meshesOf(const technique::Picture& picture) {
+        return {picture.all.meshes.solid, views::changingLight(picture.scene, picture.all.meshes.glass)};
+    }
+    Inputs inputs(const technique::Passes& passes, TextureId surface) {
+        glass_ = views::changingLight(passes.picture.scene, passes.posed.glass);
         return {.scene = passes.picture.scene,
                 .eye = passes.picture.eye,
-                .glass = passes.posed.glass,
+                .glass = glass_,
                 .solids = passes.posed.solid,
                 .surface = surface,
                 .size = passes.picture.size,
@@ -80,6 +84,7 @@ private:
     technique::Store store_;
     Caustics caustics_;
     std::optional<Plan> plan_;
+    std::vector<views::PosedMesh> glass_; // that bends light, of the graph that is recorded
 };
 
 constexpr Aov kAovs[] = {Aov::CausticMap};

@@ -38,7 +38,8 @@ public:
         if (!plan_ || (show != Aov::Color && !showsFlux)) return Done{};
         const std::vector<views::PosedMesh> seen = views::Posed::visible(passes.posed.solid);
         std::vector<views::PosedMesh> casters = passes.posed.solid;
-        casters.insert(casters.end(), passes.posed.glass.begin(), passes.posed.glass.end());
+        const auto glass = views::changingLight(picture.scene, passes.posed.glass);
+        casters.insert(casters.end(), glass.begin(), glass.end());
         const bool painted = std::any_of(seen.begin(), seen.end(), [](const views::PosedMesh& mesh) {
             return mesh.drawn.paint.has_value();
         });
