@@ -17,16 +17,6 @@ std::optional<std::string> need(const scene::Scene& scene, std::string_view tech
     return found ? found->need(scene) : std::nullopt;
 }
 
-std::span<const ParamTable* const> tables() {
-    static const std::vector<const ParamTable*> list = [] {
-        std::vector<const ParamTable*> made{&views::samplingParams()};
-        for (const Technique* technique : all())
-            if (technique->params) made.push_back(technique->params());
-        return made;
-    }();
-    return list;
-}
-
 bool acts(const scene::Scene& scene, std::string_view table, std::string_view id) {
     if (table == views::samplingParams().name) return views::samplingActs(scene, id);
     const Technique* technique = find(table);
@@ -34,32 +24,6 @@ bool acts(const scene::Scene& scene, std::string_view table, std::string_view id
     const auto settings = scene.technique.find(std::string(table));
     if (settings == scene.technique.end() || !technique->need(scene)) return false;
     return !technique->acts || technique->acts(settings->second, id);
-}
-
-truth::Model modelOf(const scene::Scene& scene) {
-    truth::Model model;
-    for (const Technique* technique : all()) {
-        const auto settings = scene.technique.find(std::string(technique->name));
-        if (technique->describe && settings != scene.technique.end())
-            technique->describe(settings->second, model);
-    }
-    return model;
-}
-
-scene::Scene withDefaults(scene::Scene scene) {
-    for (auto& [name, settings] : scene.technique) {
-        Settings fresh(settings.table());
-        const Technique* technique = find(name);
-        for (const Param& param : settings.table().params)
-            if (technique && std::find(technique->model.begin(), technique->model.end(), param.id) !=
-                                 technique->model.end()) {
-                const std::string value =
-                    getText(param, static_cast<const std::byte*>(settings.data()) + param.offset);
-                (void)setText(param, static_cast<std::byte*>(fresh.data()) + param.offset, value);
-            }
-        settings = std::move(fresh);
-    }
-    return scene;
 }
 
 std::vector<KnobOf> knobs(const scene::Scene& scene) {

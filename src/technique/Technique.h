@@ -57,17 +57,22 @@ struct Mode {
     bool (*leads)(const scene::Scene&) = nullptr;
 };
 
-struct Technique {
+/// What can be said of a technique without a GPU: all that an exact solution asks.
+struct Declared {
     std::string_view name;
-    const ParamTable* (*params)() = nullptr; ///< null: it has none
-    /// Why the scene needs it; nothing when it does not.
-    std::optional<std::string> (*need)(const scene::Scene&);
-    /// Whether a parameter changes anything beside the others; null: all do.
-    bool (*acts)(const Settings&, std::string_view id) = nullptr;
+    const ParamTable* (*params)();
     /// Parameters that belong to the model and not to how it is drawn,
     std::span<const std::string_view> model = {};
     /// and what they say to an exact solution; null: nothing.
     void (*describe)(const Settings&, truth::Model&) = nullptr;
+};
+
+struct Technique {
+    std::string_view name;
+    /// Why the scene needs it; nothing when it does not.
+    std::optional<std::string> (*need)(const scene::Scene&);
+    /// Whether a parameter changes anything beside the others; null: all do.
+    bool (*acts)(const Settings&, std::string_view id) = nullptr;
     std::span<const scene::Aov> aovs = {}; ///< quantities that only it has
     std::span<const Knob> knobs = {};
     std::span<const NotDrawn> limits = {};
@@ -77,6 +82,8 @@ struct Technique {
 
 /// All techniques that are built in, in the order in which they are called.
 std::span<const Technique* const> all();
+/// Of those among them that have parameters.
+std::span<const Declared* const> declared();
 /// By name; null where it is not built in.
 const Technique* find(std::string_view name);
 /// Why a scene needs a technique, by name; nothing when it does not.

@@ -14,7 +14,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 
 namespace lucent::scene {
 namespace {
@@ -379,7 +378,6 @@ private:
               readNormals(primitive, piece) && readTargets(primitive, piece) &&
               readJoints(primitive, index, piece)))
             return false;
-        if (!primitive.attributes.contains("NORMAL")) piece = facetted(piece);
         const mat4& first = rest_[piece.joints.empty() ? 0 : piece.joints.front()[0]];
         if (glm::determinant(first) < 0) // a mirror turns counter-clockwise round
             for (std::size_t i = 0; i + 2 < piece.indices.size(); i += 3)
@@ -442,40 +440,6 @@ private:
                 piece.normals[i] =
                     normals[i] / length; // what is no number stays one, and is refused at the end
         return true;
-    }
-
-    // @param from  the vertex that each one of the mesh was before
-    static Mesh welded(const Mesh& mesh, const std::vector<std::uint32_t>& from) {
-        Mesh joined{.positions = {}, .indices = {}, .rig = mesh.rig};
-        std::map<std::tuple<std::uint32_t, float, float, float>, std::uint32_t> known;
-        for (std::size_t i = 0; i < from.size(); ++i) {
-            const vec3 normal = mesh.normals[i];
-            const auto [place, isNew] = known.try_emplace({from[i], normal.x, normal.y, normal.z},
-                                                          std::uint32_t(joined.positions.size()));
-            joined.indices.push_back(place->second);
-            if (!isNew) continue;
-            joined.positions.push_back(mesh.positions[i]);
-            joined.normals.push_back(normal);
-            if (!mesh.joints.empty()) joined.joints.push_back(mesh.joints[i]);
-            if (!mesh.jointWeights.empty()) joined.jointWeights.push_back(mesh.jointWeights[i]);
-        }
-        return joined;
-    }
-
-    // What a file gives no normals has flat ones (glTF 2.0, 3.7.2.1), displaced or not.
-    // Triangles side by side share vertices where they lie in one plane, unless targets part them.
-    static Mesh facetted(const Mesh& piece) {
-        Mesh flat = flattened(piece);
-        if (flat.rig.targets.empty()) return welded(flat, piece.indices);
-        for (MorphTarget& target : flat.rig.targets) {
-            std::vector<vec3> moved = flat.positions;
-            for (std::size_t i = 0; i < moved.size(); ++i)
-                moved[i] += target.positions[i];
-            target.normals = areaWeightedNormals(moved, flat.indices);
-            for (std::size_t i = 0; i < moved.size(); ++i)
-                target.normals[i] -= flat.normals[i];
-        }
-        return flat;
     }
 
     // Displacements of a file; normals that it leaves open follow from the displaced triangles.

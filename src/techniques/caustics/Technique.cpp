@@ -129,7 +129,6 @@ const technique::NotDrawn kLimits[] = {
 extern const technique::Technique kTechnique;
 const technique::Technique kTechnique{
     .name = "caustics",
-    .params = [] { return &Caustics::params(); },
     .need = Caustics::need,
     .aovs = kAovs,
     .knobs = kKnobs,

@@ -227,7 +227,6 @@ const technique::NotDrawn kLimits[] = {
 extern const technique::Technique kTechnique;
 const technique::Technique kTechnique{
     .name = "refract",
-    .params = [] { return &Refract::params(); },
     .need = Refract::need,
     .acts = [](const lucent::Settings& settings,
                std::string_view id) { return acts(settings.as<Settings>(), id); },

@@ -130,7 +130,6 @@ private:
     Budget budget_;
 };
 
-constexpr std::string_view kModel[] = {"attenuation", "normalise"};
 constexpr Aov kAovs[] = {Aov::Illumination, Aov::Visibility, Aov::Iterations};
 constexpr Group kFirst[] = {Group::Mode};
 
@@ -148,16 +147,7 @@ const technique::NotDrawn kLimits[] = {
 extern const technique::Technique kTechnique;
 const technique::Technique kTechnique{
     .name = "relief",
-    .params = [] { return &Relief::params(); },
     .need = Relief::need,
-    .model = kModel,
-    .describe =
-        [](const lucent::Settings& all, truth::Model& model) {
-            const auto& settings = all.as<Settings>();
-            model.attenuation = settings.attenuation == Attenuation::Ratio ? truth::Attenuation::Ratio
-                                                                           : truth::Attenuation::Exponential;
-            model.normalise = settings.normalise;
-        },
     .aovs = kAovs,
     .limits = kLimits,
     .mode = technique::Mode{.name = "relief", .place = 0, .first = kFirst},

@@ -118,15 +118,6 @@ constexpr technique::Knob kKnobs[] = {
      .acts = sums},
     {.id = "cells", .coarse = 24, .steps = kCells, .words = "cells", .acts = solves},
 };
-constexpr std::string_view kModel[] = {"profile", "dipoleGeometry", "exit"};
-void describe(const lucent::Settings& all, truth::Model& model) {
-    const auto& settings = all.as<Settings>();
-    const bool offset = settings.dipoleGeometry == DipoleGeometry::Offset;
-    model.dipole.profile = truth::Diffusion(int(settings.profile)); // in the same order
-    model.dipole.geometry = offset ? truth::DipoleGeometry::Offset : truth::DipoleGeometry::Planar;
-    model.dipole.normalisedExit = settings.exit == Exit::Whole;
-    model.walks = settings.method == Method::Diffusion;
-}
 constexpr Aov kAovs[] = {Aov::Radiosity};
 constexpr Group kFirst[] = {Group::Mode, Group::Subsurface, Group::Light, Group::View};
 
@@ -165,12 +156,9 @@ const technique::NotDrawn kLimits[] = {
 extern const technique::Technique kTechnique;
 const technique::Technique kTechnique{
     .name = "subsurface",
-    .params = [] { return &Subsurface::params(); },
     .need = Subsurface::need,
     .acts = [](const lucent::Settings& settings,
                std::string_view id) { return acts(settings.as<Settings>(), id); },
-    .model = kModel,
-    .describe = describe,
     .aovs = kAovs,
     .knobs = kKnobs,
     .limits = kLimits,
