@@ -28,7 +28,9 @@ truth::Model modelOf(const scene::Scene& scene) {
 }
 
 scene::Scene withDefaults(scene::Scene scene) {
-    for (auto& [name, settings] : scene.technique) {
+    for (auto& entry : scene.technique) {
+        const std::string& name = entry.first;
+        Settings& settings = entry.second;
         Settings fresh(settings.table());
         const auto found = std::find_if(declared().begin(), declared().end(),
                                         [&](const Declared* one) { return one->name == name; });
