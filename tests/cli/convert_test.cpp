@@ -13,7 +13,7 @@ TEST_F(ConvertMesh, WritesTheWholeMeshOrAnObj) {
           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 2 4\nf 2 3 4\nusemtl blue\nf 3 1 4\n");
     const test::Outcome plain = run("convert tent.obj -o tent.mesh");
     EXPECT_EQ(plain.code, 0) << plain.err;
-    EXPECT_EQ(plain.out, "tent.mesh: 4 vertices, 3 triangles, 3 open edges\n"
+    EXPECT_EQ(plain.out, "tent.mesh: 9 vertices, 3 triangles, 3 open edges\n"
                          "part \"red\": 2 triangles\npart \"blue\": 1 triangles\n");
     const Result<Bytes> file = readFile(path("tent.mesh"));
     ASSERT_TRUE(file);
