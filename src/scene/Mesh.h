@@ -93,10 +93,6 @@ Mesh posed(const Mesh& mesh, const Pose& pose);
 std::vector<vec3> areaWeightedNormals(std::span<const vec3> positions,
                                       std::span<const std::uint32_t> indices);
 
-/// The mesh with three vertices of its own for each triangle, which share its normal. Morph targets keep no
-/// normals.
-Mesh flattened(const Mesh& mesh);
-
 /// Meshes of the shapes that are neither files nor fields, centred in their object's space, with normals.
 /// Their vertices lie on the shape; `segments` (3 or more) go once around, the other way in proportion but
 /// not more. Flat sides have `cells` squares along each edge: 1 unless the shape is to be bent; lids of

@@ -74,6 +74,20 @@ std::vector<Value> perCorner(const std::vector<Value>& values, const std::vector
     return list;
 }
 
+// Each triangle with three vertices of its own, which share its normal.
+Mesh flattened(const Mesh& mesh) {
+    Mesh flat{.positions = perCorner(mesh.positions, mesh.indices),
+              .indices = std::vector<std::uint32_t>(mesh.indices.size()),
+              .joints = perCorner(mesh.joints, mesh.indices),
+              .jointWeights = perCorner(mesh.jointWeights, mesh.indices),
+              .rig = mesh.rig};
+    std::iota(flat.indices.begin(), flat.indices.end(), 0u);
+    for (MorphTarget& target : flat.rig.targets)
+        target = {perCorner(target.positions, mesh.indices), {}};
+    flat.normals = areaWeightedNormals(flat.positions, flat.indices);
+    return flat;
+}
+
 // Made once for each of the last few meshes.
 std::shared_ptr<const Mesh> flatMeshOf(const std::shared_ptr<const Mesh>& mesh) {
     struct Made {
@@ -91,19 +105,6 @@ std::shared_ptr<const Mesh> flatMeshOf(const std::shared_ptr<const Mesh>& mesh) 
 }
 
 } // namespace
-
-Mesh flattened(const Mesh& mesh) {
-    Mesh flat{.positions = perCorner(mesh.positions, mesh.indices),
-              .indices = std::vector<std::uint32_t>(mesh.indices.size()),
-              .joints = perCorner(mesh.joints, mesh.indices),
-              .jointWeights = perCorner(mesh.jointWeights, mesh.indices),
-              .rig = mesh.rig};
-    std::iota(flat.indices.begin(), flat.indices.end(), 0u);
-    for (MorphTarget& target : flat.rig.targets)
-        target = {perCorner(target.positions, mesh.indices), {}};
-    flat.normals = areaWeightedNormals(flat.positions, flat.indices);
-    return flat;
-}
 
 std::shared_ptr<const Mesh> meshOf(const Object& object) {
     if (const auto* file = std::get_if<MeshShape>(&object.shape))
