@@ -17,6 +17,11 @@ std::span<const ParamTable* const> tables() {
     return list;
 }
 
+void addSettings(scene::Scene& scene) {
+    for (const ParamTable* table : tables())
+        scene.technique.emplace(std::string(table->name), Settings(*table));
+}
+
 truth::Model modelOf(const scene::Scene& scene) {
     truth::Model model;
     for (const Declared* technique : declared()) {

@@ -20,8 +20,7 @@ struct Composed : support::GlTest {
         scene.size = {64, 48};
         scene.camera.type = scene::Camera::Type::Perspective;
         scene.camera.eye = {0, 0.5f, 4};
-        for (const ParamTable* table : technique::tables())
-            scene.technique.emplace(std::string(table->name), Settings(*table));
+        technique::addSettings(scene);
         scene.environment.emplace();
         auto map = std::make_shared<Image>(8, 4, 3);
         std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);

@@ -211,8 +211,7 @@ TEST_F(Methods, ChoicesThatDoNotGoTogetherAreRefused) {
 TEST_F(Methods, ASceneChoosesAMethodAndHearsOfItsLimits) {
     scene::Scene scene = seenFrom(3, {glass(scene::Sphere{1}, 1.5f), glass(scene::Sphere{0.999f}, 1.2f)});
     test::addSky(scene, vec3(1));
-    for (const ParamTable* table : technique::tables())
-        scene.technique.emplace(std::string(table->name), lucent::Settings(*table));
+    technique::addSettings(scene);
     for (const auto& [key, value] : {std::pair("layers", "voxels"), std::pair("trace", "bisection")})
         EXPECT_TRUE(setParam(scene, std::string("technique.refract.") + key, value).ok());
     frame::Renderer renderer(*context);

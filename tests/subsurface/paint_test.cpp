@@ -103,8 +103,7 @@ struct Painted : support::GlTest {
         scene.size = {48, 48};
         scene.camera.eye = {0, 0, 1};
         scene.camera.height = 0.022f;
-        for (const ParamTable* table : technique::tables())
-            scene.technique.emplace(std::string(table->name), lucent::Settings(*table));
+        technique::addSettings(scene);
         scene.lights = {scene::DistantLight{.direction = {0, 0, -1}}};
     }
     scene::Object& add(scene::Shape shape) {

@@ -20,8 +20,7 @@ struct Scattering : support::GlTest {
         scene.size = {48, 48};
         scene.camera.eye = {0, 0, 1};
         scene.camera.height = 0.05f;
-        for (const ParamTable* table : technique::tables())
-            scene.technique.emplace(std::string(table->name), Settings(*table));
+        technique::addSettings(scene);
         scene.lights = {scene::DistantLight{.direction = {-0.3f, -1, -0.5f}}};
         add("ball", scene::Sphere{0.01f}).material.scattering = vec3(2000);
         scene.objects[0].material.setAbsorption(vec3(100));

@@ -64,8 +64,7 @@ inline scene::Scene sceneOf(std::shared_ptr<const Image> map, float heightScale,
     scene.size = object.field().texels();
     scene.camera.height = object.field().footprint().y;
     scene.camera.eye = {0, 0, 2 + heightScale};
-    for (const ParamTable* table : technique::tables())
-        scene.technique.emplace(std::string(table->name), Settings(*table));
+    technique::addSettings(scene);
     scene.objects.push_back(std::move(object));
     return scene;
 }
