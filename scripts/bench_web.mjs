@@ -5,7 +5,7 @@
  *   node scripts/bench_web.mjs [--site build/web/site] [--runs 5] [--driver NAME] [--sweep quick] [--parts NAMES]
  *
  * --sweep  quick, full, or none: without it only bytes and first pictures
- * --parts  of the sweep, separated by commas: methods, environments, scaling, hard; all of them without
+ * --parts  of the sweep, separated by commas: relief, environment, scaling, hard; all of them without
  *
  * The sweep goes to build/bench-web-DRIVER.json, in the same form as the program's.
  *
@@ -20,7 +20,7 @@ import { gzipSync } from 'node:zlib';
 const kTargetBytes = 288592; // what model-viewer 4.4.0 ships, gzip -9
 const kTargetMs = 1500;
 const kSweeps = ['quick', 'full', 'none'];
-const kParts = ['methods', 'environments', 'scaling', 'hard'];
+const kParts = ['relief', 'environment', 'scaling', 'hard'];
 
 const { values: options } = parseArgs({
   options: {

@@ -45,7 +45,7 @@ const kTopicOf = {
   translucency: 'subsurface',
   web: 'page',
 };
-// Figures that are times or ratios of times, by their names in src/measure and scripts/peers.
+// Figures that are times or ratios of times, by their names in the benches of src and in scripts/peers.
 const kIsTime = /\btimes?\b|\bms\b|against march|cost of a texel|over that at|transfer against|frames? per/i;
 const kShort = 16; // characters
 const kFluxTolerance = 0.01; // of a cell of the matrix, as src/measure/Compose.h has it

@@ -3,7 +3,7 @@ import createBench from './lucent-bench.js';
 import { callWasm } from './wasm.js';
 
 const kSliceMs = 50;
-const kParts = ['methods', 'environments', 'scaling', 'hard', 'refraction', 'caustics', 'quick'];
+const kParts = ['relief', 'environment', 'scaling', 'hard', 'refraction', 'caustics']; // as lucent bench has them
 
 /** The module on a context of its own. */
 class Bench {
@@ -58,11 +58,11 @@ const find = (id) => document.getElementById(id);
 const seconds = (ms) => `${Math.round(ms / 1000)} s`;
 let cancelled = false;
 
-/** @param wish  true or false for each of kParts. @return the report, of what was done when it was cancelled */
-async function measure(wish) {
+/** @param parts  some of kParts. @return the report, of what was done when it was cancelled */
+async function measure(parts, quick) {
   const bench = await Bench.start();
-  if (!wish.quick) await bench.addGallery();
-  bench.call('sweep', ...kParts.map((part) => Number(wish[part])));
+  if (!quick) await bench.addGallery();
+  bench.demand('sweep', parts.join(' '), Number(quick));
   const start = performance.now();
   for (let more = 1; more && !cancelled; ) {
     const until = performance.now() + kSliceMs;
@@ -93,7 +93,7 @@ find('wish').addEventListener('submit', async (event) => {
   cancelled = false;
   [find('start').disabled, find('cancel').disabled] = [true, false];
   try {
-    const found = await measure(Object.fromEntries(kParts.map((part) => [part, wanted.has(part)])));
+    const found = await measure(kParts.filter((part) => wanted.has(part)), wanted.has('quick'));
     show(found);
     window.found = found.report;
   } catch (error) {

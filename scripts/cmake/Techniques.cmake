@@ -19,13 +19,16 @@ function(lucent_list library HEADER TYPE FUNCTION CONSTANT)
   lucent_precompile(lucent_${library})
 endfunction()
 
-# lucent_technique_parts(PART LIBRARY HEADER TYPE FUNCTION CONSTANT): what techniques have on a higher floor, each in its
-# folder techniques/NAME/PART as the library NAME_PART, and their list.
-function(lucent_technique_parts part library)
+# lucent_technique_parts(PART[/FILE] LIBRARY HEADER TYPE FUNCTION CONSTANT): what techniques have on a higher floor, each in
+# its folder techniques/NAME/PART as the library NAME_PART, and the list of those that have the folder or the file in it.
+function(lucent_technique_parts where library)
+  string(REGEX REPLACE "/.*" "" part ${where})
   set(having)
   foreach(technique ${LUCENT_TECHNIQUES})
-    if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/src/techniques/${technique}/${part})
-      add_subdirectory(${PROJECT_SOURCE_DIR}/src/techniques/${technique}/${part})
+    if(EXISTS ${PROJECT_SOURCE_DIR}/src/techniques/${technique}/${where})
+      if(NOT TARGET lucent_${technique}_${part})
+        add_subdirectory(${PROJECT_SOURCE_DIR}/src/techniques/${technique}/${part})
+      endif()
       list(APPEND having ${technique})
     endif()
   endforeach()

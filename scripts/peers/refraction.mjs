@@ -62,7 +62,7 @@ export const kComparison = {
   },
 };
 
-/** As glassScene() of src/measure/RefractPlan.cpp has it: two metres long, in the picture's middle. */
+/** As glassScene() of src/techniques/refract/bench/Bench.cpp has it: two metres long, in the picture's middle. */
 function fitted(file) {
   const bytes = readFileSync(resolve(file));
   const head = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString());

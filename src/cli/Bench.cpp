@@ -10,18 +10,14 @@
 #include "base/Text.h"
 #include "frame/Renderer.h"
 #include "gl/Context.h"
-#include "measure/BudgetProof.h"
-#include "measure/CausticsPlan.h"
-#include "measure/GlassProof.h"
-#include "measure/RefractPlan.h"
-#include "measure/ReliefPlan.h"
 #include "measure/Solve.h"
-#include "measure/SubsurfacePlan.h"
+#include "measure/TechniqueBench.h"
 #include "scene/Load.h"
 #include "scene/readers/Readers.h"
 #include "technique/Technique.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -46,13 +42,11 @@ struct BenchOptions {
     std::string commit = LUCENT_COMMIT;
 };
 
-constexpr std::string_view kParts[] = {"relief", "environment",  "scaling",  "hard",
-                                       "all",    "refraction",   "caustics", "subsurface",
-                                       "budget", "budget-glass", "compose"};
+constexpr std::string_view kCompose = "compose"; // of no technique: a table of its own
 
 struct Parts {
-    measure::ReliefParts relief;
-    bool refraction = false, caustics = false, subsurface = false, glassBudget = false, compose = false;
+    std::vector<const measure::BenchPart*> measured;
+    bool compose = false;
 };
 
 // --- the machine
@@ -88,27 +82,22 @@ std::string today() {
 
 // --- what is measured
 
-Result<Parts> parseParts(const std::vector<std::string>& names) {
-    if (names.empty()) return Parts{};
-    Parts parts{{false, false, false, false}};
+Result<Parts> parseParts(std::vector<std::string> names) {
+    if (names.empty()) names = {"all"};
+    Parts parts;
     for (const std::string& name : names) {
-        if (std::find(std::begin(kParts), std::end(kParts), name) == std::end(kParts)) {
-            std::string known;
-            for (const std::string_view part : kParts)
-                known += (known.empty() ? "" : ", ") + std::string(part);
-            return Error{"NAMES: is " + inQuotes(name) + "; must be one of " + known};
+        const auto found = measure::benchParts(name);
+        if (found.empty() && name != kCompose) {
+            std::string known = "all";
+            for (const measure::BenchPart* part : measure::benchParts())
+                known += ", " + std::string(part->name);
+            return Error{"NAMES: is " + inQuotes(name) + "; must be one of " + known + ", " +
+                         std::string(kCompose)};
         }
-        const bool all = name == "all";
-        parts.relief.relief |= all || name == "relief";
-        parts.relief.environment |= all || name == "environment";
-        parts.relief.scaling |= all || name == "scaling";
-        parts.relief.hard |= all || name == "hard";
-        parts.relief.budget |= name == "budget";
-        parts.glassBudget |= name == "budget-glass";
-        parts.refraction |= name == "refraction";
-        parts.caustics |= name == "caustics";
-        parts.subsurface |= name == "subsurface";
-        parts.compose |= name == "compose";
+        parts.compose |= name == kCompose;
+        for (const measure::BenchPart* part : found)
+            if (std::find(parts.measured.begin(), parts.measured.end(), part) == parts.measured.end())
+                parts.measured.push_back(part);
     }
     return parts;
 }
@@ -145,88 +134,54 @@ Result<measure::BenchEnvironment> environmentOf(const std::string& path) {
     return measure::BenchEnvironment{fs::path(path).filename().string(), *map};
 }
 
-Result<measure::Plan> makeReliefPlan(const BenchOptions& options, const measure::ReliefParts& parts) {
-    std::vector<measure::BenchField> fields;
-    std::vector<measure::BenchEnvironment> environments;
-    if (!parts.relief && !parts.environment && !parts.scaling && !parts.hard)
-        return measure::reliefPlan(parts, fields, environments, options.quick);
-    if (!fs::is_directory(options.gallery)) {
-        std::fprintf(stderr, "bench: %s: is no folder; elevation, dragon and sunset are left out\n",
-                     options.gallery.c_str());
-        return measure::reliefPlan(parts, fields, environments, options.quick);
-    }
-    for (const char* name : {"elevation.json", "dragon.json"}) {
-        Result<measure::BenchField> field = fieldOf(options.gallery + "/" + name, options.quick ? 256 : 4096);
-        if (!field) return field.error();
-        fields.push_back(std::move(*field));
-    }
-    Result<measure::BenchEnvironment> sunset = environmentOf(options.gallery + "/sunset.hdr");
-    if (!sunset) return sunset.error();
-    environments.push_back(std::move(*sunset));
-    return measure::reliefPlan(parts, fields, environments, options.quick);
-}
-
-// The first mesh of a file that make_assets left; nothing when it is not there.
-Result<std::optional<measure::BenchMesh>> meshOf(const std::string& path) {
-    const std::string name = fs::path(path).stem().string();
-    if (!fs::exists(path)) {
-        std::fprintf(stderr, "bench: %s: is not there; %s is left out\n", path.c_str(), name.c_str());
-        return std::optional<measure::BenchMesh>();
-    }
+// The first mesh of a model.
+Result<measure::BenchMesh> meshOf(const std::string& path) {
     const Result<Bytes> bytes = scene::plainFiles(path)(path);
     if (!bytes) return bytes.error();
     const Result<scene::Scene> scene = scene::sceneFromMesh(path, *bytes, technique::tables());
     if (!scene) return scene.error();
-    return std::optional(
-        measure::BenchMesh{name, std::get<scene::MeshShape>(scene->objects.front().shape).mesh});
+    return measure::BenchMesh{fs::path(path).stem().string(),
+                              std::get<scene::MeshShape>(scene->objects.front().shape).mesh};
 }
 
-Status addMesh(const std::string& path, std::vector<measure::BenchMesh>& meshes) {
-    const auto mesh = meshOf(path);
-    if (!mesh) return mesh.error();
-    if (*mesh) meshes.push_back(**mesh);
-    return Done{};
-}
+// The gallery's files; what is not there is said and left out.
+class Gallery : public measure::BenchAssets {
+public:
+    explicit Gallery(const BenchOptions& options) : folders_{options.gallery, options.meshes} {}
 
-// What refraction and light inside are measured on beside shapes.
-struct BodyMeshes {
-    std::vector<measure::BenchMesh> bunny;   // nothing where it is not there
-    std::vector<measure::BenchMesh> dragons; // in several numbers of triangles; nothing where one is missing
+    Result<std::vector<measure::BenchField>> fields(Names names, int side) const override {
+        return each<measure::BenchField>(names, ".json",
+                                         [side](const std::string& path) { return fieldOf(path, side); });
+    }
+    Result<std::vector<measure::BenchEnvironment>> environments(Names names) const override {
+        return each<measure::BenchEnvironment>(names, "", environmentOf);
+    }
+    Result<std::vector<measure::BenchMesh>> meshes(Names names) const override {
+        return each<measure::BenchMesh>(names, ".glb", meshOf);
+    }
+
+private:
+    template <class Asset, class Read>
+    Result<std::vector<Asset>> each(Names names, const char* ending, const Read& read) const {
+        std::vector<Asset> found;
+        for (const std::string_view name : names) {
+            const std::string file = std::string(name) + ending;
+            const auto folder = std::find_if(folders_.begin(), folders_.end(),
+                                             [&](const fs::path& one) { return fs::exists(one / file); });
+            if (folder == folders_.end()) {
+                std::fprintf(stderr, "bench: %s: is not there and left out\n",
+                             (folders_.front() / file).c_str());
+                continue;
+            }
+            Result<Asset> asset = read((*folder / file).string());
+            if (!asset) return asset.error();
+            found.push_back(std::move(*asset));
+        }
+        return found;
+    }
+
+    std::array<fs::path, 2> folders_;
 };
-Result<BodyMeshes> bodyMeshes(const BenchOptions& options) {
-    BodyMeshes meshes;
-    if (Status added = addMesh(options.gallery + "/bunny.glb", meshes.bunny); !added) return added.error();
-    for (const std::string& path : {options.meshes + "/dragon-4k.glb", options.gallery + "/dragon-40k.glb",
-                                    options.meshes + "/dragon.glb"})
-        if (Status added = addMesh(path, meshes.dragons); !added) return added.error();
-    if (meshes.dragons.size() < 3) meshes.dragons.clear();
-    return meshes;
-}
-
-// What caustics are measured on beside shapes.
-Result<std::vector<measure::BenchMesh>> causticMeshes(const BenchOptions& options) {
-    std::vector<measure::BenchMesh> meshes;
-    for (const std::string& path : {options.gallery + "/bunny.glb", options.gallery + "/dragon-40k.glb"})
-        if (Status added = addMesh(path, meshes); !added) return added.error();
-    return meshes;
-}
-
-Result<measure::Plan> makePlan(const BenchOptions& options, const Parts& parts) {
-    Result<measure::Plan> plan = makeReliefPlan(options, parts.relief);
-    if (plan && (parts.refraction || parts.subsurface)) {
-        const Result<BodyMeshes> meshes = bodyMeshes(options);
-        if (!meshes) return meshes.error();
-        const auto& [bunny, dragons] = *meshes;
-        if (parts.refraction) append(*plan, measure::refractPlan(bunny, dragons, options.quick));
-        if (parts.subsurface) append(*plan, measure::subsurfacePlan(bunny, dragons, options.quick));
-    }
-    if (plan && parts.caustics) {
-        const auto meshes = causticMeshes(options);
-        if (!meshes) return meshes.error();
-        append(*plan, measure::causticsPlan(*meshes, options.quick));
-    }
-    return plan;
-}
 
 // --- the run
 
@@ -263,71 +218,28 @@ measure::BenchReport runPlan(gl::Context& context, measure::Plan plan, const mea
     return sweep->report();
 }
 
-measure::Say saying(const std::string& part) {
-    return [part](const std::string& line) {
-        std::fprintf(stderr, "bench: %s: %s\n", part.c_str(), line.c_str());
+measure::Say saying(std::string_view part) {
+    return [name = std::string(part)](const std::string& line) {
+        std::fprintf(stderr, "bench: %s: %s\n", name.c_str(), line.c_str());
     };
 }
 
-// The proof of quality.maxError on the gallery's fields and light probes and on synthetic ones; its totals go
-// into the report, each result into budget.json.
-Status proveBudget(gl::Context& context, const BenchOptions& options, measure::BenchReport& report) {
-    constexpr int kSide = 96, kFieldSide = 128; // pixels, texels
-    std::vector<measure::BenchField> fields;
-    for (const char* name : {"elevation", "dragon", "coin", "weave", "bunny"}) {
-        Result<measure::BenchField> field = fieldOf(options.gallery + "/" + name + ".json", kFieldSide);
-        if (!field) return field.error();
-        fields.push_back(std::move(*field));
-    }
-    Result<measure::BenchEnvironment> window = environmentOf(options.gallery + "/window.exr");
-    if (!window) return window.error();
-    const Result<measure::BudgetReport> proof =
-        measure::proveBudget(context, fields, {*window}, kSide, saying("budget"));
+// Figures that no sweep finds go into the report; what stands behind them into a file of the part's name.
+Status prove(const measure::BenchPart& part, const measure::BenchRun& run, const std::string& folder,
+             measure::BenchReport& report) {
+    const Result<measure::Proof> proof = part.prove(run);
     if (!proof) return proof.error();
-    std::fputs(proof->text().c_str(), stdout);
-    const std::vector<measure::Ratio> totals = proof->totals();
-    report.ratios.insert(report.ratios.end(), totals.begin(), totals.end());
-    return writeAll({{options.output + "/budget.json", toBytes(proof->json())}});
-}
-
-// The same for light through glass.
-Status proveGlass(gl::Context& context, const BenchOptions& options, measure::BenchReport& report) {
-    constexpr int kSide = 96; // pixels
-    Result<measure::BenchEnvironment> window = environmentOf(options.gallery + "/window.exr");
-    if (!window) return window.error();
-    const Result<measure::BudgetReport> proof =
-        measure::proveGlassBudget(context, {*window}, kSide, saying("budget of glass"));
-    if (!proof) return proof.error();
-    std::fputs(proof->text().c_str(), stdout);
-    const std::vector<measure::Ratio> totals = proof->totals();
-    report.ratios.insert(report.ratios.end(), totals.begin(), totals.end());
-    return writeAll({{options.output + "/budget-glass.json", toBytes(proof->json())}});
-}
-
-// Figures that are no pictures', into the report.
-Status add(const Result<std::vector<measure::Ratio>>& ratios, measure::BenchReport& report) {
-    if (!ratios) return ratios.error();
-    report.ratios.insert(report.ratios.end(), ratios->begin(), ratios->end());
-    return Done{};
-}
-Status proveCaustics(gl::Context& context, const BenchOptions& options, measure::BenchReport& report) {
-    const auto meshes = causticMeshes(options);
-    if (!meshes) return meshes.error();
-    return add(measure::proveCaustics(context, *meshes, options.quick, saying("caustics")), report);
-}
-Status proveSubsurface(gl::Context& context, const BenchOptions& options,
-                       const measure::SolveTruth& solveOnce, measure::BenchReport& report) {
-    const Result<BodyMeshes> meshes = bodyMeshes(options);
-    if (!meshes) return meshes.error();
-    return add(
-        measure::proveSubsurface(context, meshes->bunny, solveOnce, options.quick, saying("subsurface")),
-        report);
+    std::fputs(proof->text.c_str(), stdout);
+    report.ratios.insert(report.ratios.end(), proof->ratios.begin(), proof->ratios.end());
+    if (proof->json.empty()) return Done{};
+    return writeAll({{folder + "/" + std::string(part.name) + ".json", toBytes(proof->json)}});
 }
 
 Status bench(const BenchOptions& options) {
     const Result<Parts> parts = parseParts(options.parts);
     if (!parts) return parts.error();
-    Result<measure::Plan> plan = makePlan(options, *parts);
+    const Gallery gallery(options);
+    Result<measure::Plan> plan = measure::planOf(parts->measured, gallery, options.quick);
     if (!plan) return plan.error();
     const fs::path folder = options.output;
     const std::string truths = options.truths.empty() ? (folder / "truths").string() : options.truths;
@@ -352,14 +264,13 @@ Status bench(const BenchOptions& options) {
     report.commit = options.commit;
     report.contextMB = contextMB;
     report.peakMB = peakMB;
-    if (parts->relief.budget)
-        if (Status proved = proveBudget(**context, options, report); !proved) return proved;
-    if (parts->glassBudget)
-        if (Status proved = proveGlass(**context, options, report); !proved) return proved;
-    if (parts->caustics)
-        if (Status proved = proveCaustics(**context, options, report); !proved) return proved;
-    if (parts->subsurface)
-        if (Status proved = proveSubsurface(**context, options, solveOnce, report); !proved) return proved;
+    for (const measure::BenchPart* part : parts->measured)
+        if (part->prove)
+            if (Status proved =
+                    prove(*part, {**context, gallery, solveOnce, saying(part->name), options.quick},
+                          options.output, report);
+                !proved)
+                return proved;
     if (parts->compose)
         if (Status proved = benchCompose(**context, options.output, options.quick); !proved) return proved;
     report.ratios.push_back({"MB resident with a relief of 512^2 texels", peakMB, 256, false});
@@ -373,24 +284,37 @@ Status bench(const BenchOptions& options) {
     return writeAll({{(folder / "report.html").string(), toBytes(*page)}});
 }
 
+std::string partsHelp() {
+    std::string usual, text;
+    const auto add = [&](std::string_view name, std::string_view help) {
+        text += measure::formatted("  %-14s%s\n", std::string(name).c_str(), std::string(help).c_str());
+    };
+    for (const measure::BenchPart* part : measure::benchParts()) {
+        if (part->isUsual) usual += (usual.empty() ? "" : ", ") + std::string(part->name);
+        add(part->name, part->help);
+    }
+    add(kCompose, "every lamp past everything on everything");
+    add("all", usual);
+    return "Parts:\n" + text + "\n";
+}
+
 } // namespace
 
 Command addBench(CLI::App& program) {
     CLI::App* parser =
         program.add_subcommand("bench", "Measures speed against error, all methods in one run");
     const auto options = std::make_shared<BenchOptions>();
-    parser->add_option(
-        "NAMES", options->parts,
-        "Parts: relief, environment, scaling, hard, all of them without; refraction; "
-        "caustics; subsurface; budget; budget-glass; compose: every lamp past everything on everything");
+    parser->add_option("NAMES", options->parts, "Parts, as listed below; all without");
     parser->add_flag("--quick", options->quick, "Smaller scenes, fewer repeats: two minutes without a GPU");
     parser->add_option("-o,--output", options->output, "Folder for bench.json and report.html")
         ->required()
         ->type_name("DIR");
-    parser->add_option("--gallery", options->gallery, "Folder with elevation, dragon, sunset and bunny")
+    parser
+        ->add_option("--gallery", options->gallery,
+                     "Folder with scenes, light probes and meshes to measure on")
         ->capture_default_str()
         ->type_name("DIR");
-    parser->add_option("--meshes", options->meshes, "Folder with the dragon in several numbers of triangles")
+    parser->add_option("--meshes", options->meshes, "Folder with more meshes")
         ->capture_default_str()
         ->type_name("DIR");
     parser
@@ -399,15 +323,10 @@ Command addBench(CLI::App& program) {
         ->type_name("DIR");
     parser->add_option("--commit", options->commit, "What was built, for the report's header")
         ->capture_default_str();
-    parser->footer("Examples:\n"
-                   "  lucent bench --quick -o build/bench\n"
-                   "  lucent bench relief environment -o build/bench\n"
-                   "  lucent bench refraction --quick -o build/bench-refraction\n"
-                   "  lucent bench caustics --quick -o build/bench-caustics\n"
-                   "  lucent bench subsurface --quick -o build/bench-subsurface\n"
-                   "  lucent bench compose -o build/compose   # the matrix of everything on everything\n"
-                   "  lucent bench budget -o build/budget   # proves quality.maxError: half an hour\n"
-                   "  lucent bench budget-glass -o build/budget-glass   # the same for light through glass");
+    parser->footer(partsHelp() + "Examples:\n"
+                                 "  lucent bench --quick -o build/bench\n"
+                                 "  lucent bench relief environment -o build/bench\n"
+                                 "  lucent bench compose -o build/compose");
     return {parser, [options] { return bench(*options); }};
 }
 

@@ -5,7 +5,6 @@
 #include "cli/TruthOutput.h"
 
 #include "base/Text.h"
-#include "measure/SubsurfaceTruth.h"
 #include "measure/TruthModel.h"
 #include "technique/Technique.h"
 #include "truth/Dipole.h"
@@ -62,11 +61,12 @@ truth::Branching branchingOf(const TruthOptions& options) {
 /// The name of what a scene is solved by unless it is said. Of colours of height fields glass takes the mean
 /// over each pixel; relief knows its middle only.
 std::string chosenEstimator(const scene::Scene& scene, bool antialias) {
-    constexpr const char* kNames[] = {"relief", "glass", "light", "dipole"}; // as measure::TruthModel
+    constexpr std::string_view kNames[] = {truth::kReliefName, "glass", "light",
+                                           "dipole"}; // as measure::TruthModel
     const measure::TruthModel usual = measure::usualTruth(scene);
     const bool spread =
         antialias && scene.view.show == scene::Aov::Color && usual == measure::TruthModel::Relief;
-    return spread ? "glass" : kNames[std::size_t(usual)];
+    return std::string(spread ? "glass" : kNames[std::size_t(usual)]);
 }
 
 /// Irradiance is of light alone, radiosity of what scatters inside; the estimators of height fields leave out
@@ -162,7 +162,7 @@ truth::Facts factsOf(const scene::Scene& scene, const TruthOptions& options) {
             .estimator = options.estimator,
             .seed = options.seed,
             .samples = options.samples,
-            .directions = options.estimator == "relief" ? options.directions : 0,
+            .directions = options.estimator == truth::kReliefName ? options.directions : 0,
             .photons = isByRays(options) ? options.photons : 0,
             .antialias = options.antialias,
             .exposure = scene.view.exposure};
@@ -190,7 +190,7 @@ Result<truth::Tile> tileOf(const scene::Scene& scene, const TruthOptions& option
 }
 
 Status checkOptions(const TruthOptions& options) {
-    if (options.estimator != "relief" && options.directionsGiven->count() > 0)
+    if (options.estimator != truth::kReliefName && options.directionsGiven->count() > 0)
         return Error{"--directions: is of the relief estimator; must be --samples for " + options.estimator};
     if (!isByRays(options) && options.photonsGiven->count() > 0)
         return Error{"--photons: is of light, light-tree and walk; must be --samples for " +
@@ -256,8 +256,9 @@ Command addTruth(CLI::App& program) {
             "whose picture is drawn with caustics (lucent explain names them), by light; height fields alone "
             "by "
             "relief; all else by glass")
-        ->check(CLI::IsMember(
-            {"relief", "lambert", "glass", "glass-tree", "light", "light-tree", "dipole", "walk"}));
+        ->check(CLI::IsMember({std::string(truth::kReliefName), std::string("lambert"), std::string("glass"),
+                               std::string("glass-tree"), std::string("light"), std::string("light-tree"),
+                               std::string("dipole"), std::string("walk")}));
     parser
         ->add_option(
             "--samples", options->samples,

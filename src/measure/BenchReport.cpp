@@ -12,12 +12,6 @@ namespace lucent::measure {
 
 namespace {
 
-std::string formatted(const char* format, auto... values) {
-    char line[512];
-    std::snprintf(line, sizeof line, format, values...);
-    return line;
-}
-
 const char* nameOf(HardResult::Status status) {
     switch (status) {
     case HardResult::Status::Pass:

@@ -4,12 +4,20 @@
 #include "measure/Metrics.h"
 #include "measure/Statistics.h"
 
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace lucent::measure {
+
+/// A line as std::printf would write it, up to 511 bytes.
+std::string formatted(const char* format, auto... values) {
+    char line[512];
+    std::snprintf(line, sizeof line, format, values...);
+    return line;
+}
 
 /// Where it ran. Empty texts and zeros are left out of the JSON.
 struct Machine {

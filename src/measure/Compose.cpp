@@ -18,8 +18,8 @@ namespace lucent::measure {
 namespace {
 
 constexpr std::string_view kLamps[] = {"point", "spot", "distant", "area", "environment"};
-constexpr std::string_view kBetween[] = {"nothing",    "matt box",        "relief",      "mirror",
-                                         "glass ball", "absorbing glass", "marble ball", "water"};
+constexpr std::string_view kBetween[] = {"nothing",    "matt box",        "relief 2.5 %", "mirror",
+                                         "glass ball", "absorbing glass", "marble ball",  "water"};
 constexpr std::string_view kReceivers[] = {"matt plane",       "matt mesh",   "relief 3 %",
                                            "relief 0",         "marble slab", "floor through glass",
                                            "floor in a mirror"};
@@ -102,7 +102,7 @@ void addBetween(scene::Scene& scene, std::string_view between) {
     if (between == "nothing") return;
     scene::Object object = objectOf("between", scene::Sphere{0.16f}, place);
     if (between == "matt box") object.shape = scene::Box{vec3(0.25f)};
-    if (between == "relief") object = reliefOf("between", 0.4f, 0.05f, 0.01f, place);
+    if (between == "relief 2.5 %") object = reliefOf("between", 0.4f, 0.05f, 0.01f, place);
     if (between == "mirror") {
         object.shape = scene::Box{{0.3f, 0.02f, 0.3f}};
         object.transform.rotate = {0, 0, 50};
@@ -201,8 +201,7 @@ scene::Scene composeScene(std::string_view lamp, std::string_view between, std::
     scene.size = ivec2(kSize);
     scene.camera.eye = {0, 4, 0};
     scene.camera.up = {0, 0, -1};
-    for (const ParamTable* table : technique::tables())
-        scene.technique.emplace(std::string(table->name), Settings(*table));
+    technique::addSettings(scene);
     addReceiver(scene, receiver);
     addBetween(scene, between);
     addLamp(scene, lamp);

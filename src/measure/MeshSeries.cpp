@@ -19,6 +19,21 @@ std::vector<BenchMesh> spheres() {
 
 } // namespace
 
+scene::Object objectOf(const BenchMesh& mesh) {
+    vec3 low(mesh.mesh->positions.front()), high(low);
+    for (const vec3& position : mesh.mesh->positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    const vec3 extent = high - low;
+    scene::Object object;
+    object.name = mesh.name;
+    object.shape = scene::MeshShape{.source = mesh.name, .part = {}, .mesh = mesh.mesh};
+    object.transform.scale = 2 / std::max({extent.x, extent.y, extent.z});
+    object.transform.translate = -object.transform.scale * 0.5f * (low + high);
+    return object;
+}
+
 std::vector<Series::Point> overTriangles(std::vector<BenchMesh> meshes, bool quick, double pixels,
                                          const std::function<scene::Scene(const BenchMesh&)>& sceneOf) {
     if (meshes.empty()) meshes = spheres();

@@ -17,6 +17,9 @@ struct BenchMesh {
     std::shared_ptr<const scene::Mesh> mesh;
 };
 
+/// The mesh scaled and moved so that its box is two metres long and around the origin.
+scene::Object objectOf(const BenchMesh& mesh);
+
 /// Points of a series over triangles, the fewest first.
 ///
 /// @param meshes   one shape; empty: spheres, up to as many triangles as the dragon has

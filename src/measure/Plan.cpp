@@ -1,12 +1,45 @@
 #include "measure/Plan.h"
 
+#include "technique/Technique.h"
+
+#include <algorithm>
+
 namespace lucent::measure {
+
+namespace {
+
+// The parameter of a technique that chooses among its methods; "" where none does.
+std::string methodParam(const std::string& technique, const std::string& method) {
+    for (const ParamTable* table : technique::tables()) {
+        if (table->name != technique) continue;
+        const auto found = std::find_if(table->params.begin(), table->params.end(), [&](const Param& param) {
+            return param.id == "method" ||
+                   std::find(param.choices.begin(), param.choices.end(), method) != param.choices.end();
+        });
+        if (found != table->params.end()) return std::string(found->id);
+    }
+    return "";
+}
+
+} // namespace
 
 std::string Setting::name() const {
     std::string text = method;
     for (const auto& [knob, value] : knobs)
         text += " " + knob + "=" + value;
     return text;
+}
+
+Status Setting::putInto(scene::Scene& scene, const std::string& technique) const {
+    const std::string place = "technique." + technique + ".";
+    const std::string param = methodParam(technique, method);
+    if (!param.empty())
+        if (Status set = setParam(scene, place + param, method); !set) return set;
+    for (const auto& [knob, value] : knobs)
+        if (Status set = setParam(scene, (knob.find('.') == knob.npos ? place : "technique.") + knob, value);
+            !set)
+            return set;
+    return Done{};
 }
 
 std::string Series::name() const { return setting.name() + (part.empty() ? "" : ", " + part); }
@@ -26,16 +59,6 @@ const Measurement* measured(const BenchReport& report, std::string_view techniqu
             m.knobs == setting.knobs && m.error && m.ms)
             return &m;
     return nullptr;
-}
-
-void append(Plan& plan, const Plan& more) {
-    const auto add = [](auto& list, const auto& others) {
-        list.insert(list.end(), others.begin(), others.end());
-    };
-    add(plan.cases, more.cases);
-    add(plan.series, more.series);
-    add(plan.hard, more.hard);
-    add(plan.ratios, more.ratios);
 }
 
 } // namespace lucent::measure

@@ -29,6 +29,8 @@ struct Setting {
 
     /// "march steps=256"
     std::string name() const;
+    /// Sets the method and the knobs in a scene. Error of the parameter that refuses.
+    Status putInto(scene::Scene& scene, const std::string& technique) const;
 };
 
 /// Scenes are made when their turn comes: large fields need not be in memory together.
@@ -112,8 +114,5 @@ struct Plan {
     std::vector<HardTable> hard;
     std::vector<RatioRule> ratios;
 };
-
-/// Adds another plan's cases, series and ratios.
-void append(Plan& plan, const Plan& more);
 
 } // namespace lucent::measure

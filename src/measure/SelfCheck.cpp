@@ -48,10 +48,44 @@ void Finding::take(double expected, double found) {
     found_ = found;
 }
 
+namespace {
+
+Finding storedFloats(Studio& studio) {
+    Image sent(64, 1, 4);
+    for (int i = 0; i < 256; ++i)
+        sent.pixels[std::size_t(i)] = std::ldexp(1 + float(i) / 3, i / 2 - 64) * (i % 2 ? -1.0f : 1.0f);
+    gl::Device& device = studio.context().device();
+    const graph::Texture texture(device, {.size = sent.size(), .format = graph::Format::RGBA32F},
+                                 "measure.stored");
+    device.upload(texture.handle(), 0, sent.pixels);
+    const Image back = device.read(texture.handle());
+    Finding finding;
+    for (std::size_t i = 0; i < sent.pixels.size(); ++i)
+        finding.take(1, back.pixels[i] / sent.pixels[i]);
+    return finding;
+}
+
+Finding brokenValues(Studio& studio) {
+    Finding finding;
+    finding.take(0, studio.brokenValues());
+    return finding;
+}
+
+constexpr Tolerance kExact{0, "nothing is rounded"};
+
+constexpr Check kCommon[] = {
+    {"Stored floats", "What goes into a 32-bit texture comes back, from 2^-64 to 2^70", kExact, storedFloats},
+    {"No NaN, no infinity behind", "Values that are none, in all pictures so far", kExact, brokenValues},
+};
+
+} // namespace
+
 std::span<const Check> closedForms() {
     static const auto all = [] {
-        std::vector<Check> list(reliefForms().begin(), reliefForms().end());
-        list.insert(list.end(), transportForms().begin(), transportForms().end());
+        std::vector<Check> list;
+        for (const Forms* forms : techniqueForms())
+            list.insert(list.end(), forms->checks.begin(), forms->checks.end());
+        list.insert(list.end(), std::begin(kCommon), std::end(kCommon));
         return list;
     }();
     return all;

@@ -72,11 +72,13 @@ struct Check {
     Finding (*measure)(Studio& studio);
 };
 
-/// Known answers and hard cases of the relief model, storage of floats, display.
-std::span<const Check> reliefForms();
-/// Known answers of matt surfaces, of light through glass and onto what lies behind it, and of light inside.
-std::span<const Check> transportForms();
-/// The whole table.
+/// Closed forms of a technique.
+struct Forms {
+    std::span<const Check> checks;
+};
+/// Those of all techniques that are built in; the list is made by CMake.
+std::span<const Forms* const> techniqueForms();
+/// The whole table: theirs, then what holds of everything that was drawn.
 std::span<const Check> closedForms();
 
 /// What became of a check.

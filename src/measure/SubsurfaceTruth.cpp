@@ -174,20 +174,4 @@ std::optional<LitBall> litBallOf(const scene::Scene& scene) {
                    -glm::normalize(dvec3(light->direction))};
 }
 
-dvec3 radiosityOfHalfSpace(const scene::Material& material) {
-    const double ior = double(material.ior);
-    const double entering = 1 - std::pow((ior - 1) / (ior + 1), 2);
-    const double reflected = -1.440 / (ior * ior) + 0.710 / ior + 0.668 + 0.0636 * ior; // Fresnel's, diffuse
-    const double a = (1 + reflected) / (1 - reflected);
-    const dvec3 absorption(material.absorption());
-    dvec3 leaving;
-    for (int c = 0; c < 3; ++c) {
-        const double scattering = double(material.scattering[c]) * (1 - double(material.anisotropy));
-        const double albedo = scattering / (scattering + absorption[c]);
-        const double root = std::sqrt(3 * (1 - albedo));
-        leaving[c] = entering * 0.5 * albedo * (1 + std::exp(-4.0 / 3 * a * root)) * std::exp(-root);
-    }
-    return leaving;
-}
-
 } // namespace lucent::measure

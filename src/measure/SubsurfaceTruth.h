@@ -24,11 +24,6 @@ Result<truth::Picture> solveSubsurface(const scene::Scene& scene, const truth::T
 /// The same of random walks alone, but only light that was scattered once: what diffusion leaves out.
 Result<truth::Picture> solveScatteredOnce(const scene::Scene& scene, int threads);
 
-/// What leaves a half space under even light of irradiance 1 from straight above, W/m² of each colour: the
-/// share that enters, by the dipole's integral over a plane (Jensen et al. 2001, with the dissertation's
-/// Fresnel factor).
-dvec3 radiosityOfHalfSpace(const scene::Material& material);
-
 /// A ball in the middle of the world under one distant light and nothing else.
 struct LitBall {
     double radius; ///< m

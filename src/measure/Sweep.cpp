@@ -1,5 +1,4 @@
 #include "measure/Sweep.h"
-#include "technique/Technique.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,31 +8,6 @@
 namespace lucent::measure {
 
 namespace {
-
-// The parameter of a technique that chooses among its methods; "" where none does.
-std::string methodParam(const std::string& technique, const std::string& method) {
-    for (const ParamTable* table : technique::tables()) {
-        if (table->name != technique) continue;
-        const auto found = std::find_if(table->params.begin(), table->params.end(), [&](const Param& param) {
-            return param.id == "method" ||
-                   std::find(param.choices.begin(), param.choices.end(), method) != param.choices.end();
-        });
-        if (found != table->params.end()) return std::string(found->id);
-    }
-    return "";
-}
-
-Status apply(scene::Scene& scene, const std::string& technique, const Setting& setting) {
-    const std::string place = "technique." + technique + ".";
-    const std::string param = methodParam(technique, setting.method);
-    if (!param.empty())
-        if (Status set = setParam(scene, place + param, setting.method); !set) return set;
-    for (const auto& [knob, value] : setting.knobs)
-        if (Status set = setParam(scene, (knob.find('.') == knob.npos ? place : "technique.") + knob, value);
-            !set)
-            return set;
-    return Done{};
-}
 
 // Microseconds that work takes on two cores, roughly: only for the share that is done.
 constexpr double kTruthRay = 2, kPictureRay = 0.15, kStep = 0.005;
@@ -283,7 +257,7 @@ private:
         result_.size = state_->scene.size;
         if (!state_->refused.empty()) return Error{state_->refused};
         scene::Scene scene = state_->scene;
-        if (Status set = apply(scene, result_.technique, setting_); !set) return set;
+        if (Status set = setting_.putInto(scene, result_.technique); !set) return set;
         drawing_ = std::make_unique<Drawing>(sweep.context_, std::move(scene), state_->plan.timed);
         const Result<Image> image = state_->plan.comparesTimed ? drawing_->difference() : drawing_->picture();
         if (!image) return image.error();
@@ -370,7 +344,7 @@ public:
         if (!stopwatch_) {
             Result<scene::Scene> scene = series_.points[point_].scene();
             if (!scene) return leaveOut(sweep, scene.error());
-            if (Status set = apply(*scene, series_.technique, series_.setting); !set)
+            if (Status set = series_.setting.putInto(*scene, series_.technique); !set)
                 return leaveOut(sweep, set.error());
             drawing_ = std::make_unique<Drawing>(sweep.context_, std::move(*scene), series_.timed);
             stopwatch_ = stopwatchFor(sweep.context_, *drawing_, sweep.plan_.repeats, stopwatch_);
@@ -429,7 +403,7 @@ private:
             if (*done) break;
         }
         exact = solving.picture().values;
-        if (Status set = apply(*scene, table_.technique, setting_); !set) return set.error();
+        if (Status set = setting_.putInto(*scene, table_.technique); !set) return set.error();
         return Drawing(sweep.context_, std::move(*scene), timedLight()).picture();
     }
     // A picture with values that are not finite is no refusal: it is an error without a figure.

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 namespace lucent::truth {
@@ -24,6 +25,9 @@ struct ReliefOptions {
     int discSamples = 256;  ///< points that stand for the disc of a soft light
     std::uint64_t seed = 0; ///< of the directions and points
 };
+
+/// What people choose it by.
+inline constexpr std::string_view kReliefName = "relief";
 
 /// The relief model at the middle of each pixel: every visible object by exact first hit, lit by all lights.
 /// Objects cast no shadows on each other. A place whose alpha is 0 is looked through; a smaller alpha than 1

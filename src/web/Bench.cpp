@@ -6,24 +6,44 @@
 /// loads a scene and sets, draws, reads and solves it, or adds fields and environments and takes steps of the
 /// sweep.
 
+#include "base/Text.h"
 #include "frame/Renderer.h"
 #include "gl/Context.h"
-#include "measure/CausticsPlan.h"
-#include "measure/RefractPlan.h"
-#include "measure/ReliefPlan.h"
 #include "measure/Solve.h"
-#include "measure/Sweep.h"
+#include "measure/TechniqueBench.h"
 #include "scene/Load.h"
 #include "technique/Technique.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 using namespace lucent;
 
 namespace {
+
+/// What the page has added.
+struct Added : measure::BenchAssets {
+    std::vector<measure::BenchField> ownFields;
+    std::vector<measure::BenchEnvironment> ownEnvironments;
+
+    template <class Asset>
+    static Result<std::vector<Asset>> named(const std::vector<Asset>& all, Names names) {
+        std::vector<Asset> found;
+        for (const Asset& one : all)
+            if (std::find(names.begin(), names.end(), one.name) != names.end()) found.push_back(one);
+        return found;
+    }
+    Result<std::vector<measure::BenchField>> fields(Names names, int) const override {
+        return named(ownFields, names);
+    }
+    Result<std::vector<measure::BenchEnvironment>> environments(Names names) const override {
+        return named(ownEnvironments, names);
+    }
+};
 
 struct Bench {
     std::unique_ptr<gl::Context> context;
@@ -32,8 +52,7 @@ struct Bench {
     scene::Scene scene;
     std::uint64_t revision = 0;
     Image pixels; // linear, 4 channels, row 0 at the top
-    std::vector<measure::BenchField> fields;
-    std::vector<measure::BenchEnvironment> environments;
+    Added added;
     std::unique_ptr<measure::Sweep> sweep;
     std::string part; // of the sweep that is under way
     std::string answer;
@@ -84,7 +103,7 @@ Result<truth::Picture> solve(const scene::Scene& scene, int directions, const tr
 Status addField(const std::string& name) {
     for (const scene::Object& object : bench().scene.objects)
         if (const auto* field = std::get_if<scene::HeightField>(&object.shape)) {
-            bench().fields.push_back({name, field->heights, field->heightScale / field->width});
+            bench().added.ownFields.push_back({name, field->heights, field->heightScale / field->width});
             return Done{};
         }
     return Error{name + ": has no height field; must have one to measure relief on"};
@@ -95,7 +114,24 @@ Status addEnvironment(const std::string& path) {
     if (!bytes) return bytes.error();
     const auto map = scene::loadEnvironmentMap(path, *bytes);
     if (!map) return map.error();
-    bench().environments.push_back({path, *map});
+    bench().added.ownEnvironments.push_back({path, *map});
+    return Done{};
+}
+
+Status sweep(const std::string& names, bool quick) {
+    Bench& b = bench();
+    std::vector<const measure::BenchPart*> parts;
+    for (std::size_t at = 0, end = 0; at < names.size(); at = end + 1) {
+        end = std::min(names.find(' ', at), names.size());
+        const std::string name = names.substr(at, end - at);
+        const auto found = measure::benchParts(name);
+        if (found.empty()) return Error{"bench: is " + inQuotes(name) + "; must be a part that is built in"};
+        parts.insert(parts.end(), found.begin(), found.end());
+    }
+    Result<measure::Plan> plan = measure::planOf(parts, b.added, quick);
+    if (!plan) return plan.error();
+    b.sweep = std::make_unique<measure::Sweep>(*b.context, std::move(*plan), solve,
+                                               [](const std::string& line) { bench().part = line; });
     return Done{};
 }
 
@@ -159,18 +195,10 @@ const char* bench_add_field(const char* name) { return answer(addField(name)); }
 /// Adds an environment map that was put; "" or the message.
 const char* bench_add_environment(const char* path) { return answer(addEnvironment(path)); }
 
-/// Begins the benchmark of relief on noise and what was added, and of glass and caustics on shapes; each part
-/// is wanted or not (0). Exact solutions of light inside take minutes natively: too long for a page.
-void bench_sweep(int methods, int environments, int scaling, int hard, int refraction, int caustics,
-                 int quick) {
-    Bench& b = bench();
-    const measure::ReliefParts parts{methods != 0, environments != 0, scaling != 0, hard != 0};
-    measure::Plan plan = measure::reliefPlan(parts, b.fields, b.environments, quick != 0);
-    if (refraction) append(plan, measure::refractPlan({}, {}, quick != 0));
-    if (caustics) append(plan, measure::causticsPlan({}, quick != 0));
-    b.sweep = std::make_unique<measure::Sweep>(*b.context, std::move(plan), solve,
-                                               [](const std::string& line) { bench().part = line; });
-}
+/// Begins what the sweep measures of some parts on what was added and on shapes; "" or the message.
+///
+/// @param names  as lucent bench takes them, with a blank between
+const char* bench_sweep(const char* names, int quick) { return answer(sweep(names, quick != 0)); }
 
 /// Some rows of an exact solution, or one picture; 0 when all is done.
 int bench_step() { return bench().sweep->step(); }

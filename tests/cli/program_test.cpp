@@ -98,6 +98,7 @@ TEST_F(Program, TheBenchmarkSaysWhatItsFolderMustBe) {
         "lucent: taken: cannot be made (Not a directory); must be a folder, or a place "
         "where one can be made\n";
     EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("bench: none/elevation.json: is not there and left out\n"), std::string::npos);
 }
 
 TEST_F(Program, WrongChangesOfParametersAreRefusedWithTheirPath) {
@@ -365,7 +366,8 @@ TEST_F(Program, ReportTakesNothingButReports) {
     write("broken.json", std::string("{ \"format\": "));
     expectRefusalNaming("report broken.json -o page.html", "broken.json:1");
     expectRefusalNaming("report none.json -o page.html", "none.json: cannot be read");
-    expectRefusalNaming("bench speed -o out", "NAMES: is \"speed\"; must be one of relief, environment,");
+    expectRefusalNaming("bench speed -o out",
+                        "NAMES: is \"speed\"; must be one of all, relief, environment,");
     // A report is put into the page as it stands, but for what would end its script element.
     write("bench.json", std::string("{ \"format\": \"lucent-bench-1\", \"commit\": \"</script>\" }"));
     const Outcome outcome = run("report bench.json -o page.html");

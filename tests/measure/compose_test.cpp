@@ -13,7 +13,7 @@ struct Compose : support::GlTest {};
 
 TEST_F(Compose, ABoxAReliefAndAFloorShadeEachOtherWithinTheTarget) {
     for (const auto& [lamp, between, receiver] : {std::array{"distant", "matt box", "relief 3 %"},
-                                                  {"spot", "relief", "relief 0"},
+                                                  {"spot", "relief 2.5 %", "relief 0"},
                                                   {"area", "matt box", "matt mesh"}}) {
         const ComposeCell cell = measureCompose(*context, lamp, between, receiver);
         EXPECT_TRUE(cell.isMet()) << cell.name() << ": " << cell.misplaced << ", flux " << cell.flux;
@@ -22,8 +22,8 @@ TEST_F(Compose, ABoxAReliefAndAFloorShadeEachOtherWithinTheTarget) {
 }
 
 TEST_F(Compose, WhatTheCameraDoesNotSeeStandsInTheWayOfScatteringAndOfCaustics) {
-    for (const auto& [between, receiver] : {std::array{"relief", "marble slab"},
-                                            {"relief", "floor through glass"},
+    for (const auto& [between, receiver] : {std::array{"relief 2.5 %", "marble slab"},
+                                            {"relief 2.5 %", "floor through glass"},
                                             {"marble ball", "floor through glass"}}) {
         const ComposeCell cell = measureCompose(*context, "distant", between, receiver);
         EXPECT_TRUE(cell.isMet()) << cell.name() << ": " << cell.misplaced << ", flux " << cell.flux;

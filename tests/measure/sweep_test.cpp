@@ -1,4 +1,4 @@
-#include "measure/ReliefPlan.h"
+#include "tests/support/Bench.h"
 #include "tests/support/Gl.h"
 
 #include <set>
@@ -36,10 +36,6 @@ TEST_F(StopwatchTest, HandsAnErrorOfTheWorkOn) {
     EXPECT_EQ(done.error().message, "no memory");
 }
 
-Result<truth::Picture> solve(const scene::Scene& scene, int directions, const truth::Tile& rows) {
-    return solveRelief(scene, directions, rows, 1);
-}
-
 Case smallCase(const std::string& name, std::vector<Setting> settings) {
     const auto make = []() -> Result<scene::Scene> {
         scene::Scene scene = fieldScene(benchNoise(16), 0.05f);
@@ -64,7 +60,7 @@ TEST_F(SweepTest, MeasuresEverySettingAgainstTheExactSolution) {
                    },
                    [](const BenchReport&) { return std::optional<Ratio>(); }};
     std::set<std::string> said;
-    Sweep sweep(*context, plan, solve, [&](const std::string& line) { said.insert(line); });
+    Sweep sweep(*context, plan, support::solveHere, [&](const std::string& line) { said.insert(line); });
     double last = 0;
     while (sweep.step()) {
         EXPECT_GE(sweep.share(), last);
@@ -101,7 +97,7 @@ TEST_F(SweepTest, ASceneThatCannotBeMadeIsWrittenDownForEachSetting) {
     Plan plan;
     plan.cases = {smallCase("field", {{"hierarchy"}, {"march"}})};
     plan.cases[0].scene.make = []() -> Result<scene::Scene> { return Error{"field.pfm: is gone"}; };
-    const BenchReport report = sweep(*context, plan, solve, [](const std::string&) {});
+    const BenchReport report = sweep(*context, plan, support::solveHere, [](const std::string&) {});
     ASSERT_EQ(report.measurements.size(), 2u);
     for (const Measurement& m : report.measurements)
         EXPECT_EQ(m.refused, "field.pfm: is gone");
@@ -124,7 +120,7 @@ TEST_F(SweepTest, AnEnvironmentsExactSolutionTellsItsOwnNoise) {
     };
     const auto measured = [&](int directions) {
         plan.directions = directions;
-        return sweep(*context, plan, solve, [](const std::string&) {}).measurements.at(0);
+        return sweep(*context, plan, support::solveHere, [](const std::string&) {}).measurements.at(0);
     };
     const Measurement few = measured(64), many = measured(1024);
     EXPECT_LE(few.lights, 20); // about 16
@@ -133,12 +129,28 @@ TEST_F(SweepTest, AnEnvironmentsExactSolutionTellsItsOwnNoise) {
     EXPECT_LT(many.truthNoise, few.truthNoise / 3);
 }
 
+TEST(Benches, EachPartHasANameOfItsOwnAndMeasuresSomethingWithoutFiles) {
+    std::set<std::string_view> names{"all", "compose"};
+    for (const BenchPart* part : benchParts()) {
+        EXPECT_TRUE(names.insert(part->name).second) << part->name;
+        EXPECT_FALSE(part->help.empty()) << part->name;
+        const Plan plan = support::planOf(part->name, true);
+        EXPECT_EQ(plan.cases.empty() && plan.series.empty() && plan.hard.empty(), !part->plan) << part->name;
+        EXPECT_TRUE(part->plan || part->prove) << part->name;
+        EXPECT_EQ(benchParts(part->name), std::vector{part});
+    }
+    EXPECT_TRUE(benchParts("speed").empty());
+    for (const BenchPart* part : benchParts("all"))
+        EXPECT_TRUE(part->isUsual) << part->name;
+}
+
 TEST_F(SweepTest, HardCasesPassOrTellTheirErrorOrTheirRefusal) {
-    Plan plan;
-    HardTable& table = plan.hard.emplace_back(HardTable{"relief", {}, {{"hierarchy"}}});
-    for (HardCase& hard : reliefHardCases(true))
-        if (hard.name == "cliff" || hard.name == "a texel that is NaN") table.cases.push_back(hard);
-    const BenchReport report = sweep(*context, plan, solve, [](const std::string&) {});
+    Plan plan = support::planOf("hard", true);
+    plan.hard[0].settings = {{"hierarchy"}};
+    std::erase_if(plan.hard[0].cases, [](const HardCase& hard) {
+        return hard.name != "cliff" && hard.name != "a texel that is NaN";
+    });
+    const BenchReport report = sweep(*context, plan, support::solveHere, [](const std::string&) {});
     ASSERT_EQ(report.hardCases.size(), 2u);
     EXPECT_EQ(report.hardCases[0].status, HardResult::Status::Pass);
     EXPECT_EQ(report.hardCases[1].status, HardResult::Status::Refused);

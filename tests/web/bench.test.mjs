@@ -9,7 +9,7 @@ after(() => stage.close());
 
 async function start(parts) {
   const page = await openPage(stage, 'bench.html');
-  for (const part of ['methods', 'environments', 'scaling', 'hard', 'refraction', 'caustics'])
+  for (const part of ['relief', 'environment', 'scaling', 'hard', 'refraction', 'caustics'])
     await page.setChecked(`input[name=${part}]`, parts.includes(part));
   await page.click('#start');
   return page;

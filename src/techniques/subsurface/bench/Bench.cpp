@@ -1,25 +1,22 @@
-#include "measure/SubsurfacePlan.h"
+#include "techniques/subsurface/bench/Bench.h"
 
-#include "frame/Renderer.h"
-#include "measure/RefractPlan.h"
 #include "measure/Stopwatch.h"
 #include "measure/SubsurfaceTruth.h"
-#include "scene/MaterialPresets.h"
 #include "scene/Painting.h"
 #include "technique/Technique.h"
-#include "techniques/subsurface/Subsurface.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
-namespace lucent::measure {
+namespace lucent::subsurface {
 
 namespace {
 
-constexpr std::string_view kTechnique = "subsurface";
+using namespace measure;
+
+constexpr const char* kName = "subsurface";
 constexpr const char* kUsual = "0.01"; // error that splats are asked for unless it is said
 
 // --- methods and knobs
@@ -57,13 +54,6 @@ constexpr float kRadius = 0.01f;           // m, of the ball
 constexpr float kPicture = 2.2f * kRadius; // m from its top to its bottom
 constexpr int kPaintedSize = 64;           // pixels: its exact solution is made for each of them
 
-scene::Material marble() {
-    scene::Material material;
-    for (const scene::MaterialPreset& preset : scene::materialPresets())
-        if (preset.name == "marble") apply(preset, material);
-    return material;
-}
-
 scene::Object bodyOf(scene::Shape shape, vec3 place = vec3(0)) {
     scene::Object object;
     object.name = "body";
@@ -80,16 +70,15 @@ scene::Scene sceneOf(std::vector<scene::Object> objects, ivec2 size, float heigh
     scene.camera.eye = {0, 0, 1};
     scene.camera.height = height;
     scene.view.show = scene::Aov::Radiosity;
-    for (const ParamTable* table : technique::tables())
-        scene.technique.emplace(std::string(table->name), Settings(*table));
+    technique::addSettings(scene);
     scene.objects = std::move(objects);
     scene.lights = {scene::DistantLight{.direction = {-1, 0, 0}}};
     return scene;
 }
 
-// As glassScene() has it, but of marble and 20 mm long, in light from the right, above and before.
+// 20 mm long, in light from the right, above and before.
 scene::Scene meshScene(const BenchMesh& mesh, int size) {
-    scene::Object object = glassScene(mesh, size).objects.front();
+    scene::Object object = objectOf(mesh);
     object.material = marble();
     object.transform.scale *= kRadius;
     object.transform.translate *= kRadius;
@@ -162,16 +151,14 @@ const Timed kViews{block, showNothing};
 // --- cases and series
 
 Case bodyCase(const std::string& name, const MakeScene& scene, std::vector<Setting> settings, bool walks) {
-    Case one{.technique = std::string(kTechnique),
+    Case one{.technique = kName,
              .name = name,
              .scene = scene,
              .settings = std::move(settings),
              .toPhysics = {},
              .timed = kWhole};
     if (walks) // by one scene whatever the profile, so that it is solved once
-        one.toPhysics = [](scene::Scene& scene) {
-            subsurfaceSettings(scene) = {.method = subsurface::Method::Diffusion};
-        };
+        one.toPhysics = [](scene::Scene& scene) { settingsOf(scene) = {.method = Method::Diffusion}; };
     return one;
 }
 
@@ -182,21 +169,21 @@ Case bodyCase(const std::string& name, scene::Scene scene, std::vector<Setting> 
 }
 
 // The ball with each profile; diffusion has none, and stands beside the first.
-void addBalls(Plan& plan, int size) {
+void addBalls(measure::Plan& plan, int size) {
     plan.cases.push_back(bodyCase("ball", marbleBall(size), allSettings(plan.quick), true));
     scene::Scene offset = marbleBall(size), burley = marbleBall(size);
-    subsurfaceSettings(offset).dipoleGeometry = subsurface::DipoleGeometry::Offset;
-    subsurfaceSettings(burley).profile = diffusion::Shape::Burley;
+    settingsOf(offset).dipoleGeometry = DipoleGeometry::Offset;
+    settingsOf(burley).profile = diffusion::Shape::Burley;
     plan.cases.push_back(bodyCase("ball, offset", offset, splatSettings(plan.quick), true));
     plan.cases.push_back(bodyCase("ball, burley", burley, splatSettings(plan.quick), true));
 }
 
-void addPainted(Plan& plan) {
+void addPainted(measure::Plan& plan) {
     plan.cases.push_back(bodyCase("painted ball", {[] { return paintedScene(kPaintedSize); }, 4096},
                                   {splats("multires", kUsual), splats("splat", kUsual)}, false));
 }
 
-void addHalfSpace(Plan& plan) {
+void addHalfSpace(measure::Plan& plan) {
     constexpr int kSize = 32;
     Case one = bodyCase("half space", halfSpaceScene(kSize), splatSettings(plan.quick), false);
     one.closedForm = [] {
@@ -225,7 +212,7 @@ scene::Scene extinctScene(double extinction, int size) {
 }
 
 Series extinctions(const Setting& setting, int size) {
-    Series series{.technique = std::string(kTechnique),
+    Series series{.technique = kName,
                   .over = "mm of mean free path",
                   .setting = setting,
                   .points = {},
@@ -238,7 +225,7 @@ Series extinctions(const Setting& setting, int size) {
 }
 
 Series stage(const std::vector<Series::Point>& points, const std::string& part, const Timed& timed) {
-    return {.technique = std::string(kTechnique),
+    return {.technique = kName,
             .over = "triangles",
             .setting = {"multires"},
             .points = points,
@@ -250,7 +237,7 @@ Series stage(const std::vector<Series::Point>& points, const std::string& part, 
 
 RatioRule misplaced(const std::string& scene) {
     return [=](const BenchReport& report) -> std::optional<Ratio> {
-        const Measurement* m = measured(report, kTechnique, scene, splats("multires", kUsual));
+        const Measurement* m = measured(report, kName, scene, splats("multires", kUsual));
         if (!m) return std::nullopt;
         return Ratio{scene + ": share of the radiosity that is misplaced", m->error->flux->misplaced, 0.02,
                      false};
@@ -261,11 +248,11 @@ RatioRule misplaced(const std::string& scene) {
 // none are.
 RatioRule bandsOverSplats(const std::string& scene, const std::string& epsilon) {
     return [=](const BenchReport& report) -> std::optional<Ratio> {
-        const Measurement* splat = measured(report, kTechnique, scene, splats("splat", epsilon));
+        const Measurement* splat = measured(report, kName, scene, splats("splat", epsilon));
         if (!splat) return std::nullopt;
         double best = 0;
         for (const Measurement& m : report.measurements)
-            if (m.technique == kTechnique && m.scene == scene && m.method == "multires" && m.error && m.ms &&
+            if (m.technique == kName && m.scene == scene && m.method == "multires" && m.error && m.ms &&
                 m.error->rmse <= splat->error->rmse)
                 best = std::max(best, splat->ms->median / m.ms->median);
         if (best == 0) return std::nullopt;
@@ -278,7 +265,7 @@ RatioRule bandsOverSplats(const std::string& scene, const std::string& epsilon) 
 RatioRule evenCost(const Setting& setting) {
     return [=](const BenchReport& report) -> std::optional<Ratio> {
         for (const ScalingSeries& series : report.scaling) {
-            if (series.technique != kTechnique || series.method != setting.name() ||
+            if (series.technique != kName || series.method != setting.name() ||
                 series.points.size() != std::size(kExtinctions))
                 continue;
             const auto [least, most] =
@@ -324,18 +311,9 @@ void forEachValue(const Image& image, const Image& exact, const Work& work) {
 
 constexpr const char* kSplatMethods[] = {"multires", "splat"};
 
-Result<scene::Scene> chosen(scene::Scene scene, const Setting& setting) {
-    const std::string place = "technique." + std::string(kTechnique) + ".";
-    if (Status set = setParam(scene, place + "method", setting.method); !set) return set.error();
-    for (const auto& [knob, value] : setting.knobs)
-        if (Status set = setParam(scene, place + knob, value); !set) return set.error();
-    return scene;
-}
-
-Result<Image> pictureOf(gl::Context& context, const scene::Scene& scene, const Setting& setting) {
-    const Result<scene::Scene> with = chosen(scene, setting);
-    if (!with) return with.error();
-    return Pictures(context)(*with);
+Result<Image> pictureOf(gl::Context& context, scene::Scene scene, const Setting& setting) {
+    if (Status set = setting.putInto(scene, kName); !set) return set.error();
+    return Pictures(context)(scene);
 }
 
 Status addLevel(gl::Context& context, std::vector<Ratio>& ratios) {
@@ -378,10 +356,10 @@ double degreesAt(ivec2 pixel, const Image& image) {
 }
 
 Status addSides(gl::Context& context, const SolveTruth& solve, int size, std::vector<Ratio>& ratios) {
-    for (const auto& [name, geometry] : {std::pair("planar", subsurface::DipoleGeometry::Planar),
-                                         std::pair("offset", subsurface::DipoleGeometry::Offset)}) {
+    for (const auto& [name, geometry] :
+         {std::pair("planar", DipoleGeometry::Planar), std::pair("offset", DipoleGeometry::Offset)}) {
         scene::Scene scene = marbleBall(size);
-        subsurfaceSettings(scene).dipoleGeometry = geometry;
+        settingsOf(scene).dipoleGeometry = geometry;
         const Result<truth::Picture> exact = solve(scene, 0, {});
         if (!exact) return exact.error();
         const Result<Image> image = Pictures(context)(scene);
@@ -413,12 +391,6 @@ RingMeans ringMeans(const Image& image, const Image& exact) {
     return means;
 }
 
-std::string formatted(const char* format, auto... values) {
-    char line[160];
-    std::snprintf(line, sizeof line, format, values...);
-    return line;
-}
-
 struct Model {
     const char* name;
     Setting setting;
@@ -435,7 +407,7 @@ const Model kModels[] = {
 // and all of them by angle.
 Status addAround(gl::Context& context, const SolveTruth& solve, int size, std::vector<Ratio>& ratios) {
     scene::Scene walked = marbleBall(size);
-    subsurfaceSettings(walked) = {.method = subsurface::Method::Diffusion};
+    settingsOf(walked) = {.method = Method::Diffusion};
     const Result<truth::Picture> exact = solve(walked, 0, {});
     if (!exact) return exact.error();
     for (const Model& model : kModels) {
@@ -468,7 +440,7 @@ Status addAround(gl::Context& context, const SolveTruth& solve, int size, std::v
 // far from these the dipole is with it.
 Status addScatteredOnce(gl::Context& context, const SolveTruth& solve, int size, std::vector<Ratio>& ratios) {
     scene::Scene walked = marbleBall(size);
-    subsurfaceSettings(walked) = {.method = subsurface::Method::Diffusion};
+    settingsOf(walked) = {.method = Method::Diffusion};
     const Result<truth::Picture> all = solve(walked, 0, {});
     if (!all) return all.error();
     const Result<truth::Picture> once = solveScatteredOnce(walked, 0);
@@ -532,17 +504,16 @@ Status addPaintingCost(gl::Context& context, const Repeats& repeats, std::vector
 // --- flicker
 
 // Pictures of a body that turns by a degree from one to the next.
-Result<std::vector<Image>> turning(gl::Context& context, const scene::Scene& scene, const Setting& setting,
+Result<std::vector<Image>> turning(gl::Context& context, scene::Scene scene, const Setting& setting,
                                    int frames) {
-    Result<scene::Scene> with = chosen(scene, setting);
-    if (!with) return with.error();
+    if (Status set = setting.putInto(scene, kName); !set) return set.error();
     Pictures pictures(context);
     std::vector<Image> images;
     for (int frame = 0; frame < frames; ++frame) {
-        const Result<Image> image = pictures(*with);
+        const Result<Image> image = pictures(scene);
         if (!image) return image.error();
         images.push_back(*image);
-        ++with->objects.front().transform.rotate.y;
+        ++scene.objects.front().transform.rotate.y;
     }
     return images;
 }
@@ -595,61 +566,72 @@ scene::Scene turningScene(const std::vector<BenchMesh>& meshes) {
 }
 
 int sizeOf(bool quick) { return quick ? 128 : 256; }
-Repeats repeatsOf(bool quick) { return quick ? Repeats{3, 5, 30} : Repeats{5, 31, 1000}; }
 
-} // namespace
-
-scene::Scene marbleBall(int size) { return sceneOf({bodyOf(scene::Sphere{kRadius})}, ivec2(size), kPicture); }
-
-subsurface::Settings& subsurfaceSettings(scene::Scene& scene) {
-    return *static_cast<subsurface::Settings*>(scene.technique.at(std::string(kTechnique)).data());
-}
-
-Plan subsurfacePlan(const std::vector<BenchMesh>& meshes, const std::vector<BenchMesh>& simpler, bool quick) {
-    Plan plan;
-    plan.quick = quick;
-    plan.repeats = repeatsOf(quick);
-    const int size = sizeOf(quick);
-    plan.hard = {subsurfaceHardCases()};
+Status addSubsurface(measure::Plan& plan, const BenchAssets& assets) {
+    const auto bunny = assets.meshes({"bunny"}), dragons = dragonsOf(assets);
+    if (!bunny) return bunny.error();
+    if (!dragons) return dragons.error();
+    const int size = sizeOf(plan.quick);
+    plan.hard.push_back(hardCases());
+    const std::size_t first = plan.cases.size();
     addBalls(plan, size);
     addHalfSpace(plan);
     addPainted(plan);
-    for (const BenchMesh& mesh : meshes)
-        plan.cases.push_back(bodyCase(mesh.name, meshScene(mesh, size), splatSettings(quick), !quick));
-    for (const Case& one : plan.cases)
-        if (one.name != "half space") plan.ratios.push_back(misplaced(one.name));
+    for (const BenchMesh& mesh : *bunny)
+        plan.cases.push_back(
+            bodyCase(mesh.name, meshScene(mesh, size), splatSettings(plan.quick), !plan.quick));
+    for (std::size_t i = first; i < plan.cases.size(); ++i)
+        if (plan.cases[i].name != "half space") plan.ratios.push_back(misplaced(plan.cases[i].name));
     for (const char* name : {"ball", "ball, offset", "ball, burley"}) // whose solutions have no noise
         plan.ratios.push_back(bandsOverSplats(name, kUsual));
     for (const Setting& setting : {Setting{"multires"}, Setting{"splat"}}) {
         plan.series.push_back(extinctions(setting, size));
         plan.ratios.push_back(evenCost(setting));
     }
-    const std::vector<Series::Point> points = overTriangles(
-        simpler, quick, double(size) * size, [size](const BenchMesh& mesh) { return meshScene(mesh, size); });
+    const std::vector<Series::Point> points =
+        overTriangles(*dragons, plan.quick, double(size) * size,
+                      [size](const BenchMesh& mesh) { return meshScene(mesh, size); });
     const Series splatStage = stage(points, "splats", kSplats), viewStage = stage(points, "views", kViews);
     plan.series.insert(plan.series.end(), {splatStage, viewStage});
     plan.ratios.push_back(growth(splatStage.name(), 1.1));
     plan.ratios.push_back(growth(viewStage.name(), {}));
-    return plan;
+    return Done{};
 }
 
-Result<std::vector<Ratio>> proveSubsurface(gl::Context& context, const std::vector<BenchMesh>& meshes,
-                                           const SolveTruth& solve, bool quick, const Say& say) {
+// What single pictures do not show: the largest error on a half space and beside a ball, light that leaks
+// into what touches a lit body, the light around a ball against random walks by angle, what of it scatters
+// once, what painting costs, and the flicker of a body that turns, with and without `temporal`.
+Result<Proof> proveSubsurface(const BenchRun& run) {
+    const auto bunny = run.assets.meshes({"bunny"});
+    if (!bunny) return bunny.error();
     std::vector<Ratio> ratios;
-    const int size = sizeOf(quick);
-    say("half space and touching blocks");
-    if (Status s = addLevel(context, ratios); !s) return s.error();
-    if (Status s = addLeak(context, ratios); !s) return s.error();
-    say("ball: by angle");
-    if (Status s = addSides(context, solve, size, ratios); !s) return s.error();
-    if (Status s = addAround(context, solve, size, ratios); !s) return s.error();
-    say("ball: light that scatters once");
-    if (Status s = addScatteredOnce(context, solve, size, ratios); !s) return s.error();
-    say("what painting costs");
-    if (Status s = addPaintingCost(context, repeatsOf(quick), ratios); !s) return s.error();
-    say("flicker of what turns");
-    if (Status s = addFlicker(context, turningScene(meshes), quick, ratios); !s) return s.error();
-    return ratios;
+    const int size = sizeOf(run.quick);
+    run.say("half space and touching blocks");
+    if (Status s = addLevel(run.context, ratios); !s) return s.error();
+    if (Status s = addLeak(run.context, ratios); !s) return s.error();
+    run.say("ball: by angle");
+    if (Status s = addSides(run.context, run.solve, size, ratios); !s) return s.error();
+    if (Status s = addAround(run.context, run.solve, size, ratios); !s) return s.error();
+    run.say("ball: light that scatters once");
+    if (Status s = addScatteredOnce(run.context, run.solve, size, ratios); !s) return s.error();
+    run.say("what painting costs");
+    const Repeats repeats = run.quick ? Repeats{3, 5, 30} : Repeats{5, 31, 1000};
+    if (Status s = addPaintingCost(run.context, repeats, ratios); !s) return s.error();
+    run.say("flicker of what turns");
+    if (Status s = addFlicker(run.context, turningScene(*bunny), run.quick, ratios); !s) return s.error();
+    return Proof{ratios};
 }
 
-} // namespace lucent::measure
+constexpr BenchPart kParts[] = {{.name = "subsurface",
+                                 .help = "what leaves bodies in which light scatters",
+                                 .plan = addSubsurface,
+                                 .prove = proveSubsurface}};
+
+} // namespace
+
+scene::Scene marbleBall(int size) { return sceneOf({bodyOf(scene::Sphere{kRadius})}, ivec2(size), kPicture); }
+
+extern const TechniqueBench kBench;
+const TechniqueBench kBench{kParts};
+
+} // namespace lucent::subsurface

@@ -5,7 +5,7 @@
 #include "base/Image.h"
 #include "base/Math.h"
 
-namespace lucent::measure {
+namespace lucent::caustics {
 
 /// A ball of radius 1 whose centre lies above the floor's middle. The sum over the branches of
 /// T(b)² b |db| / (r |dr|), with b the distance of a ray from the axis, r where it lands, and T what one
@@ -25,4 +25,4 @@ Image lightOfBall(ivec2 size, double height, double ior, double below);
 /// @return        as above
 Image lightOfWater(ivec2 size, double width, double amplitude, double wavelength, double ior, double depth);
 
-} // namespace lucent::measure
+} // namespace lucent::caustics

@@ -1,17 +1,17 @@
-#include "measure/GlassProof.h"
-
 #include "frame/Renderer.h"
-#include "measure/RefractPlan.h"
+#include "measure/BudgetReport.h"
+#include "measure/Solve.h"
 #include "measure/Statistics.h"
 #include "scene/Environment.h"
 #include "technique/Technique.h"
 #include "techniques/refract/Refract.h"
+#include "techniques/refract/bench/Bench.h"
 
-#include <chrono>
-
-namespace lucent::measure {
+namespace lucent::refract {
 
 namespace {
+
+using namespace measure;
 
 // --- scenes
 
@@ -75,8 +75,7 @@ scene::Scene sceneOf(const GlassScene& of, std::shared_ptr<const Image> map, int
     scene.objects = of.objects;
     scene.environment.emplace();
     scene.environment->map = std::move(map);
-    for (const ParamTable* table : technique::tables())
-        scene.technique.emplace(std::string(table->name), Settings(*table));
+    technique::addSettings(scene);
     return scene;
 }
 
@@ -85,8 +84,8 @@ scene::Scene sceneOf(const GlassScene& of, std::shared_ptr<const Image> map, int
 constexpr int kLayers[] = {2, 4, 8, 16, views::kMostLayers};
 constexpr int kTurns = 5; // of a race: medians of five single pictures
 
-refract::Settings& settingsOf(scene::Scene& scene) {
-    return *static_cast<refract::Settings*>(scene.technique.at("refract").data());
+Settings& settingsOf(scene::Scene& scene) {
+    return *static_cast<Settings*>(scene.technique.at("refract").data());
 }
 
 class Prover {
@@ -95,7 +94,7 @@ public:
 
     /// The exact picture, and by how much every choice misses it.
     Status tryAll() {
-        Result<truth::Picture> exact = solveRefraction(scene_, {}, 0);
+        Result<truth::Picture> exact = solveWhatIsShown(scene_, 0, {}, 0);
         if (!exact) return exact.error();
         exact_ = std::move(exact->values);
         for (const int layers : kLayers) {
@@ -124,7 +123,7 @@ public:
         for (std::size_t i = 0; i < errors_.size() && result.best.empty(); ++i)
             if (errors_[i] <= wanted) { // fewer layers are quicker
                 result.best = std::to_string(kLayers[i]) + " layers";
-                const int chosen = stats.technique.at("refract").as<refract::Settings>().maxLayers;
+                const int chosen = stats.technique.at("refract").as<Settings>().maxLayers;
                 if (Status raced = race(chosen, kLayers[i], result); !raced) return raced.error();
             }
         return result;
@@ -162,26 +161,23 @@ private:
 
 } // namespace
 
-Result<BudgetReport> proveGlassBudget(gl::Context& context, const std::vector<BenchEnvironment>& environments,
-                                      int side, const Say& say) {
-    std::vector<BenchEnvironment> all = environments;
+Result<Proof> proveBudget(const BenchRun& run) {
+    constexpr int kSize = 96; // pixels
+    const auto window = run.assets.environments({"window.exr"});
+    if (!window) return window.error();
+    std::vector<BenchEnvironment> all = *window;
     all.push_back({"rainbow", std::make_shared<const Image>(scene::proceduralEnvironment("rainbow"))});
     BudgetReport report;
     report.what = "scenes of glass";
     for (const GlassScene& one : glassScenes())
         for (const BenchEnvironment& environment : all) {
             const std::string name = std::string(one.name) + " under " + environment.name;
-            say(name);
-            Prover prover(context, sceneOf(one, environment.map, side));
+            run.say(name);
+            Prover prover(run.context, sceneOf(one, environment.map, kSize));
             if (Status tried = prover.tryAll(); !tried) return tried.error();
-            for (const float wanted : kWantedErrors) {
-                Result<BudgetResult> result = prover.budget(wanted);
-                if (!result) return result.error();
-                result->scene = name;
-                report.results.push_back(std::move(*result));
-            }
+            if (Status proved = proveWantedErrors(prover, name, report); !proved) return proved.error();
         }
-    return report;
+    return report.proof();
 }
 
-} // namespace lucent::measure
+} // namespace lucent::refract

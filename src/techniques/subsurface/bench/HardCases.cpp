@@ -1,10 +1,10 @@
-#include "measure/SubsurfacePlan.h"
+#include "techniques/subsurface/bench/Bench.h"
 
-#include "techniques/subsurface/Subsurface.h"
-
-namespace lucent::measure {
+namespace lucent::subsurface {
 
 namespace {
+
+using namespace measure;
 
 constexpr int kSize = 48;                      // pixels
 constexpr float kPixel = 2.2f * 0.01f / kSize; // m, of the ball's picture
@@ -30,7 +30,7 @@ void setPath(scene::Scene& scene, float path) {
 
 } // namespace
 
-HardTable subsurfaceHardCases() {
+HardTable hardCases() {
     // Twice the error that splats are asked for, of light of 1 W/m².
     HardTable table{"subsurface", {}, {{"multires"}, {"splat"}}, 0.02};
     table.cases = {
@@ -45,10 +45,10 @@ HardTable subsurfaceHardCases() {
                  }),
         ballWith("index 1", [](scene::Scene& s) { materialOf(s).ior = 1; }),
         ballWith("a profile that is infinite at 0",
-                 [](scene::Scene& s) { subsurfaceSettings(s).profile = diffusion::Shape::Burley; }),
-        ballWith("32 splats a side", [](scene::Scene& s) { subsurfaceSettings(s).mostSplats = 32; }),
+                 [](scene::Scene& s) { settingsOf(s).profile = diffusion::Shape::Burley; }),
+        ballWith("32 splats a side", [](scene::Scene& s) { settingsOf(s).mostSplats = 32; }),
     };
     return table;
 }
 
-} // namespace lucent::measure
+} // namespace lucent::subsurface

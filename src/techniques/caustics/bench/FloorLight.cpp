@@ -1,9 +1,9 @@
-#include "measure/CausticsForms.h"
+#include "techniques/caustics/bench/FloorLight.h"
 
 #include <cmath>
 #include <numbers>
 
-namespace lucent::measure {
+namespace lucent::caustics {
 
 namespace {
 
@@ -70,4 +70,4 @@ Image lightOfWater(ivec2 size, double width, double amplitude, double wavelength
     return light;
 }
 
-} // namespace lucent::measure
+} // namespace lucent::caustics

@@ -1,32 +1,27 @@
-#include "measure/BudgetProof.h"
-
-#include "base/JsonWriter.h"
 #include "frame/Renderer.h"
+#include "measure/BudgetReport.h"
 #include "measure/Statistics.h"
 #include "scene/Environment.h"
-#include "techniques/relief/Relief.h"
+#include "techniques/relief/bench/Bench.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
-namespace lucent::measure {
+namespace lucent::relief {
 
 namespace {
 
-using relief::Method;
+using namespace measure;
 using views::EnvironmentSampling;
 
 // --- scenes
 
-std::shared_ptr<const Image> heights(int side, const std::function<float(float, float)>& height) {
-    auto image = std::make_shared<Image>(side, side, 1);
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            *image->at(x, y) = height((float(x) + 0.5f) / float(side), (float(y) + 0.5f) / float(side));
-    return image;
+std::shared_ptr<const Image> heights(int side, float (*height)(float, float)) {
+    return heightsOf(ivec2(side), [=](int x, int y) {
+        return height((float(x) + 0.5f) / float(side), (float(y) + 0.5f) / float(side));
+    });
 }
 
 // A number in [0,1) that looks random, the same everywhere.
@@ -137,15 +132,9 @@ double now() {
 }
 
 // All by which a picture of fields trades error for time.
-using Means = std::map<std::string, Settings>;
+using Means = std::map<std::string, lucent::Settings>;
 
-bool isTransfer(const Means& means) {
-    return means.at("relief").as<relief::Settings>().method == Method::Transfer;
-}
-
-relief::Settings& settingsOf(scene::Scene& scene) {
-    return *static_cast<relief::Settings*>(scene.technique.at("relief").data());
-}
+bool isTransfer(const Means& means) { return means.at("relief").as<Settings>().method == Method::Transfer; }
 
 struct Tried {
     std::string name;
@@ -188,7 +177,7 @@ public:
         }
         if (!environment) return Done{};
         settingsOf(scene_).method = Method::Transfer;
-        settingsOf(scene_).terms = relief::kMostTerms;
+        settingsOf(scene_).terms = kMostTerms;
         scene_.quality.maxError = 0;
         Result<Tried> tried = measure("transfer");
         if (!tried) return tried.error();
@@ -277,113 +266,37 @@ private:
     std::vector<Tried> tried_;
 };
 
-std::string formatted(const char* format, auto... values) {
-    char line[320];
-    std::snprintf(line, sizeof line, format, values...);
-    return line;
-}
-
 } // namespace
 
-double relativeError(const Image& image, const Image& exact) {
-    double sum = 0, mean = 0, covered = 0;
-    for (std::size_t i = 0; i < exact.pixels.size(); i += 4) {
-        if (exact.pixels[i + 3] == 0) continue;
-        covered += 3;
-        for (std::size_t c = i; c < i + 3; ++c) {
-            const double d = double(image.pixels[c]) - exact.pixels[c];
-            sum += d * d;
-            mean += exact.pixels[c];
-        }
-    }
-    return std::sqrt(sum / covered) / (mean / covered);
-}
-
-Result<BudgetReport> proveBudget(gl::Context& context, const std::vector<BenchField>& given,
-                                 const std::vector<BenchEnvironment>& environments, int side,
-                                 const Say& say) {
-    std::vector<BenchField> fields = syntheticFields(side);
-    fields.insert(fields.end(), given.begin(), given.end());
-    const std::vector<Lighting> lights = lightings(environments);
+Result<Proof> proveBudget(const BenchRun& run) {
+    constexpr int kSide = 96, kFieldSide = 128; // pixels, texels
+    const auto measured = run.assets.fields({"elevation", "dragon", "coin", "weave", "bunny"}, kFieldSide);
+    if (!measured) return measured.error();
+    const auto environments = run.assets.environments({"window.exr"});
+    if (!environments) return environments.error();
+    std::vector<BenchField> fields = syntheticFields(kSide);
+    fields.insert(fields.end(), measured->begin(), measured->end());
+    const std::vector<Lighting> lights = lightings(*environments);
     BudgetReport report;
     for (std::size_t i = 0; i < fields.size(); ++i) {
         for (std::size_t j = 0; j < lights.size(); ++j) {
             const float depth = 0.004f * std::pow(4.0f, hashed(int(i), int(j)) * 2); // 4 mm to 64 mm
             scene::Scene scene = fieldScene(fields[i], depth);
             const vec2 footprint = scene.objects[0].field().footprint();
-            scene.size = ivec2(side, std::max(1, int(float(side) * footprint.y / footprint.x)));
+            scene.size = ivec2(kSide, std::max(1, int(float(kSide) * footprint.y / footprint.x)));
             scene.view.show = scene::Aov::Color;
             scene.objects[0].material.forwardScatter = j % 3 == 1 ? 0.6f : 0;
             scene.objects[0].material.specularity = (i + j) % 4 == 2 ? 0.4f : 0;
             lights[j].light(scene);
             const std::string name = fields[i].name + " under " + lights[j].name;
-            say(name);
-            Prover prover(context, std::move(scene));
+            run.say(name);
+            Prover prover(run.context, std::move(scene));
             if (Status solved = prover.solve(); !solved) return solved.error();
             if (Status tried = prover.tryAll(); !tried) return tried.error();
-            for (float wanted : kWantedErrors) {
-                Result<BudgetResult> result = prover.budget(wanted);
-                if (!result) return result.error();
-                result->scene = name;
-                report.results.push_back(std::move(*result));
-            }
+            if (Status proved = proveWantedErrors(prover, name, report); !proved) return proved.error();
         }
     }
-    return report;
+    return report.proof();
 }
 
-std::string BudgetReport::text() const {
-    std::string out;
-    for (const BudgetResult& r : results)
-        out +=
-            formatted("  %-34s wanted %.3f got %.4f %s, %.0f ms (+ %.0f choosing) against %.0f ms %s: %s\n",
-                      r.scene.c_str(), double(r.wanted), r.error, r.kept() ? "    " : "MISS", r.ms, r.planMs,
-                      r.bestMs, r.quick() ? "    " : "SLOW", r.chosen.c_str());
-    for (const Ratio& total : totals())
-        out += formatted("  %s: %.3f\n", total.name.c_str(), total.value);
-    return out;
-}
-
-std::vector<Ratio> BudgetReport::totals() const {
-    std::vector<Ratio> list;
-    for (float wanted : kWantedErrors) {
-        int count = 0, kept = 0, quick = 0, possible = 0;
-        for (const BudgetResult& r : results) {
-            if (r.wanted != wanted) continue;
-            ++count;
-            kept += r.kept();
-            quick += r.quick();
-            possible += r.bestMs > 0;
-        }
-        const std::string name = formatted("maxError %.3f on %d %s: ", double(wanted), count, what.c_str());
-        list.push_back({name + "share that keeps it", double(kept) / count, 0.95, true});
-        list.push_back({name + "share within 1.5 of the best time", double(quick) / count, 0.95, true});
-        list.push_back({name + "share where any setting keeps it", double(possible) / count, {}, true});
-    }
-    return list;
-}
-
-std::string BudgetReport::json() const {
-    JsonWriter json;
-    json.beginObject();
-    json.key("format").value("lucent-budget-1");
-    json.key("results").beginArray();
-    for (const BudgetResult& r : results) {
-        json.beginObject();
-        json.key("scene").value(r.scene);
-        json.key("wanted").value(r.wanted);
-        json.key("chosen").value(r.chosen);
-        json.key("predicted").value(r.predicted);
-        json.key("error").value(r.error);
-        json.key("ms").value(r.ms);
-        json.key("planMs").value(r.planMs);
-        json.key("bestMs").value(r.bestMs);
-        json.key("best").value(r.best);
-        json.end();
-    }
-    json.end();
-    json.end();
-    return json.text();
-}
-
-} // namespace lucent::measure
+} // namespace lucent::relief

@@ -1,18 +1,17 @@
 // The closed forms of the relief model that hold on every device, as pictures of a few hundred pixels.
 #include "measure/SelfCheck.h"
-
-#include "frame/Renderer.h"
 #include "scene/Environment.h"
-#include "technique/Technique.h"
-#include "techniques/relief/Relief.h"
+#include "techniques/relief/bench/Bench.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace lucent::measure {
+namespace lucent::relief {
 
 namespace {
+
+using namespace measure;
 
 using scene::Aov;
 using scene::Scene;
@@ -21,15 +20,6 @@ using Heights = std::shared_ptr<const Image>;
 constexpr double kDegree = std::numbers::pi / 180;
 
 // --- scenes
-
-template <class Function>
-Heights heightsOf(ivec2 size, const Function& height) {
-    auto image = std::make_shared<Image>(size.x, size.y, 1);
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x)
-            *image->at(x, y) = float(height(x, y));
-    return image;
-}
 
 Heights level(ivec2 size) {
     return heightsOf(size, [](int, int) { return 0.5f; });
@@ -42,26 +32,13 @@ Heights waves(ivec2 size) {
     });
 }
 
-relief::Settings& settingsOf(Scene& scene) {
-    return *static_cast<relief::Settings*>(scene.technique.at("relief").data());
-}
-
 // A white field 1 m wide, seen straight from above, one pixel a texel, by the exact method, without lights.
 Scene sceneOf(Heights heights, float heightScale, float depth) {
-    Scene scene;
-    scene::Object object;
-    object.field().heights = std::move(heights);
-    object.field().heightScale = heightScale;
-    object.material.depth = depth;
-    object.material.diffuse = vec3(1);
-    scene.size = object.field().texels();
-    scene.camera.height = object.field().footprint().y;
-    scene.camera.eye = {0, 0, 2 + 3 * heightScale};
-    for (const ParamTable* table : technique::tables())
-        scene.technique.emplace(std::string(table->name), Settings(*table));
-    settingsOf(scene).method = relief::Method::Hierarchy;
+    Scene scene = fieldScene({"field", std::move(heights), heightScale}, depth);
+    scene.view.show = Aov::Color;
+    scene.objects[0].material.diffuse = vec3(1);
+    scene.camera.eye.z = 2 + 3 * heightScale;
     views::samplingOf(scene).environment = views::EnvironmentSampling::Equal;
-    scene.objects.push_back(std::move(object));
     return scene;
 }
 
@@ -226,6 +203,7 @@ Finding addedBlocker(Studio& studio) {
         for (int x = 0; x < 32; ++x)
             if (std::max(std::abs(x - 24), std::abs(y - 16)) > 1) // their own normals do not change
                 finding.take(0, std::max(0.0f, after.at(x, y)[0] - before.at(x, y)[0]));
+    finding.take(1, after.at(20, 16)[0] < before.at(20, 16)[0]); // before it something does get darker
     return finding;
 }
 
@@ -305,22 +283,24 @@ Finding fullTurn(Studio& studio) { return fullTurnOf(studio, sceneOf(level({4, 4
 constexpr double kRingError = 0.0048385; // 1 / cos(pi / 32) - 1
 
 template <class Function>
-double skyColor(Studio& studio, const Function& radiance) {
+double underSky(Studio& studio, Aov aov, const Function& radiance) {
     Scene scene = sceneOf(level({4, 4}), 0.2f, 1e-6f);
     addSky(scene, radiance);
     scene.environment->rotation = {90, 0, 0}; // +y to +z
-    return mean(studio.draw(scene, Aov::Color));
+    return mean(studio.draw(scene, aov));
 }
 
 Finding wholeSphere(Studio& studio) {
     Finding finding;
-    finding.take(0.25, skyColor(studio, [](int, int) { return 1; }));
+    for (const Aov aov : {Aov::Color, Aov::Illumination})
+        finding.take(0.25, underSky(studio, aov, [](int, int) { return 1; }));
     return finding;
 }
 
 Finding upperHalf(Studio& studio) {
     Finding finding;
-    finding.take(0.5, 2 * skyColor(studio, [](int, int y) { return y < 8; })); // half of all directions
+    finding.take(
+        0.5, 2 * underSky(studio, Aov::Color, [](int, int y) { return y < 8; })); // half of all directions
     return finding;
 }
 
@@ -328,7 +308,7 @@ Finding upperHalf(Studio& studio) {
 
 Scene transferredSceneOf(const Heights& heights, float depth) {
     Scene scene = sceneOf(heights, 0.2f, depth);
-    settingsOf(scene).method = relief::Method::Transfer;
+    settingsOf(scene).method = Method::Transfer;
     settingsOf(scene).terms = 16;
     return scene;
 }
@@ -369,7 +349,7 @@ Finding transferOfRainbow(Studio& studio) {
     Scene scene = transferredWaves();
     scene.environment.emplace().map = std::make_shared<const Image>(scene::proceduralEnvironment("rainbow"));
     const Image transferred = studio.draw(scene, Aov::Color);
-    settingsOf(scene).method = relief::Method::Hierarchy;
+    settingsOf(scene).method = Method::Hierarchy;
     views::samplingOf(scene).directions = 4096;
     Finding finding;
     finding.take(0, distanceOverMean(transferred, studio.draw(scene, Aov::Color)));
@@ -479,7 +459,7 @@ Finding inverseSquare(Studio& studio) {
 
 Finding exponential(Studio& studio) {
     Scene scene = sceneOf(level({64, 4}), 0.2f, 0.02f);
-    settingsOf(scene).attenuation = relief::Attenuation::Exponential;
+    settingsOf(scene).attenuation = Attenuation::Exponential;
     scene.lights.push_back(lampAt(30, 0));
     const Image d = studio.draw(scene);
     Finding finding;
@@ -521,22 +501,7 @@ Finding displayCurve(Studio& studio) {
     return finding;
 }
 
-// --- storage and places
-
-Finding storedFloats(Studio& studio) {
-    Image sent(64, 1, 4);
-    for (int i = 0; i < 256; ++i)
-        sent.pixels[std::size_t(i)] = std::ldexp(1 + float(i) / 3, i / 2 - 64) * (i % 2 ? -1.0f : 1.0f);
-    gl::Device& device = studio.context().device();
-    const graph::Texture texture(device, {.size = sent.size(), .format = graph::Format::RGBA32F},
-                                 "measure.stored");
-    device.upload(texture.handle(), 0, sent.pixels);
-    const Image back = device.read(texture.handle());
-    Finding finding;
-    for (std::size_t i = 0; i < sent.pixels.size(); ++i)
-        finding.take(1, back.pixels[i] / sent.pixels[i]);
-    return finding;
-}
+// --- places
 
 Finding places(Studio& studio) {
     const Scene scene = sceneOf(waves({32, 24}), 0.3f, 0.05f);
@@ -661,13 +626,13 @@ constexpr Check kChecks[] = {
     {"Empty range of a falloff", "It is a step: every value is 0 or 1", kExact, emptyFalloff},
     {"sRGB curve", "Codes of 8 bits by the formula of IEC 61966-2-1", kCode, displayCurve},
     {"Positions", "Every pixel seen from above is its texel", kVectors, places},
-    {"Stored floats", "What goes into a 32-bit texture comes back, from 2^-64 to 2^70", kExact, storedFloats},
     {"No NaN, no infinity", "Values that are none, in all pictures above and those of hard cases", kExact,
      hardCases},
 };
 
 } // namespace
 
-std::span<const Check> reliefForms() { return kChecks; }
+extern const Forms kForms;
+const Forms kForms{kChecks};
 
-} // namespace lucent::measure
+} // namespace lucent::relief

@@ -1,25 +1,22 @@
-#include "measure/CausticsPlan.h"
-
-#include "frame/Renderer.h"
-#include "measure/CausticsForms.h"
-#include "scene/Mesh.h"
+// The benchmark of caustics: light that a floor receives by way of glass, water and metal.
+#include "measure/TechniqueBench.h"
 #include "technique/Technique.h"
 #include "techniques/caustics/Caustics.h"
-#include "truth/LightTracer.h"
+#include "techniques/caustics/bench/FloorLight.h"
 #include "views/FieldTextures.h"
 #include "views/Water.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
-namespace lucent::measure {
+namespace lucent::caustics {
 
 namespace {
 
-constexpr std::string_view kTechnique = "caustics";
+using namespace measure;
+
+constexpr const char* kName = "caustics";
 
 // --- methods and knobs
 
@@ -59,9 +56,8 @@ scene::Scene floorScene(int size, float height) {
     scene.camera.up = {0, 0, -1};
     scene.camera.height = height;
     scene.view.show = scene::Aov::Irradiance;
-    for (const ParamTable* table : technique::tables())
-        scene.technique.emplace(std::string(table->name), Settings(*table));
-    caustics::Settings& settings = *static_cast<caustics::Settings*>(scene.technique.at("caustics").data());
+    technique::addSettings(scene);
+    Settings& settings = *static_cast<Settings*>(scene.technique.at("caustics").data());
     settings.mapSize = 1024; // about a texel a pixel, so that what is measured is not the map's
     scene::Object floor;
     floor.name = "floor";
@@ -115,7 +111,9 @@ scene::Scene ringScene(int size) {
 // Two metres long, a fifth of a metre above the floor, in slanted light.
 scene::Scene meshScene(const BenchMesh& mesh, int size) {
     scene::Scene scene = floorScene(size, 4);
-    scene::Object object = glassScene(mesh, size).objects.front();
+    scene::Object object = objectOf(mesh);
+    object.material.transmission = 1;
+    object.material.ior = 1.5f;
     float lowest = 1e30f;
     for (const vec3& position : mesh.mesh->positions)
         lowest = std::min(lowest, position.y);
@@ -147,7 +145,7 @@ void blockLight(scene::Scene& scene) {
 Case causticsCase(const std::string& name, scene::Scene scene, bool quick,
                   std::function<Image()> closedForm = {}) {
     const double rays = double(scene.size.x) * scene.size.y;
-    return {.technique = std::string(kTechnique),
+    return {.technique = kName,
             .name = name,
             .scene = {[scene = std::move(scene)]() -> Result<scene::Scene> { return scene; }, rays},
             .settings = causticsSettings(quick),
@@ -161,7 +159,7 @@ Case causticsCase(const std::string& name, scene::Scene scene, bool quick,
 
 RatioRule misplaced(const std::string& scene, std::optional<double> target) {
     return [=](const BenchReport& report) -> std::optional<Ratio> {
-        const Measurement* m = measured(report, kTechnique, scene, setting("beam", "hybrid", 128));
+        const Measurement* m = measured(report, kName, scene, setting("beam", "hybrid", 128));
         if (!m) return std::nullopt;
         return Ratio{scene + ": share of the flux that is misplaced, beams of 128^2 rays",
                      m->error->flux->misplaced, target, false};
@@ -170,7 +168,7 @@ RatioRule misplaced(const std::string& scene, std::optional<double> target) {
 
 RatioRule encircled(const std::string& scene) {
     return [=](const BenchReport& report) -> std::optional<Ratio> {
-        const Measurement* m = measured(report, kTechnique, scene, setting("beam", "hybrid", 128));
+        const Measurement* m = measured(report, kName, scene, setting("beam", "hybrid", 128));
         if (!m) return std::nullopt;
         return Ratio{scene + ": largest error of the flux within a circle, beams of 128^2 rays",
                      m->error->flux->encircled,
@@ -186,8 +184,8 @@ double timeOf(const Measurement& m) { return m.ms->median; }
 RatioRule beamOverSplat(const std::string& what, const Setting& beams, double target,
                         double (*figure)(const Measurement&)) {
     return [=](const BenchReport& report) -> std::optional<Ratio> {
-        const Measurement* beam = measured(report, kTechnique, "ball", beams);
-        const Measurement* splat = measured(report, kTechnique, "ball", setting("splat", "hybrid", 128));
+        const Measurement* beam = measured(report, kName, "ball", beams);
+        const Measurement* splat = measured(report, kName, "ball", setting("splat", "hybrid", 128));
         if (!beam || !splat) return std::nullopt;
         return Ratio{"ball: " + what + " of " + beams.name() + " over that of splats",
                      figure(*beam) / figure(*splat), target, false};
@@ -197,8 +195,7 @@ RatioRule beamOverSplat(const std::string& what, const Setting& beams, double ta
 // --- books
 
 // What became of the light of a scene.
-Result<caustics::Energy> energyOf(gl::Context& context, const scene::Scene& scene,
-                                  const caustics::Settings& settings) {
+Result<Energy> energyOf(gl::Context& context, const scene::Scene& scene, const Settings& settings) {
     graph::TexturePool pool(context.device());
     views::ImageCache images(context);
     views::Waters waters(context);
@@ -206,33 +203,27 @@ Result<caustics::Energy> energyOf(gl::Context& context, const scene::Scene& scen
     const Result<views::DrawnMeshes> drawn = views::drawnMeshes(scene, images, true, &waters);
     if (!drawn) return drawn.error();
     const views::Eye eye = views::makeEye(scene, float(scene.size.x) / float(scene.size.y));
-    const caustics::Caustics technique(context);
-    const Result<caustics::Plan> plan = technique.plan(pool, scene, eye, *drawn, {}, settings);
+    const Caustics technique(context);
+    const Result<Plan> plan = technique.plan(pool, scene, eye, *drawn, {}, settings);
     if (!plan) return plan.error();
     return technique.measure(pool, scene, eye, *drawn, {}, *plan, settings);
 }
 
 double total(const dvec3& flux) { return flux.r + flux.g + flux.b; }
 
-double lostOrWrong(const caustics::Energy& energy) {
+double lostOrWrong(const Energy& energy) {
     return (total(energy.astray) + total(energy.missed)) / total(energy.met);
-}
-
-std::string formatted(const char* format, auto... values) {
-    char line[160];
-    std::snprintf(line, sizeof line, format, values...);
-    return line;
 }
 
 struct Subject {
     std::string name;
     scene::Scene scene;
-    caustics::Settings settings{};
+    Settings settings{};
 };
 
 // Of one scene: where its light stays.
 Status addBook(gl::Context& context, const Subject& subject, std::vector<Ratio>& ratios) {
-    const Result<caustics::Energy> energy = energyOf(context, subject.scene, subject.settings);
+    const Result<Energy> energy = energyOf(context, subject.scene, subject.settings);
     if (!energy) return energy.error();
     const double met = total(energy->met);
     const double others = total(energy->received) + total(energy->absorbed) + total(energy->reflected) +
@@ -250,9 +241,9 @@ Status addGrids(gl::Context& context, std::vector<Ratio>& ratios) {
     const scene::Scene scene = ballScene(128, 1.2f);
     double worstMet = 0, low = 1e30, high = 0;
     for (const int grid : {32, 64, 100, 128, 200, 316}) {
-        caustics::Settings settings;
+        Settings settings;
         settings.grid = grid;
-        const Result<caustics::Energy> energy = energyOf(context, scene, settings);
+        const Result<Energy> energy = energyOf(context, scene, settings);
         if (!energy) return energy.error();
         worstMet = std::max(worstMet, std::abs(energy->met.g / std::numbers::pi - 1)); // pi R² E
         low = std::min(low, energy->received.g);
@@ -265,30 +256,30 @@ Status addGrids(gl::Context& context, std::vector<Ratio>& ratios) {
 }
 
 struct Method {
-    caustics::Intersect intersect;
+    Intersect intersect;
     const char* name;
 };
-constexpr Method kMethods[] = {{caustics::Intersect::Hybrid, "hybrid"},
-                               {caustics::Intersect::FixedPoint, "fixed-point"},
-                               {caustics::Intersect::Newton, "newton"},
-                               {caustics::Intersect::Secant, "secant"}};
+constexpr Method kMethods[] = {{Intersect::Hybrid, "hybrid"},
+                               {Intersect::FixedPoint, "fixed-point"},
+                               {Intersect::Newton, "newton"},
+                               {Intersect::Secant, "secant"}};
 constexpr int kMostLooks = 64;
 
 // How many looks each method needs until no more than a hundredth of the light is lost or wrong.
 Status addConvergence(gl::Context& context, const Subject& subject, std::vector<Ratio>& ratios) {
     for (const auto& [intersect, name] : kMethods) {
-        caustics::Settings settings = subject.settings;
+        Settings settings = subject.settings;
         settings.intersect = intersect;
         double share = 1, looks = 0;
         for (settings.steps = 1; settings.steps <= kMostLooks; settings.steps *= 2) {
-            const Result<caustics::Energy> energy = energyOf(context, subject.scene, settings);
+            const Result<Energy> energy = energyOf(context, subject.scene, settings);
             if (!energy) return energy.error();
             share = lostOrWrong(*energy);
             looks = energy->looks;
             if (share <= 0.01) break;
         }
         const std::optional<double> target =
-            intersect == caustics::Intersect::Hybrid ? std::optional(0.01) : std::nullopt;
+            intersect == Intersect::Hybrid ? std::optional(0.01) : std::nullopt;
         const char* const format = "%s: light lost or wrong by %s within %d looks (%.1f on average)";
         ratios.push_back(
             {formatted(format, subject.name.c_str(), name, std::min(settings.steps, kMostLooks), looks),
@@ -297,67 +288,79 @@ Status addConvergence(gl::Context& context, const Subject& subject, std::vector<
     return Done{};
 }
 
-} // namespace
+// --- the part
 
-Result<truth::Picture> solveCaustics(const scene::Scene& scene, const truth::Tile& rows, int threads) {
-    constexpr std::int64_t kRaysOfAPixel = 800; // 0.7 % of noise in cells of 5 x 5 that all of them meet
-    const std::atomic<bool> never{false};
-    const std::int64_t pixels = std::int64_t(scene.size.x) * scene.size.y;
-    return truth::traceLight(scene, scene.size, {.photons = kRaysOfAPixel * pixels}, rows,
-                             {.threads = threads}, never);
+Result<std::vector<BenchMesh>> meshesOf(const BenchAssets& assets) {
+    return assets.meshes({"bunny", "dragon-40k"});
 }
 
-Plan causticsPlan(const std::vector<BenchMesh>& meshes, bool quick) {
-    Plan plan;
-    plan.quick = quick;
-    plan.repeats = quick ? Repeats{3, 9, 100} : Repeats{5, 31, 1000};
-    const int size = quick ? 128 : 192;
+Status addCaustics(measure::Plan& plan, const BenchAssets& assets) {
+    const auto meshes = meshesOf(assets);
+    if (!meshes) return meshes.error();
+    const int size = plan.quick ? 128 : 192;
+    std::vector<Case> cases;
     const auto ball = [&](const char* name, float below) {
-        plan.cases.push_back(causticsCase(name, ballScene(256, below), quick, [=] {
+        cases.push_back(causticsCase(name, ballScene(256, below), plan.quick, [=] {
             return lightOfBall(ivec2(256), kBallPicture, double(kBallIor), double(below));
         }));
     };
     ball("ball", 1.2f);
     ball("focus", kBallIor / (2 * (kBallIor - 1))); // the paraxial one
-    plan.cases.push_back(causticsCase("water", waterScene(128), quick, [] {
+    cases.push_back(causticsCase("water", waterScene(128), plan.quick, [] {
         return lightOfWater(ivec2(128), 1, double(kAmplitude), double(kWavelength), double(kWaterIor),
                             double(kWaterDepth));
     }));
-    plan.cases.push_back(causticsCase("ring", ringScene(size), quick));
-    for (const BenchMesh& mesh : meshes)
-        plan.cases.push_back(causticsCase(mesh.name, meshScene(mesh, size), quick));
-    for (const Case& one : plan.cases)
+    cases.push_back(causticsCase("ring", ringScene(size), plan.quick));
+    for (const BenchMesh& mesh : *meshes)
+        cases.push_back(causticsCase(mesh.name, meshScene(mesh, size), plan.quick));
+    for (const Case& one : cases) {
         plan.ratios.push_back(misplaced(one.name, one.name == "ball"    ? std::optional(0.005)
                                                   : one.name == "water" ? std::optional(0.01)
                                                                         : std::nullopt));
+        plan.cases.push_back(one);
+    }
     plan.ratios.push_back(encircled("focus"));
     for (const Setting& beams : {setting("beam", "hybrid", 128), coarseBeams(128)}) {
         plan.ratios.push_back(beamOverSplat("misplaced flux", beams, 0.25, misplacedBy));
         plan.ratios.push_back(beamOverSplat("time", beams, 1.2, timeOf));
     }
-    return plan;
+    return Done{};
 }
 
-Result<std::vector<Ratio>> proveCaustics(gl::Context& context, const std::vector<BenchMesh>& meshes,
-                                         bool quick, const Say& say) {
+// What pictures do not show: the flux that each scene's light brings, takes and loses, for several numbers of
+// rays; how many looks each method needs until all but a hundredth of the light is where it belongs; and what
+// goes astray where the fixed point swings.
+Result<Proof> proveCaustics(const BenchRun& run) {
+    const auto meshes = meshesOf(run.assets);
+    if (!meshes) return meshes.error();
     std::vector<Ratio> ratios;
-    const int size = quick ? 128 : 192;
+    const int size = run.quick ? 128 : 192;
     std::vector<Subject> subjects{
         {"ball", ballScene(size, 1.2f)}, {"water", waterScene(size)}, {"ring", ringScene(size)}};
-    for (const BenchMesh& mesh : meshes)
+    for (const BenchMesh& mesh : *meshes)
         subjects.push_back({mesh.name, meshScene(mesh, size)});
     for (const Subject& subject : subjects) {
-        say(subject.name + ": where its light stays");
-        if (Status s = addBook(context, subject, ratios); !s) return s.error();
+        run.say(subject.name + ": where its light stays");
+        if (Status s = addBook(run.context, subject, ratios); !s) return s.error();
     }
-    say("ball: several numbers of rays");
-    if (Status s = addGrids(context, ratios); !s) return s.error();
+    run.say("ball: several numbers of rays");
+    if (Status s = addGrids(run.context, ratios); !s) return s.error();
     for (const Subject& subject :
          {Subject{"ball", ballScene(size, 1.2f)}, Subject{"wall", wallScene(size)}}) {
-        say(subject.name + ": looks of each method");
-        if (Status s = addConvergence(context, subject, ratios); !s) return s.error();
+        run.say(subject.name + ": looks of each method");
+        if (Status s = addConvergence(run.context, subject, ratios); !s) return s.error();
     }
-    return ratios;
+    return Proof{ratios};
 }
 
-} // namespace lucent::measure
+constexpr BenchPart kParts[] = {{.name = "caustics",
+                                 .help = "light on a floor by way of glass, water and metal",
+                                 .plan = addCaustics,
+                                 .prove = proveCaustics}};
+
+} // namespace
+
+extern const TechniqueBench kBench;
+const TechniqueBench kBench{kParts};
+
+} // namespace lucent::caustics

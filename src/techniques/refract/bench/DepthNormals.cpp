@@ -1,4 +1,4 @@
-#include "measure/DepthNormals.h"
+#include "techniques/refract/bench/DepthNormals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace lucent::measure {
+namespace lucent::refract {
 
 namespace glsl {
 using glm::cross, glm::normalize, glm::vec3;
@@ -104,4 +104,4 @@ NormalErrors errorsOf(DepthNormals method, int size, int slices) {
     return {at(all, 0.5), at(all, 0.95), at(outline, 0.5)};
 }
 
-} // namespace lucent::measure
+} // namespace lucent::refract

@@ -1,26 +1,19 @@
-#include "measure/ReliefPlan.h"
+#include "techniques/relief/bench/Bench.h"
 
 #include "base/Pfm.h"
-#include "frame/Renderer.h"
 #include "scene/Load.h"
 #include "technique/Technique.h"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
-namespace lucent::measure {
+namespace lucent::relief {
 
 namespace {
 
+using namespace measure;
 using HeightAt = std::function<float(int, int)>;
-
-std::shared_ptr<const Image> heights(ivec2 size, const HeightAt& height) {
-    auto image = std::make_shared<Image>(size.x, size.y, 1);
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x)
-            *image->at(x, y) = height(x, y);
-    return image;
-}
 
 float waves(float u, float v) {
     return 0.5f + 0.22f * std::sin(19 * u + 3 * v) + 0.16f * std::sin(31 * v - 11 * u + 1) +
@@ -46,8 +39,8 @@ struct Field {
 
 MakeScene sceneOf(const Field& field, const scene::Light& light, ivec2 pixels) {
     return {[=]() -> Result<scene::Scene> {
-                scene::Scene scene =
-                    fieldScene({"field", heights(field.size, field.height), field.heightScale}, field.depth);
+                scene::Scene scene = fieldScene(
+                    {"field", heightsOf(field.size, field.height), field.heightScale}, field.depth);
                 scene.size = pixels;
                 scene.lights.push_back(light);
                 return scene;
@@ -70,7 +63,7 @@ Bytes bytesOf(const std::string& text) {
 // A scene file whose height map holds one bad number: the loader must name its place.
 MakeScene badTexel(float value) {
     return {[value] {
-        Image map = *heights({8, 8}, wavesOn(8));
+        Image map = *heightsOf({8, 8}, wavesOn(8));
         *map.at(5, 2) = value;
         const Bytes scene = bytesOf(R"({ "lucent": 1, "objects": [ { "name": "field",
             "shape": { "type": "heightfield", "heights": "heights.pfm" } } ] })");
@@ -93,7 +86,7 @@ HardCase terraces() {
 
 } // namespace
 
-std::vector<HardCase> reliefHardCases(bool quick) {
+std::vector<HardCase> hardCases(bool quick) {
     const HeightAt cliff = [](int x, int) { return x < 24 ? 1.0f : 0.0f; };
     const HeightAt spikes = [](int x, int y) { return x % 8 == 3 && y % 8 == 5 ? 1.0f : 0.0f; };
     const HeightAt steps = [](int x, int y) { return float((x * 7 + y * 3) % 11) / 11; };
@@ -131,4 +124,4 @@ std::vector<HardCase> reliefHardCases(bool quick) {
     return cases;
 }
 
-} // namespace lucent::measure
+} // namespace lucent::relief

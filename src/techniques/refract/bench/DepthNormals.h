@@ -3,7 +3,7 @@
 
 #include "base/Math.h"
 
-namespace lucent::measure {
+namespace lucent::refract {
 
 enum class DepthNormals : int { Neighbours, Delta1, Delta2 };
 
@@ -18,4 +18,4 @@ struct NormalErrors {
 /// @param slices  between the ball's nearest point and its outline; 0: depths are exact
 NormalErrors errorsOf(DepthNormals method, int size, int slices);
 
-} // namespace lucent::measure
+} // namespace lucent::refract

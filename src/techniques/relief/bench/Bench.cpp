@@ -1,19 +1,15 @@
-#include "measure/ReliefPlan.h"
+#include "techniques/relief/bench/Bench.h"
 
-#include "frame/Renderer.h"
 #include "scene/Environment.h"
-#include "technique/Technique.h"
-#include "techniques/relief/Relief.h"
-#include "truth/RenderRelief.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <random>
 
-namespace lucent::measure {
+namespace lucent::relief {
 
 namespace {
+
+using namespace measure;
 
 constexpr float kDepth = 0.03f;  // m, of a field 1 m wide
 constexpr int kManyLights = 256; // what a projection is measured against
@@ -225,102 +221,57 @@ RatioRule transferSpeed(const std::string& scene, bool isPromised) {
     };
 }
 
-void addRelief(Plan& plan, std::vector<BenchField> fields) {
-    fields.insert(fields.begin(), benchNoise(plan.quick ? 256 : 512));
-    for (const BenchField& field : fields) {
+Status addReliefs(Plan& plan, const BenchAssets& assets) {
+    Result<std::vector<BenchField>> fields = assets.fields({"elevation", "dragon"}, plan.quick ? 256 : 4096);
+    if (!fields) return fields.error();
+    fields->insert(fields->begin(), benchNoise(plan.quick ? 256 : 512));
+    for (const BenchField& field : *fields) {
         plan.cases.push_back(reliefCase(field, plan.quick));
         for (int steps : {64, 256, 1024})
             plan.ratios.push_back(againstMarch(field.name, steps));
     }
+    return Done{};
 }
 
-void addEnvironments(Plan& plan, const std::vector<BenchEnvironment>& given) {
+Status addEnvironments(Plan& plan, const BenchAssets& assets) {
     std::vector<BenchEnvironment> environments;
     for (const char* name : {"rainbow", "sky"})
         environments.push_back({name, std::make_shared<const Image>(scene::proceduralEnvironment(name))});
-    environments.insert(environments.end(), given.begin(), given.end());
+    const Result<std::vector<BenchEnvironment>> found = assets.environments({"sunset.hdr"});
+    if (!found) return found.error();
+    environments.insert(environments.end(), found->begin(), found->end());
     for (const BenchEnvironment& environment : environments) {
         plan.cases.push_back(
             environmentCase(environment, plan.quick ? 32 : 128, plan.directions, plan.quick));
         plan.ratios.push_back(transferError(environment.name));
         plan.ratios.push_back(transferSpeed(environment.name, !plan.quick));
     }
+    return Done{};
 }
+
+Status addScaling(Plan& plan, const BenchAssets&) {
+    const std::vector<Series> series = reliefSeries(plan.quick);
+    plan.series.insert(plan.series.end(), series.begin(), series.end());
+    plan.ratios.push_back(costOfATexel);
+    return Done{};
+}
+
+Status addHard(Plan& plan, const BenchAssets&) {
+    plan.hard.push_back({"relief", hardCases(plan.quick), kHardSettings});
+    return Done{};
+}
+
+constexpr BenchPart kParts[] = {
+    {"relief", "methods against each other under distant lights", true, addReliefs},
+    {"environment", "sums of light samples and projections under environments", true, addEnvironments},
+    {"scaling", "time over texels, pixels and lights", true, addScaling},
+    {"hard", "scenes on which methods tend to break", true, addHard},
+    {.name = "budget", .help = "proof of quality.maxError on reliefs: half an hour", .prove = proveBudget},
+};
 
 } // namespace
 
-scene::Scene fieldScene(const BenchField& field, float depth) {
-    scene::Scene scene;
-    scene::Object object;
-    object.name = field.name;
-    object.field().heights = field.heights;
-    object.field().heightScale = field.heightScale;
-    object.material.depth = depth;
-    scene.size = object.field().texels();
-    scene.camera.height = object.field().footprint().y;
-    scene.camera.eye.z = 2 + field.heightScale;
-    scene.view.show = scene::Aov::Illumination;
-    for (const ParamTable* table : technique::tables())
-        scene.technique.emplace(std::string(table->name), Settings(*table));
-    scene.objects.push_back(std::move(object));
-    return scene;
-}
+extern const TechniqueBench kBench;
+const TechniqueBench kBench{kParts};
 
-BenchField benchNoise(int size) {
-    struct Wave {
-        float x, y, phase, amplitude;
-    };
-    std::vector<Wave> waves;
-    std::mt19937 random(1); // the same numbers everywhere: only its raw output is used
-    const auto turn = [&] { return float(random() & 0xffff) / 65536.0f * 2 * kPi; };
-    for (int octave = 0; octave < 7; ++octave) {
-        for (int i = 0; i < 4; ++i) {
-            const float angle = turn(), frequency = 3.0f * float(1 << octave);
-            waves.push_back({frequency * std::cos(angle), frequency * std::sin(angle), turn(),
-                             0.06f / float(1 << octave)});
-        }
-    }
-    auto image = std::make_shared<Image>(size, size, 1);
-    for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) {
-            float height = 0.5f;
-            for (const Wave& wave : waves)
-                height += wave.amplitude *
-                          std::sin((wave.x * float(x) + wave.y * float(y)) / float(size) + wave.phase);
-            *image->at(x, y) = std::clamp(height, 0.0f, 1.0f);
-        }
-    }
-    return {"noise", std::move(image), 0.12f};
-}
-
-Result<truth::Picture> solveRelief(const scene::Scene& scene, int directions, const truth::Tile& rows,
-                                   int threads) {
-    if (Status known = truth::checkAov(scene.view.show); !known) return known.error();
-    const auto& settings = scene.technique.at("relief").as<relief::Settings>();
-    truth::ReliefOptions options;
-    options.attenuation = settings.attenuation == relief::Attenuation::Exponential
-                              ? truth::Attenuation::Exponential
-                              : truth::Attenuation::Ratio;
-    options.environmentLights = directions;
-    options.normalise = settings.normalise;
-    const truth::ReliefEstimator estimator(scene, scene.size, scene.view.show, options);
-    const std::atomic<bool> never{false};
-    return render(estimator, scene.size, rows, {.threads = threads}, never);
-}
-
-Plan reliefPlan(const ReliefParts& parts, const std::vector<BenchField>& fields,
-                const std::vector<BenchEnvironment>& environments, bool quick) {
-    Plan plan;
-    plan.quick = quick;
-    plan.repeats = quick ? Repeats{3, 15, 150} : Repeats{5, 31, 1000};
-    if (parts.relief) addRelief(plan, fields);
-    if (parts.environment) addEnvironments(plan, environments);
-    if (parts.scaling) {
-        plan.series = reliefSeries(quick);
-        plan.ratios.push_back(costOfATexel);
-    }
-    if (parts.hard) plan.hard.push_back({"relief", reliefHardCases(quick), kHardSettings});
-    return plan;
-}
-
-} // namespace lucent::measure
+} // namespace lucent::relief

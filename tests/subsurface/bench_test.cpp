@@ -1,44 +1,33 @@
-#include "measure/SubsurfacePlan.h"
+// The benchmark of subsurface scattering: its exact solutions, cases and promises.
 #include "measure/SubsurfaceTruth.h"
-#include "measure/Sweep.h"
-#include "scene/MaterialPresets.h"
-#include "scene/Mesh.h"
-#include "techniques/subsurface/Subsurface.h"
+#include "techniques/subsurface/bench/Bench.h"
+#include "tests/support/Bench.h"
 #include "tests/support/Gl.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-namespace lucent::measure {
+namespace lucent::subsurface {
 namespace {
 
-using SubsurfacePlanTest = support::GlTest;
-
-/// The plan's scene, small.
-scene::Scene sceneOf(const Case& one, int size) {
-    scene::Scene scene = *one.scene();
-    scene.size = ivec2(size);
-    return scene;
-}
+using namespace measure;
+using SubsurfaceBench = support::GlTest;
 
 TEST(SubsurfaceTruth, AHalfSpaceOfMarbleIsAsBrightAsTheClosedFormSays) {
-    scene::Material marble;
-    for (const scene::MaterialPreset& preset : scene::materialPresets())
-        if (preset.name == "marble") apply(preset, marble);
-    const dvec3 leaving = radiosityOfHalfSpace(marble);
+    scene::Material stone = marble();
+    const dvec3 leaving = radiosityOfHalfSpace(stone);
     // Jensen et al. 2001 with Egan and Hilgeman's factor, of light that has entered; 4 % are mirrored.
     EXPECT_NEAR(leaving.r / 0.96, 0.8302, 5e-5); // four digits
     EXPECT_NEAR(leaving.g / 0.96, 0.7910, 5e-5);
     EXPECT_NEAR(leaving.b / 0.96, 0.7526, 5e-5);
-    marble.anisotropy = 0.5f; // what counts is (1 - g) sigma_s
-    marble.scattering *= 2.0f;
-    EXPECT_NEAR(radiosityOfHalfSpace(marble).g, leaving.g, 1e-6);
+    stone.anisotropy = 0.5f; // what counts is (1 - g) sigma_s
+    stone.scattering *= 2.0f;
+    EXPECT_NEAR(radiosityOfHalfSpace(stone).g, leaving.g, 1e-6);
 }
 
 TEST(SubsurfaceTruth, ABallIsSolvedByAngleAsItIsPixelByPixel) {
-    const Plan plan = subsurfacePlan({}, {}, true);
-    const scene::Scene scene = sceneOf(plan.cases.front(), 8);
+    const scene::Scene scene = marbleBall(8);
     ASSERT_TRUE(litBallOf(scene).has_value());
     const auto byAngle = solveSubsurface(scene, {}, 1);
     ASSERT_TRUE(byAngle.ok()) << byAngle.error().message;
@@ -57,9 +46,8 @@ TEST(SubsurfaceTruth, ABallIsSolvedByAngleAsItIsPixelByPixel) {
     EXPECT_FALSE(litBallOf(two).has_value());
 }
 
-TEST(SubsurfacePlan, HasEveryBodyAndPromise) {
-    const auto sphere = std::make_shared<const scene::Mesh>(meshOf(scene::Sphere{1}, 8));
-    const Plan plan = subsurfacePlan({{"bunny", sphere}}, {}, false);
+TEST(Subsurface, HasEveryBodyAndPromise) {
+    const measure::Plan plan = support::planOf("subsurface", false, support::RoundBunny());
     std::set<std::string> names;
     for (const Case& one : plan.cases)
         names.insert(one.name);
@@ -81,20 +69,12 @@ TEST(SubsurfacePlan, HasEveryBodyAndPromise) {
     for (const Series& series : plan.series)
         report.scaling.push_back(
             {series.technique, series.name(), series.over, {{1, 1}, {2, 1.2}, {3, 1.3}}});
-    int missed = 0, promised = 0;
-    for (const RatioRule& rule : plan.ratios) {
-        const std::optional<Ratio> ratio = rule(report);
-        ASSERT_TRUE(ratio.has_value());
-        promised += ratio->target ? 1 : 0;
-        missed += ratio->met() ? 0 : 1;
-    }
-    EXPECT_EQ(promised,
+    EXPECT_EQ(support::countMissed(plan, report),
               5 + 3 + 1); // misplaced light on each body, speed on each ball, the growth of the splats' stage
-    EXPECT_EQ(missed, promised);
 }
 
-TEST_F(SubsurfacePlanTest, MeasuresABallAndTheStagesOfAMesh) {
-    Plan plan = subsurfacePlan({}, {}, true);
+TEST_F(SubsurfaceBench, MeasuresABallAndTheStagesOfAMesh) {
+    measure::Plan plan = support::planOf("subsurface", true);
     plan.repeats = {1, 1, 0};
     plan.cases.resize(1);
     plan.truthParts = 1;
@@ -108,16 +88,11 @@ TEST_F(SubsurfacePlanTest, MeasuresABallAndTheStagesOfAMesh) {
                setting.knobs.front() != std::pair<std::string, std::string>("epsilon", "0.01");
     });
     ASSERT_EQ(plan.cases[0].settings.size(), 2u);
-    plan.cases[0].scene.make = [scene = sceneOf(plan.cases[0], 32)]() -> Result<scene::Scene> {
-        return scene;
-    };
+    plan.cases[0].scene.make = [scene = marbleBall(32)]() -> Result<scene::Scene> { return scene; };
     std::erase_if(plan.series, [](const Series& series) { return series.over != "triangles"; });
     for (Series& series : plan.series)
         series.points.resize(1);
-    const auto solve = [](const scene::Scene& scene, int, const truth::Tile& rows) {
-        return solveSubsurface(scene, rows, 1);
-    };
-    const BenchReport report = sweep(*context, plan, solve, [](const std::string&) {});
+    const BenchReport report = sweep(*context, plan, support::solveHere, [](const std::string&) {});
     ASSERT_EQ(report.measurements.size(), 2u);
     for (const Measurement& m : report.measurements) {
         EXPECT_EQ(m.refused, "");
@@ -137,4 +112,4 @@ TEST_F(SubsurfacePlanTest, MeasuresABallAndTheStagesOfAMesh) {
 }
 
 } // namespace
-} // namespace lucent::measure
+} // namespace lucent::subsurface

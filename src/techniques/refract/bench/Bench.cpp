@@ -1,19 +1,16 @@
-#include "measure/RefractPlan.h"
+#include "techniques/refract/bench/Bench.h"
 
-#include "frame/Renderer.h"
-#include "measure/DepthNormals.h"
-#include "measure/MeshSeries.h"
 #include "scene/Environment.h"
 #include "technique/Technique.h"
-#include "truth/Glass.h"
+#include "techniques/refract/bench/DepthNormals.h"
 
-#include <algorithm>
-#include <atomic>
 #include <cassert>
 
-namespace lucent::measure {
+namespace lucent::refract {
 
 namespace {
+
+using namespace measure;
 
 constexpr float kIor = 1.5f;
 
@@ -70,20 +67,22 @@ scene::Scene emptyScene(int size) {
     scene.environment.emplace();
     scene.environment->source = "rainbow";
     scene.environment->map = std::make_shared<const Image>(scene::proceduralEnvironment("rainbow"));
-    for (const ParamTable* table : technique::tables())
-        scene.technique.emplace(std::string(table->name), Settings(*table));
+    technique::addSettings(scene);
     return scene;
+}
+
+void makeGlass(scene::Object& object, float ior) {
+    object.material.transmission = 1;
+    object.material.ior = ior;
 }
 
 void addGlass(scene::Scene& scene, const std::string& name, scene::Shape shape, float ior = kIor,
               vec3 rotate = vec3(0)) {
-    scene::Object object;
+    scene::Object& object = scene.objects.emplace_back();
     object.name = name;
     object.shape = std::move(shape);
-    object.material.transmission = 1;
-    object.material.ior = ior;
     object.transform.rotate = rotate;
-    scene.objects.push_back(std::move(object));
+    makeGlass(object, ior);
 }
 
 // Shapes whose exact surface is known. The inner ball of "nested" is of thinner glass than what is around it.
@@ -109,6 +108,13 @@ scene::Scene nestedScene(int size) {
     return scene;
 }
 
+scene::Scene glassScene(const BenchMesh& mesh, int size) {
+    scene::Scene scene = emptyScene(size);
+    scene.objects = {objectOf(mesh)};
+    makeGlass(scene.objects.front(), kIor);
+    return scene;
+}
+
 // --- what is timed
 
 void showColor(scene::Scene& scene) { scene.view.show = scene::Aov::Color; }
@@ -126,15 +132,10 @@ const Timed kTraceStage{showColor, showLayers};
 
 // The thesis's stages (its table 4.2): a picture that counts surfaces by what one stage leaves, less one that
 // counts them by what the stage before it leaves. Counting itself is a few looks at a texel.
-void choose(scene::Scene& scene, const Knobs& knobs) {
-    for (const auto& [knob, value] : knobs) {
-        [[maybe_unused]] const Status set = setParam(scene, "technique.refract." + knob, value);
-        assert(set);
-    }
-}
 std::function<void(scene::Scene&)> counting(const Setting& setting) {
     return [setting](scene::Scene& scene) {
-        choose(scene, setting.knobs);
+        [[maybe_unused]] const Status set = setting.putInto(scene, "refract");
+        assert(set);
         showLayers(scene);
     };
 }
@@ -239,46 +240,39 @@ void addNormals(Plan& plan) {
     }
 }
 
-} // namespace
-
-scene::Scene glassScene(const BenchMesh& mesh, int size) {
-    vec3 low(mesh.mesh->positions.front()), high(low);
-    for (const vec3& position : mesh.mesh->positions) {
-        low = glm::min(low, position);
-        high = glm::max(high, position);
-    }
-    const vec3 extent = high - low;
-    scene::Scene scene = emptyScene(size);
-    addGlass(scene, mesh.name, scene::MeshShape{.source = mesh.name, .part = {}, .mesh = mesh.mesh});
-    scene::Transform& transform = scene.objects[0].transform;
-    transform.scale = 2 / std::max({extent.x, extent.y, extent.z});
-    transform.translate = -transform.scale * 0.5f * (low + high);
-    return scene;
-}
-
-Result<truth::Picture> solveRefraction(const scene::Scene& scene, const truth::Tile& rows, int threads) {
-    const auto estimator = truth::GlassEstimator::create(scene, scene.size, scene.view.show, {});
-    if (!estimator) return estimator.error();
-    const std::atomic<bool> never{false};
-    return render(*estimator, scene.size, rows, {.threads = threads}, never);
-}
-
-Plan refractPlan(const std::vector<BenchMesh>& meshes, const std::vector<BenchMesh>& simpler, bool quick) {
-    Plan plan;
-    plan.quick = quick;
-    plan.repeats = quick ? Repeats{3, 15, 150} : Repeats{5, 31, 1000};
-    const int size = quick ? 128 : 256;
-    plan.cases = {refractCase("sphere", sphereScene(size)), refractCase("torus", torusScene(size)),
-                  refractCase("box", boxScene(size)), refractCase("nested", nestedScene(size))};
-    for (const BenchMesh& mesh : meshes)
-        plan.cases.push_back(refractCase(mesh.name, glassScene(mesh, size)));
-    for (const Case& one : plan.cases)
+Status addRefraction(Plan& plan, const BenchAssets& assets) {
+    const auto bunny = assets.meshes({"bunny"}), dragons = dragonsOf(assets);
+    if (!bunny) return bunny.error();
+    if (!dragons) return dragons.error();
+    const int size = plan.quick ? 128 : 256;
+    std::vector<Case> cases{refractCase("sphere", sphereScene(size)), refractCase("torus", torusScene(size)),
+                            refractCase("box", boxScene(size)), refractCase("nested", nestedScene(size))};
+    for (const BenchMesh& mesh : *bunny)
+        cases.push_back(refractCase(mesh.name, glassScene(mesh, size)));
+    for (const Case& one : cases) {
         addAngles(plan, one.name);
-    plan.series = refractSeries(simpler, quick);
+        plan.cases.push_back(one);
+    }
+    for (const Series& series : refractSeries(*dragons, plan.quick))
+        plan.series.push_back(series);
     plan.ratios.push_back(growth(kTraceName, 1.3));
     plan.ratios.push_back(growth(kLayersName, {}));
     addNormals(plan);
-    return plan;
+    return Done{};
 }
 
-} // namespace lucent::measure
+constexpr BenchPart kParts[] = {
+    {.name = "refraction",
+     .help = "directions behind glass, and their cost over triangles",
+     .plan = addRefraction},
+    {.name = "budget-glass",
+     .help = "proof of quality.maxError on light through glass",
+     .prove = proveBudget},
+};
+
+} // namespace
+
+extern const TechniqueBench kBench;
+const TechniqueBench kBench{kParts};
+
+} // namespace lucent::refract

@@ -1,8 +1,7 @@
 #pragma once
 /// Whether quality.maxError keeps what it promises, on scenes that nothing was fitted to.
 
-#include "gl/Context.h"
-#include "measure/ReliefPlan.h"
+#include "measure/TechniqueBench.h"
 
 #include <string>
 #include <vector>
@@ -18,8 +17,7 @@ struct BudgetResult {
     float wanted = 0;
     std::string chosen;   ///< settings, for people
     double predicted = 0; ///< RMSE over the mean, by the budget
-    double error = 0;     ///< and in truth: fields against 8192 directions and 1024 points a lamp, summed
-                          ///< exactly; glass against ray tracing
+    double error = 0;     ///< and in truth
     double ms = 0;        ///< the picture with the chosen settings
     double planMs = 0;    ///< choosing them
     double bestMs = 0;    ///< the quickest setting that keeps the error, of all; 0: none does
@@ -32,23 +30,32 @@ struct BudgetResult {
 struct BudgetReport {
     std::vector<BudgetResult> results;
     std::string what = "scenes"; ///< that were drawn
+
+    /// For each wanted error the share of scenes that kept it, and of those done within 1.5 times the best
+    /// time; with every result as lines and as JSON.
+    Proof proof() const;
+
+private:
     std::string text() const;
     std::string json() const;
-    /// For each wanted error the share of scenes that kept it, and of those done within 1.5 times the best
-    /// time.
     std::vector<Ratio> totals() const;
 };
 
 /// Root of the mean squared difference over the mean, on the pixels that show something in the exact picture.
 double relativeError(const Image& image, const Image& exact);
 
-/// Ten kinds of fields under six kinds of light. The sample size and the safety of frame::Budget were chosen
-/// on smooth noise under a sky and one light probe, which are not among them.
+/// Finds what the budget chooses on one scene for each wanted error.
 ///
-/// @param fields        beside synthetic ones
-/// @param environments  measured light probes
-/// @param side          of the pictures, in pixels
-Result<BudgetReport> proveBudget(gl::Context& context, const std::vector<BenchField>& fields,
-                                 const std::vector<BenchEnvironment>& environments, int side, const Say& say);
+/// @param prover  has budget(wanted), a Result<BudgetResult>
+template <class Prover>
+Status proveWantedErrors(Prover& prover, const std::string& scene, BudgetReport& report) {
+    for (const float wanted : kWantedErrors) {
+        Result<BudgetResult> result = prover.budget(wanted);
+        if (!result) return result.error();
+        result->scene = scene;
+        report.results.push_back(std::move(*result));
+    }
+    return Done{};
+}
 
 } // namespace lucent::measure
