@@ -2,6 +2,7 @@
 #include "techniques/caustics/Caustics.h"
 
 #include "techniques/caustics/Spectrum.h"
+#include "techniques/caustics/bench/FloorLight.h"
 #include "tests/caustics/Stage.h"
 
 #include <gtest/gtest.h>
@@ -14,39 +15,6 @@ namespace {
 
 using namespace stage;
 using stage::Caustics; // the fixture, not the technique
-
-// Of a floor `below` the centre of a ball of radius 1 that parallel light of irradiance 1 meets from above:
-// where the ring at distance b from the axis lands, and what is left of it.
-struct Landing {
-    double radius, kept;
-    Landing(double b, double n, double below) {
-        const double i = std::asin(b), t = std::asin(b / n);
-        radius = std::sin(2 * t - i) - std::tan(2 * (i - t)) * (below - std::cos(2 * t - i));
-        const double transmitted = 1 - test::fresnel(i, 1 / n);
-        kept = transmitted * transmitted;
-    }
-};
-
-// What that leaves on a floor seen from above, by rings and sectors of the beam.
-Image ballOnFloor(ivec2 size, double height, double n, double below) {
-    Image light(size.x, size.y, 4);
-    constexpr int kRings = 4000, kSectors = 1600;
-    for (int ring = 0; ring < kRings; ++ring) {
-        const double b = (ring + 0.5) / kRings;
-        const Landing landing(b, n, below);
-        if (2 * (std::asin(b) - std::asin(b / n)) > kTau / 4) continue; // sideways
-        const double pixel = height / size.y;
-        const double flux = landing.kept * kTau * b / kRings / kSectors / (pixel * pixel);
-        for (int sector = 0; sector < kSectors; ++sector) {
-            const double angle = kTau * (sector + 0.5) / kSectors;
-            const int x = int(std::floor(landing.radius * std::cos(angle) / pixel + 0.5 * size.x));
-            const int y = int(std::floor(landing.radius * std::sin(angle) / pixel + 0.5 * size.y));
-            if (x < 0 || y < 0 || x >= size.x || y >= size.y) continue;
-            light.at(x, y)[1] += float(flux);
-        }
-    }
-    return light;
-}
 
 // --- closed forms
 
@@ -108,7 +76,7 @@ TEST_F(Caustics, AGlassBallLightsTheFloorAsTheSumOverItsBranches) {
     const ivec2 size(256, 256);
     for (const double below : {1.2, 1.5}) {
         const scene::Scene scene = floorUnder(glass(scene::Sphere{1}, 1.5f, {0, float(below), 0}), 4);
-        const Image truth = ballOnFloor(size, 4, 1.5, below);
+        const Image truth = lightOfBall(size, 4, 1.5, below);
         const Shown shown = show(scene, size, {.mapSize = 1024});
         EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.005) << below;
         EXPECT_LT(misplaced(shown.light, truth), below == 1.5 ? 0.01 : 0.005) << below;
@@ -153,26 +121,12 @@ TEST_F(Caustics, ARingOfMetalDrawsACuspHalfAsFarFromItsAxis) {
 }
 
 TEST_F(Caustics, ASineOnWaterLightsTheFloorAsTheSumOverItsRoots) {
-    // h = a sin(k x), light from above: at x it turns by i - asin(sin(i) / n), with tan(i) = h', towards the
-    // crest.
     constexpr double kAmplitude = 0.015, kDepth = 0.6, kIor = 1.33;
-    constexpr double kWave = kTau / 0.25;
     scene::Water water{
         .size = {2, 2}, .cells = 640, .damping = 0, .amplitude = float(kAmplitude), .wavelength = 0.25f};
     scene::Scene scene = floorUnder(glass(water, float(kIor), {0, float(kDepth), 0}), 1);
     const Shown shown = show(scene, {128, 128}, {.grid = 256, .mapSize = 1024});
-    Image truth(128, 128, 4);
-    constexpr int kSamples = 400000;
-    for (int i = 0; i < kSamples; ++i) {
-        const double x = 2 * (i + 0.5) / kSamples - 1, slope = kAmplitude * kWave * std::cos(kWave * x);
-        const double incident = std::atan(slope), deviation = incident - std::asin(std::sin(incident) / kIor);
-        const double landing = x + std::tan(deviation) * (kDepth + kAmplitude * std::sin(kWave * x));
-        const int column = int(std::floor((landing + 0.5) * 128));
-        if (column < 0 || column >= 128) continue;
-        const double flux = (1 - test::fresnel(std::abs(incident), 1 / kIor)) * 2 * 128 / kSamples;
-        for (int y = 0; y < 128; ++y)
-            truth.at(column, y)[1] += float(flux);
-    }
+    const Image truth = lightOfWater({128, 128}, 1, kAmplitude, 0.25, kIor, kDepth);
     EXPECT_GT(*std::max_element(truth.pixels.begin(), truth.pixels.end()), 3); // it folds
     EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.005);
     EXPECT_LT(misplaced(shown.light, truth), 0.01); // measured 0.6 %
@@ -386,7 +340,7 @@ TEST_F(Caustics, WithoutBlendingOfFloatsAFocusLosesLessThanAPercentOfItsLight) {
     // is misplaced with 32 bits and 0.69 % with 16, which the capability panel tells.
     EXPECT_NEAR(sumOf(half) / sumOf(full), 1, 0.01);
     EXPECT_LT(misplaced(half, full), 0.005);
-    const Image truth = ballOnFloor({128, 128}, 4, 1.5, 1.2);
+    const Image truth = lightOfBall({128, 128}, 4, 1.5, 1.2);
     EXPECT_LT(misplaced(full, truth), 0.005);
     EXPECT_LT(misplaced(half, truth), 0.008);
 }
