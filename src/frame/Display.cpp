@@ -119,8 +119,7 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
     std::vector<std::string> defines;
     if (linear) defines.push_back("LINEAR");
     if (composed) defines.push_back("COMPOSED");
-    Result<const gl::Program*> program = context.program("frame/display", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context.program("frame/display", defines);
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
     DisplayBlock block = displayOf(scene, eye);
     if (linear) {
@@ -136,7 +135,7 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
         pass.sample(surfaceId);
         pass.sample(shownId);
         pass.write(target);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uSurface", resources[surfaceId]}, {"uSum", resources[shownId]}}});
@@ -157,8 +156,7 @@ void Renderer::State::takeTruth(const Beside& beside) {
 
 Status Renderer::State::recordBeside(graph::FrameGraph& graph, const scene::Scene& scene,
                                      const Beside& beside, const graph::Texture& linear) {
-    Result<const gl::Program*> program = context.program("frame/beside", {});
-    if (!program) return program.error();
+    const gl::Program* program = context.program("frame/beside", {});
     const auto import = [&](const graph::Texture& texture) {
         return graph.import(texture.handle(), texture.desc(), texture.label());
     };
@@ -183,7 +181,7 @@ Status Renderer::State::recordBeside(graph::FrameGraph& graph, const scene::Scen
         pass.sample(pictureId);
         pass.sample(truthId);
         pass.write(target);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uPicture", resources[pictureId]}, {"uTruth", resources[truthId]}}});

@@ -209,8 +209,7 @@ Status Renderer::State::recordRest(graph::FrameGraph& graph, const Picture& pict
 }
 
 Status Renderer::State::recordBackground(const Passes& passes, TextureId shownId, TextureId target) {
-    Result<const gl::Program*> program = context.program("frame/background");
-    if (!program) return program.error();
+    const gl::Program* program = context.program("frame/background");
     const scene::Environment& light = *passes.picture.scene.environment;
     const BackgroundBlock block{.view = views::viewBlock(passes.picture.eye, size),
                                 .mapFromWorld = mat4(glm::transpose(rotationFromDegrees(light.rotation))),
@@ -220,7 +219,7 @@ Status Renderer::State::recordBackground(const Passes& passes, TextureId shownId
         pass.sample(passes.surface);
         pass.sample(shownId);
         pass.write(target);
-        return [=, program = *program, surfaceId = passes.surface, map = passes.picture.environment](
+        return [=, surfaceId = passes.surface, map = passes.picture.environment](
                    const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = block,

@@ -95,6 +95,7 @@ Caps Caps::probe(std::span<const std::string_view> without) {
 #else
     caps.timerQuery = has("GL_EXT_disjoint_timer_query");
 #endif
+    caps.parallelCompile = has("GL_KHR_parallel_shader_compile");
     caps.software = caps.renderer.find("llvmpipe") != std::string::npos ||
                     caps.renderer.find("SwiftShader") != std::string::npos ||
                     caps.renderer.find("WebKit WebGL") != std::string::npos; // masked: assume nothing good
@@ -125,7 +126,8 @@ std::string Caps::json() const {
     return "{" + text("vendor", vendor) + text("renderer", renderer) + text("version", version) +
            flag("colorBufferFloat", colorBufferFloat) + flag("floatBlend", floatBlend) +
            flag("halfBlend", halfBlend) + flag("floatLinear", floatLinear) + flag("timerQuery", timerQuery) +
-           flag("software", software) + "\"fragmentBits\": " + std::to_string(fragmentBits) +
+           flag("parallelCompile", parallelCompile) + flag("software", software) +
+           "\"fragmentBits\": " + std::to_string(fragmentBits) +
            ", \"maxTextureSize\": " + std::to_string(maxTextureSize) +
            ", \"maxArrayLayers\": " + std::to_string(maxArrayLayers) +
            ", \"maxDrawBuffers\": " + std::to_string(maxDrawBuffers) +

@@ -22,6 +22,7 @@ struct Caps {
     bool floatBlend = false;       ///< EXT_float_blend: blend into 32-bit floats
     bool floatLinear = false;      ///< OES_texture_float_linear: filter 32-bit floats
     bool timerQuery = false;       ///< EXT_disjoint_timer_query
+    bool parallelCompile = false;  ///< KHR_parallel_shader_compile: tells without a wait what is compiled
     bool software = false;         ///< llvmpipe or SwiftShader: timer queries time submission only
 
     /// Asks the current context. On the web this also enables the extensions.

@@ -2,6 +2,8 @@
 
 #include "gl/Gl.h"
 
+#include <algorithm>
+
 #ifndef __EMSCRIPTEN__
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -145,14 +147,16 @@ Context::~Context() {
     device_.reset();
 }
 
-Result<const Program*> Context::program(const std::string& stem, const std::vector<std::string>& defines) {
+const Program* Context::program(const std::string& stem, const std::vector<std::string>& defines) {
     std::string key = stem;
     for (const std::string& define : defines)
         key += "|" + define;
-    if (const auto found = programs_.find(key); found != programs_.end()) return &found->second;
-    Result<Program> built = Program::build(stem, defines);
-    if (!built) return built.error();
-    return &programs_.emplace(key, std::move(*built)).first->second;
+    return &programs_.try_emplace(key, stem, defines).first->second;
+}
+
+bool Context::isCompiling() const {
+    return caps_.parallelCompile && std::any_of(programs_.begin(), programs_.end(),
+                                                [](const auto& one) { return one.second.isCompiling(); });
 }
 
 bool Context::asksGl() {

@@ -26,9 +26,12 @@ public:
     const Caps& caps() const { return caps_; }
     Device& device() { return *device_; }
 
-    /// The program of a shader stem ("relief/light") with feature switches ("USE_X", "STEPS 64"); compiled at
-    /// the first request, cached for the page. Error: the compiler's log against our files and lines.
-    Result<const Program*> program(const std::string& stem, const std::vector<std::string>& defines = {});
+    /// The program of a shader stem ("relief/light") with feature switches ("USE_X", "STEPS 64"); cached for
+    /// the page. The first request begins to compile it and does not wait, so that programs asked for before
+    /// the first of them draws are compiled beside each other; a draw tells what is wrong with its program.
+    const Program* program(const std::string& stem, const std::vector<std::string>& defines = {});
+    /// Whether a draw might have to wait for a program. Where the driver does not tell: false.
+    bool isCompiling() const;
 
     /// What the driver's debug output, GL's error flag and the device's own checks found:
     /// the first thing that went wrong on the GPU since the last call, "" when nothing did. In a browser the

@@ -127,6 +127,7 @@ public:
 
     void draw(const graph::Draw& draw) override {
         const auto& program = static_cast<const Program&>(*draw.program);
+        if (const Status& ready = program.ready(); !ready) return device_.fail(ready.error().message);
         glUseProgram(program.id());
         if (!bindBlock(program, draw.block) || !bindTextures(program, draw.textures) || !bindIndices(draw) ||
             !canBlend(draw.blend))

@@ -79,8 +79,8 @@ void ImGuiHost::clear(int width, int height) {
 }
 
 Status ImGuiHost::draw(const ImDrawData& data, ImFontAtlas& atlas, int width, int height) {
-    const Result<const Program*> program = context_.program("gl/imgui");
-    if (!program) return program.error();
+    const Program* program = context_.program("gl/imgui");
+    if (const Status& ready = program->ready(); !ready) return ready;
     glActiveTexture(GL_TEXTURE0);
     if (!vertexArray_) create(atlas);
 
@@ -92,7 +92,7 @@ Status ImGuiHost::draw(const ImDrawData& data, ImFontAtlas& atlas, int width, in
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    const GLuint id = (*program)->id();
+    const GLuint id = program->id();
     glUseProgram(id);
     glUniform2f(glGetUniformLocation(id, "uSize"), data.DisplaySize.x, data.DisplaySize.y);
     glBindTexture(GL_TEXTURE_2D, fontTexture_);

@@ -38,26 +38,25 @@ std::string infoLog(GLuint object, bool isShader) {
     return log;
 }
 
-Result<GLuint> compile(GLenum type, const shaders::Stage& stage, const std::vector<std::string>& defines) {
-    const std::string head = preamble(defines);
-    std::string source = head;
+GLuint compile(GLenum type, const shaders::Stage& stage, std::string source) {
     for (int i = 0; i < stage.pieceCount; ++i)
         source += stage.pieces[i]->source;
     const char* text = source.c_str();
     const GLuint shader = glCreateShader(type);
     glShaderSource(shader, 1, &text, nullptr);
     glCompileShader(shader);
-    GLint compiled = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-    if (compiled) return shader;
-    const std::string log = translateLog(infoLog(shader, true), stage.path, lineCount(head) + 1);
-    glDeleteShader(shader);
-    return Error{log.empty() ? std::string(stage.path) + ": does not compile; the driver says nothing" : log,
-                 Fault::Machine};
+    return shader;
 }
 
-const shaders::Stage* findStage(const std::string& stem, const char* ending) {
-    return shaders::find(stem + ending);
+const shaders::Stage& vertexStage(const std::string& stem) {
+    const shaders::Stage* own = shaders::find(stem + ".vert");
+    return own ? *own : *shaders::find("lib/screen.vert");
+}
+
+const shaders::Stage& fragmentStage(const std::string& stem) {
+    const shaders::Stage* stage = shaders::find(stem + ".frag");
+    assert(stage && "no such shader in shaders/");
+    return *stage;
 }
 
 // What a sampler of this type reads; 0: no sampler that we know.
@@ -73,10 +72,6 @@ GLenum textureTarget(GLenum type) {
         return 0;
     }
 }
-
-} // namespace
-
-namespace {
 
 // "relief/light.frag:12" for a line of a stage's source, counted from 0; "" behind its end.
 std::string placeOf(const shaders::Stage& stage, int line) {
@@ -115,47 +110,63 @@ std::string translateLog(const std::string& log, const std::string& stagePath, i
     return out;
 }
 
-Result<Program> Program::build(const std::string& stem, const std::vector<std::string>& defines) {
-    const shaders::Stage* vertexStage = findStage(stem, ".vert");
-    if (!vertexStage) vertexStage = findStage("lib/screen", ".vert");
-    const shaders::Stage* fragmentStage = findStage(stem, ".frag");
-    assert(vertexStage && fragmentStage && "no such shader in shaders/");
-    return link(stem, *vertexStage, *fragmentStage, defines);
-}
+Program::Program(const std::string& stem, const std::vector<std::string>& defines)
+    : Program(stem, vertexStage(stem), fragmentStage(stem), defines) {}
 
-Result<Program> Program::link(const std::string& name, const shaders::Stage& vertexStage,
-                              const shaders::Stage& fragmentStage, const std::vector<std::string>& defines) {
-    Result<GLuint> vertex = compile(GL_VERTEX_SHADER, vertexStage, defines);
-    if (!vertex) return vertex.error();
-    Result<GLuint> fragment = compile(GL_FRAGMENT_SHADER, fragmentStage, defines);
-    if (!fragment) {
-        glDeleteShader(*vertex);
-        return fragment.error();
-    }
-    Program program;
-    program.stem_ = name;
-    program.id_ = glCreateProgram();
-    glAttachShader(program.id_, *vertex);
-    glAttachShader(program.id_, *fragment);
-    glLinkProgram(program.id_);
-    glDeleteShader(*vertex);
-    glDeleteShader(*fragment);
-    GLint linked = 0;
-    glGetProgramiv(program.id_, GL_LINK_STATUS, &linked);
-    if (!linked) return Error{name + ": does not link: " + infoLog(program.id_, false), Fault::Machine};
-    program.bindSamplers();
-    return program;
+Program::Program(const std::string& name, const shaders::Stage& vertex, const shaders::Stage& fragment,
+                 const std::vector<std::string>& defines)
+    : name_(name), id_(glCreateProgram()) {
+    const std::string head = preamble(defines);
+    firstLine_ = lineCount(head) + 1;
+    stages_ = {{compile(GL_VERTEX_SHADER, vertex, head), vertex.path},
+               {compile(GL_FRAGMENT_SHADER, fragment, head), fragment.path}};
+    for (const CompiledStage& stage : stages_)
+        glAttachShader(id_, stage.id);
+    glLinkProgram(id_);
 }
-
-Program::Program(Program&& other) noexcept
-    : id_(std::exchange(other.id_, 0)), stem_(std::move(other.stem_)), samplers_(std::move(other.samplers_)),
-      checked_(other.checked_) {}
 
 Program::~Program() {
-    if (id_) glDeleteProgram(id_);
+    deleteStages();
+    glDeleteProgram(id_);
 }
 
-void Program::bindSamplers() {
+bool Program::isCompiling() const {
+    if (status_) return false;
+    constexpr GLenum kCompletionStatus = 0x91B1; // COMPLETION_STATUS_KHR
+    GLint complete = 0;
+    glGetProgramiv(id_, kCompletionStatus, &complete);
+    return !complete;
+}
+
+const Status& Program::ready() const {
+    if (status_) return *status_;
+    GLint linked = 0;
+    glGetProgramiv(id_, GL_LINK_STATUS, &linked);
+    status_ = linked ? Status(Done{}) : Error{log(), Fault::Machine};
+    deleteStages();
+    if (linked) bindSamplers();
+    return *status_;
+}
+
+// Why it does not link: most often because a stage does not compile.
+std::string Program::log() const {
+    for (const CompiledStage& stage : stages_) {
+        GLint compiled = 0;
+        glGetShaderiv(stage.id, GL_COMPILE_STATUS, &compiled);
+        if (compiled) continue;
+        const std::string text = translateLog(infoLog(stage.id, true), stage.path, firstLine_);
+        return text.empty() ? stage.path + ": does not compile; the driver says nothing" : text;
+    }
+    return name_ + ": does not link: " + infoLog(id_, false);
+}
+
+void Program::deleteStages() const {
+    for (const CompiledStage& stage : stages_)
+        glDeleteShader(stage.id);
+    stages_.clear();
+}
+
+void Program::bindSamplers() const {
     glUseProgram(id_);
     GLint count = 0;
     glGetProgramiv(id_, GL_ACTIVE_UNIFORMS, &count);
@@ -175,7 +186,7 @@ void Program::bindSamplers() {
 Status Program::checkBlock(const graph::BlockLayout& layout) const {
     if (checked_ == &layout) return Done{};
     const std::string blockName(layout.name);
-    const std::string where = stem_ + ": block " + blockName + ": ";
+    const std::string where = name_ + ": block " + blockName + ": ";
     const GLuint block = glGetUniformBlockIndex(id_, blockName.c_str());
     if (block == GL_INVALID_INDEX) return Error{where + "not in the shader", Fault::Machine};
     glUniformBlockBinding(id_, block, 0);

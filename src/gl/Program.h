@@ -1,9 +1,10 @@
 #pragma once
-/// A linked shader program: compile errors speak of our files and lines, blocks are checked against C++.
+/// A shader program: compiled without a wait, checked at first use; errors speak of our files and lines.
 
 #include "base/Result.h"
 #include "graph/Device.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,19 +16,22 @@ namespace lucent::gl {
 
 class Program : public graph::Program {
 public:
-    /// Compiles and links STEM.vert (or lib/screen.vert when there is none: one triangle over the target) and
-    /// STEM.frag with `defines` ("NAME" or "NAME VALUE").
+    /// Begins to compile and link STEM.vert (or lib/screen.vert when there is none: one triangle over the
+    /// target) and STEM.frag with `defines` ("NAME" or "NAME VALUE").
+    Program(const std::string& stem, const std::vector<std::string>& defines);
+    /// The same from two stages; `name` stands before messages about both.
+    Program(const std::string& name, const shaders::Stage& vertex, const shaders::Stage& fragment,
+            const std::vector<std::string>& defines);
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+    ~Program() override;
+
+    /// Whether ready() would wait; only where there is Caps::parallelCompile.
+    bool isCompiling() const;
+    /// Waits until the program is linked; the members below hold after that.
     ///
     /// @return Error (Fault::Machine): every line of the log as "relief/light.frag:12: message"
-    static Result<Program> build(const std::string& stem, const std::vector<std::string>& defines);
-
-    /// The same from two stages; `name` stands before messages about both.
-    static Result<Program> link(const std::string& name, const shaders::Stage& vertex,
-                                const shaders::Stage& fragment, const std::vector<std::string>& defines);
-
-    Program(Program&& other) noexcept;
-    Program& operator=(Program&&) = delete;
-    ~Program() override;
+    const Status& ready() const;
 
     unsigned id() const { return id_; }
     struct Sampler {
@@ -43,11 +47,19 @@ public:
     Status checkBlock(const graph::BlockLayout& layout) const;
 
 private:
-    Program() = default;
-    void bindSamplers();
-    unsigned id_ = 0;
-    std::string stem_;
-    std::vector<Sampler> samplers_;
+    struct CompiledStage {
+        unsigned id;
+        std::string path;
+    };
+    std::string log() const;
+    void bindSamplers() const;
+    void deleteStages() const;
+    std::string name_;
+    int firstLine_; // of our own source, below the preamble
+    unsigned id_;
+    mutable std::vector<CompiledStage> stages_; // until ready()
+    mutable std::optional<Status> status_;
+    mutable std::vector<Sampler> samplers_;
     mutable const graph::BlockLayout* checked_ = nullptr;
 };
 

@@ -9,10 +9,10 @@ using graph::TextureId;
 
 namespace {
 
-constexpr int kMostSamples = 64;     // no draw should hold a desktop up
-constexpr int kSamplesPerTexel = 4;  // one a channel
-constexpr int kPartShare = 2;        // a lamp's view has as many times the texels a side of one of its samples,
-constexpr int kDirectionShare = 4;   // and of a direction of an environment
+constexpr int kMostSamples = 64;    // no draw should hold a desktop up
+constexpr int kSamplesPerTexel = 4; // one a channel
+constexpr int kPartShare = 2;      // a lamp's view has as many times the texels a side of one of its samples,
+constexpr int kDirectionShare = 4; // and of a direction of an environment
 constexpr int kLeastShadowSize = 16; // texels a side
 
 struct OcclusionBlock {
@@ -101,16 +101,14 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
     const int columns = std::clamp(context.caps().maxTextureSize / in.size.x, 1, std::max(1, copies));
     Occlusion occlusion{{}, columns};
     for (const Group& group : groupsOf(in)) {
-        Result<const gl::Program*> program =
-            context.program("light/occlusion", group.field ? std::vector<std::string>{"OF_FIELD"}
-                                                           : std::vector<std::string>{});
-        if (!program) return program.error();
+        const gl::Program* program =
+            context.program("light/occlusion",
+                            group.field ? std::vector<std::string>{"OF_FIELD"} : std::vector<std::string>{});
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const LampPoint& sample = samples[i];
             const std::vector<PosedMesh>& meshes = sample.isEnvironment ? in.opaque : all;
-            const ShadowViews views =
-                shadowViews(sample.source, boundsOfAll(meshes, group.casters), group.bounds,
-                            shadowSizeFor(sample, in.shadowSize));
+            const ShadowViews views = shadowViews(sample.source, boundsOfAll(meshes, group.casters),
+                                                  group.bounds, shadowSizeFor(sample, in.shadowSize));
             if (views.faces.empty()) continue;
             Result<TextureId> shadow =
                 recordShadow(graph, context, views, meshes, group.bounds, group.casters);
@@ -128,8 +126,7 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
                 pass.sample(*shadow);
                 pass.write(occlusion.texture);
                 if (isFirst) pass.clear(occlusion.texture, vec4(0));
-                return [=, surface = in.surface, shadow = *shadow, program = *program,
-                        region = ivec4(corner, in.size),
+                return [=, surface = in.surface, shadow = *shadow, region = ivec4(corner, in.size),
                         block = blockOf(in, group, sample, views, corner, int(i) % kSamplesPerTexel)](
                            const graph::Resources& resources, graph::Commands& commands) {
                     commands.draw(

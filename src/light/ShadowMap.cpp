@@ -187,14 +187,11 @@ Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& con
                      Fault::Machine};
     std::vector<std::string> defines;
     if (first) defines.push_back("BEHIND");
-    Result<const gl::Program*> program = context.program("views/shadow", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/shadow", defines);
     const gl::Program* ofFields = nullptr;
     if (!fields.empty()) {
         defines.push_back("AS_SHADOW");
-        Result<const gl::Program*> found = context.program("views/surface", defines);
-        if (!found) return found.error();
-        ofFields = *found;
+        ofFields = context.program("views/surface", defines);
     }
     std::vector<Bounds> bounds;
     for (const PosedMesh& caster : casters)
@@ -212,7 +209,7 @@ Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& con
         depths = pass.createColor("views.shadow", {.size = imageSize, .format = graph::Format::R32F});
         pass.clear(depths, vec4(kNothing));
         pass.clear(pass.createDepth("views.shadowDepth", imageSize, graph::Format::Depth32F), 1.0f);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> before;
             if (first) before.push_back({"uFirst", resources[first]});
             for (std::size_t face = 0; face < views.faces.size(); ++face) {

@@ -51,10 +51,10 @@ double rampAt(int column) { return double(65536 + 257 * column) / 65536; }
 // Draws one question of measure/probe.frag; false when the device cannot.
 bool ask(gl::Context& context, const char* question, TextureHandle target, const ProbeBlock& block,
          TextureHandle source = TextureHandle::None, bool add = false) {
-    const Result<const gl::Program*> program = context.program("measure/probe", {question});
+    const gl::Program* program = context.program("measure/probe", {question});
     if (!program) return false;
     graph::Draw draw;
-    draw.program = *program;
+    draw.program = program;
     draw.blend = add ? graph::Blend::Add : graph::Blend::None;
     draw.block = block;
     if (source != TextureHandle::None) draw.textures.push_back({"uSource", source});

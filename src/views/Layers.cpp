@@ -68,9 +68,8 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye
                   const std::vector<PosedMesh>& meshes, ivec2 size, const Layers& layers, int layer,
                   TextureId& done, graph::Query* query) {
     const bool first = layer == 0;
-    Result<const gl::Program*> program = context.program(
-        "views/peel", first ? std::vector<std::string>{"PEEL_FIRST"} : std::vector<std::string>{});
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/peel", first ? std::vector<std::string>{"PEEL_FIRST"}
+                                                                     : std::vector<std::string>{});
     const TextureId before = done, images = layers.images;
     graph.addPass("views.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("surface " + std::to_string(layer + 1) + " of the refractive objects behind each pixel");
@@ -85,7 +84,7 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye
         const TextureId depth = first ? layers.depth : graph.create(kDepthLabel, depthDesc(size, first));
         pass.write(depth);
         pass.clear(depth, 1.0f);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             for (std::size_t i = 0; i < meshes.size(); ++i) {
                 graph::Draw draw{.depthTest = graph::DepthTest::Less};
                 if (first) draw.stencil = graph::Stencil::Count;
@@ -100,16 +99,14 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye
 // Asks whether any pixel has more surfaces than are drawn: the first layer's pass counted them.
 Status recordBehind(graph::FrameGraph& graph, gl::Context& context, const Layers& layers,
                     graph::Query& query) {
-    Result<const gl::Program*> program = context.program("views/behind");
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/behind");
     graph.addPass("views.behind", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("whether surfaces lie behind the last one that is drawn");
         pass.write(layers.depth);
         pass.query(query);
-        return
-            [program = *program, count = layers.count](const graph::Resources&, graph::Commands& commands) {
-                commands.draw({.program = program, .stencil = graph::Stencil::More, .counted = count});
-            };
+        return [program, count = layers.count](const graph::Resources&, graph::Commands& commands) {
+            commands.draw({.program = program, .stencil = graph::Stencil::More, .counted = count});
+        };
     });
     return Done{};
 }
@@ -118,9 +115,8 @@ Status recordBehind(graph::FrameGraph& graph, gl::Context& context, const Layers
 // for what is opaque.
 Result<TextureId> recordRanges(graph::FrameGraph& graph, gl::Context& context, const ViewBlock& view,
                                const Layers& layers, TextureId solid, ivec2 size, int first) {
-    Result<const gl::Program*> program = context.program(
+    const gl::Program* program = context.program(
         "views/ranges", first < 0 ? std::vector<std::string>{"WITH_SOLID"} : std::vector<std::string>{});
-    if (!program) return program.error();
     TextureId ranges;
     graph.addPass("views.ranges", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("depth ranges of " +
@@ -129,8 +125,8 @@ Result<TextureId> recordRanges(graph::FrameGraph& graph, gl::Context& context, c
         pass.sample(layers.images);
         if (first < 0) pass.sample(solid);
         ranges = pass.createColor("views.ranges", {.size = (size + 3) / 4, .format = Format::RGBA32F});
-        return [=, program = *program, images = layers.images,
-                count = layers.count](const graph::Resources& resources, graph::Commands& commands) {
+        return [=, images = layers.images, count = layers.count](const graph::Resources& resources,
+                                                                 graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uLayers", resources[images]}};
             if (first < 0) textures.push_back({"uSolid", resources[solid]});
             commands.draw({.program = program,
@@ -144,14 +140,13 @@ Result<TextureId> recordRanges(graph::FrameGraph& graph, gl::Context& context, c
 // One pair of surfaces in blocks of all sizes.
 Status recordBlocks(graph::FrameGraph& graph, gl::Context& context, TextureId ranges, ivec2 rangesSize,
                     TextureId blocks, int pair) {
-    Result<const gl::Program*> program = context.program("views/blocks");
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/blocks");
     graph.addPass("views.blocks", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("the same of larger blocks");
         pass.sample(ranges);
         pass.write(blocks, pair);
         pass.clear(blocks, kEmptyRanges);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             ivec2 size = rangesSize;
             for (int level = 0, side = 1, row = 0; level < kBlockLevels; ++level, side *= 4) {
                 commands.draw({.program = program,
@@ -216,8 +211,7 @@ void importKept(graph::FrameGraph& graph, gl::Context& context, KeptLayers& kept
 
 Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
                         const std::vector<DrawnMesh>& meshes, float time, ivec2 size) {
-    Result<const gl::Program*> program = context.program("views/count");
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/count");
     const graph::Texture counts(context.device(), {.size = size, .format = Format::RGBA16F}, "views.counts");
     graph::FrameGraph graph;
     const TextureId target = graph.import(counts.handle(), counts.desc(), counts.label());
@@ -229,8 +223,7 @@ Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Ey
         samplePosed(pass, *posed);
         pass.write(target);
         pass.clear(target, vec4(0));
-        return [=, program = *program, meshes = *posed](const graph::Resources& resources,
-                                                        graph::Commands& commands) {
+        return [=, meshes = *posed](const graph::Resources& resources, graph::Commands& commands) {
             for (std::size_t i = 0; i < meshes.size(); ++i)
                 drawMesh(commands, *program, resources, meshes[i], eye, size, int(i),
                          {.blend = graph::Blend::Add});

@@ -49,8 +49,7 @@ Result<graph::TextureId> recordPaint(graph::FrameGraph& graph, gl::Context& cont
     if (part == Part::Entering) defines.push_back("ENTERING");
     if (part == Part::EnteringMap) defines.push_back("ENTERING_MAP");
     const bool leaves = part == Part::Leaving;
-    Result<const gl::Program*> program = context.program("views/paint", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/paint", defines);
     graph::TextureId target;
     graph.addPass("views.paint", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(
@@ -65,7 +64,7 @@ Result<graph::TextureId> recordPaint(graph::FrameGraph& graph, gl::Context& cont
                                   {.size = size, .format = Format::RGBA32F});
         pass.clear(target, vec4(1));
         pass.clear(pass.createDepth("views.depth", size), 1.0f);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             for (const PosedMesh& mesh : meshes) {
                 const Paint& paint = *mesh.drawn.paint;
                 graph::Draw draw{.depthTest = graph::DepthTest::Less};

@@ -141,8 +141,7 @@ Result<VertexImages> recordMotion(graph::FrameGraph& graph, gl::Context& context
     if (rig && rig->hasTargets()) add("TARGETS", "morph targets");
     if (rig && rig->hasJoints()) add("JOINTS", "joints");
     if (wave) add("WAVE", "a wave");
-    Result<const gl::Program*> program = context.program("views/pose", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/pose", defines);
     std::vector<graph::Binding> bindings = rig ? rig->bindings() : std::vector<graph::Binding>{};
     const PoseBlock block = wave ? blockOf(*wave, time) : PoseBlock{};
     VertexImages moved;
@@ -152,7 +151,7 @@ Result<VertexImages> recordMotion(graph::FrameGraph& graph, gl::Context& context
         pass.sample(rest.normals);
         moved = {pass.createColor("views.posedPositions", desc),
                  pass.createColor("views.posedNormals", desc)};
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{.program = program, .textures = bindings};
             if (wave) draw.block = block;
             draw.textures.push_back({"uPositions", resources[rest.positions]});
@@ -165,15 +164,14 @@ Result<VertexImages> recordMotion(graph::FrameGraph& graph, gl::Context& context
 
 Result<VertexImages> recordFlat(graph::FrameGraph& graph, gl::Context& context, const VertexImages& moved,
                                 const graph::TextureDesc& desc, const std::string& name) {
-    Result<const gl::Program*> program = context.program("views/pose_flat");
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/pose_flat");
     VertexImages flat = moved;
     graph.addPass("views.poseFlat", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("object \"" + name + "\" moves and has the normals of its triangles");
         pass.sample(moved.positions);
         pass.sample(moved.normals);
         flat.normals = pass.createColor("views.flatNormals", desc);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .textures = {{"uPositions", resources[moved.positions]},
                                         {"uNormals", resources[moved.normals]}}});

@@ -131,17 +131,8 @@ void drawField(graph::Commands& commands, const gl::Program& program, const Draw
 Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
                      const std::vector<DrawnObject>& fields, const std::vector<PosedMesh>& solids,
                      graph::TextureId target, ivec2 size) {
-    const gl::Program *ofFields = nullptr, *ofSolids = nullptr;
-    const auto find = [&](const char* stem, const gl::Program*& program) -> Status {
-        Result<const gl::Program*> found = context.program(stem);
-        if (!found) return found.error();
-        program = *found;
-        return Done{};
-    };
-    if (!fields.empty())
-        if (Status s = find("views/surface", ofFields); !s) return s;
-    if (!solids.empty())
-        if (Status s = find("views/solid", ofSolids); !s) return s;
+    const gl::Program* ofFields = fields.empty() ? nullptr : context.program("views/surface");
+    const gl::Program* ofSolids = solids.empty() ? nullptr : context.program("views/solid");
     graph.addPass("views.surface", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("the first point of " + std::to_string(fields.size() + solids.size()) +
                     " visible object(s) that each pixel meets");
@@ -172,17 +163,14 @@ Status recordQuantity(graph::FrameGraph& graph, gl::Context& context, const Eye&
                       const std::vector<DrawnObject>& fields, const std::vector<PosedMesh>& solids,
                       graph::TextureId surface, graph::TextureId target, ivec2 size, const char* quantity,
                       const std::string& reason) {
-    Result<const gl::Program*> ofFields = context.program("views/geometry", {quantity});
-    if (!ofFields) return ofFields.error();
-    Result<const gl::Program*> ofSolids = context.program("views/geometry", {quantity, "OF_MESHES"});
-    if (!ofSolids) return ofSolids.error();
+    const gl::Program* ofFields = context.program("views/geometry", {quantity});
+    const gl::Program* ofSolids = context.program("views/geometry", {quantity, "OF_MESHES"});
     graph.addPass("views.geometry", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(reason);
         pass.sample(surface);
         pass.write(target);
         pass.clear(target, vec4(0));
-        return [=, ofFields = *ofFields, ofSolids = *ofSolids](const graph::Resources& resources,
-                                                               graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             for (const DrawnObject& drawn : fields) {
                 const GeometryBlock block{.worldFromObject = drawn.object->transform.worldFromObject(),
                                           .eye = vec4(eye.position, 1),

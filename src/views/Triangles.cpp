@@ -184,8 +184,7 @@ Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vect
         return Done{};
     };
     if (kept && kept->current) return tell();
-    Result<const gl::Program*> program = context.program("views/triangles");
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/triangles");
     graph.addPass("views.triangles", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("triangles of the refractive objects, which rays meet in the end");
         if (kept) {
@@ -203,7 +202,7 @@ Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vect
             pass.sample(mesh.positions);
             pass.sample(mesh.normals);
         }
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             for (const PosedMesh& mesh : meshes) {
                 const TriangleTextures* triangles = mesh.drawn.mesh->triangles();
                 if (!triangles) continue;

@@ -102,7 +102,7 @@ public:
                 .extreme = {},
                 .deepest = {}};
     }
-    Result<const gl::Program*> program(const char* stem, const std::vector<std::string>& defines) {
+    const gl::Program* program(const char* stem, const std::vector<std::string>& defines) {
         return context_.program(stem, defines);
     }
 
@@ -134,25 +134,22 @@ Result<TextureId> Recorder::extreme(const VoxelSettings& settings) {
         if (Status s = extremeByDepthTest(extreme, 1, "ONLY_FARTHEST"); !s) return s.error();
         return extreme;
     }
-    Result<const gl::Program*> program = context_.program("views/voxel_bounds");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("views/voxel_bounds");
     graph_.addPass("views.voxelBounds", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("first and last surface of the refractive objects in each pixel");
         samplePosed(pass, meshes_);
         pass.write(extreme, 0);
         pass.write(extreme, 1);
         pass.clear(extreme, vec4(kNoDepth));
-        return
-            [self = *this, program = *program](const graph::Resources& resources, graph::Commands& commands) {
-                self.drawAll(resources, commands, *program, {.blend = graph::Blend::Max});
-            };
+        return [self = *this, program](const graph::Resources& resources, graph::Commands& commands) {
+            self.drawAll(resources, commands, *program, {.blend = graph::Blend::Max});
+        };
     });
     return extreme;
 }
 
 Status Recorder::extremeByDepthTest(TextureId extreme, int layer, const char* define) {
-    Result<const gl::Program*> program = context_.program("views/voxel_bounds", {define});
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("views/voxel_bounds", {define});
     graph_.addPass("views.voxelBounds", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(layer == 0 ? "first surface of the refractive objects in each pixel"
                                : "last surface of the refractive objects in each pixel");
@@ -160,10 +157,9 @@ Status Recorder::extremeByDepthTest(TextureId extreme, int layer, const char* de
         pass.write(extreme, layer);
         pass.clear(extreme, vec4(kNoDepth));
         pass.clear(pass.createDepth("views.voxelDepth", size_, Format::Depth32F), 1.0f);
-        return
-            [self = *this, program = *program](const graph::Resources& resources, graph::Commands& commands) {
-                self.drawAll(resources, commands, *program, {.depthTest = graph::DepthTest::LessEqual});
-            };
+        return [self = *this, program](const graph::Resources& resources, graph::Commands& commands) {
+            self.drawAll(resources, commands, *program, {.depthTest = graph::DepthTest::LessEqual});
+        };
     });
     return Done{};
 }
@@ -181,8 +177,7 @@ Result<TextureId> Recorder::slices(const VoxelSettings& settings, TextureId extr
         std::vector<std::string> defines = sliceDefines(settings);
         defines.push_back(number("FIRST", first));
         defines.push_back(number("TARGETS", count));
-        Result<const gl::Program*> program = context_.program("views/voxel_slice", defines);
-        if (!program) return program.error();
+        const gl::Program* program = context_.program("views/voxel_slice", defines);
         graph_.addPass("views.voxels", [&](graph::PassBuilder& pass) -> graph::Execute {
             pass.reason("surfaces as bits in " + std::to_string(settings.slices) +
                         " slices of depth, images " + std::to_string(first + 1) + " to " +
@@ -192,8 +187,8 @@ Result<TextureId> Recorder::slices(const VoxelSettings& settings, TextureId extr
             for (int i = 0; i < count; ++i)
                 pass.write(images, first + i);
             pass.clear(images, vec4(0));
-            return [self = *this, program = *program, extreme,
-                    local = settings.local](const graph::Resources& resources, graph::Commands& commands) {
+            return [self = *this, program, extreme, local = settings.local](const graph::Resources& resources,
+                                                                            graph::Commands& commands) {
                 graph::Draw draw{.blend = graph::Blend::Add};
                 if (local) draw.textures.push_back({"uBounds", resources[extreme]});
                 self.drawAll(resources, commands, *program, draw);
@@ -214,15 +209,14 @@ Result<TextureId> Recorder::peel(const DepthLayers& bits) {
         std::vector<std::string> defines = sliceDefines(bits.voxels);
         defines.push_back(number("FIRST", first));
         defines.push_back(number("TARGETS", count));
-        Result<const gl::Program*> program = context_.program("views/voxel_peel", defines);
-        if (!program) return program.error();
+        const gl::Program* program = context_.program("views/voxel_peel", defines);
         graph_.addPass("views.voxelPeel", [&](graph::PassBuilder& pass) -> graph::Execute {
             pass.reason("depths of " + std::to_string(bits.count) + " surfaces from their bits");
             sampleDepths(pass, bits);
             for (int i = 0; i < count; ++i)
                 pass.write(depths, first + i);
-            return [bits, program = *program, block = block(bits.count)](const graph::Resources& resources,
-                                                                         graph::Commands& commands) {
+            return [bits, program, block = block(bits.count)](const graph::Resources& resources,
+                                                              graph::Commands& commands) {
                 commands.draw(
                     {.program = program, .block = block, .textures = depthBindings(resources, bits)});
             };
@@ -241,9 +235,8 @@ Status Recorder::deepest(DepthLayers& depths) {
     TextureId fine;
     do {
         const ivec2 blocks = (size + 3) / 4;
-        Result<const gl::Program*> program = context_.program(
+        const gl::Program* program = context_.program(
             "views/deepest", fine ? std::vector<std::string>{"FROM_FINE"} : depthDefines(depths));
-        if (!program) return program.error();
         VoxelBlock values = block(depths.count);
         values.size = size;
         values.blocks = blocks;
@@ -255,8 +248,8 @@ Status Recorder::deepest(DepthLayers& depths) {
                 sampleDepths(pass, depths);
             depths.deepest =
                 pass.createColor("views.deepest", {.size = atlas * blocks, .format = Format::RGBA32F});
-            return [depths, fine, values, program = *program](const graph::Resources& resources,
-                                                              graph::Commands& commands) {
+            return [depths, fine, values, program](const graph::Resources& resources,
+                                                   graph::Commands& commands) {
                 std::vector<graph::Binding> textures{{"uFine", graph::TextureHandle::None}};
                 if (fine)
                     textures[0].texture = resources[fine];
@@ -329,14 +322,12 @@ Result<VoxelCount> countVoxels(graph::TexturePool& pool, gl::Context& context, c
     bits.onTheFly = true;
     Result<DepthLayers> depths = recordVoxels(graph, context, eye, *posed, size, kMostLayers, bits);
     if (!depths) return depths.error();
-    Result<const gl::Program*> program = context.program("views/voxel_count", sliceDefines(settings));
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/voxel_count", sliceDefines(settings));
     graph.addPass("views.voxelCount", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how many surfaces share a slice");
         sampleDepths(pass, *depths);
         pass.write(target);
-        return [depths = *depths, program = *program](const graph::Resources& resources,
-                                                      graph::Commands& commands) {
+        return [depths = *depths, program](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program, .textures = depthBindings(resources, depths)});
         };
     });

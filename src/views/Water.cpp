@@ -78,13 +78,9 @@ Result<std::unique_ptr<WaterSheet>> WaterSheet::create(gl::Context& context, con
                          " along a side",
                      Fault::Machine};
     std::unique_ptr<WaterSheet> sheet(new WaterSheet(context, water));
-    for (const auto& [program, name] : {std::pair{&sheet->start_, "views/water_start"},
-                                        {&sheet->step_, "views/water_step"},
-                                        {&sheet->drop_, "views/water_drop"}}) {
-        Result<const gl::Program*> made = context.program(name);
-        if (!made) return made.error();
-        *program = *made;
-    }
+    sheet->start_ = context.program("views/water_start");
+    sheet->step_ = context.program("views/water_step");
+    sheet->drop_ = context.program("views/water_drop");
     sheet->begin();
     return sheet;
 }
@@ -239,8 +235,7 @@ std::size_t Waters::bytes() const {
 
 Result<VertexImages> recordWater(graph::FrameGraph& graph, gl::Context& context, const WaterSheet& sheet,
                                  const std::string& name) {
-    Result<const gl::Program*> program = context.program("views/water");
-    if (!program) return program.error();
+    const gl::Program* program = context.program("views/water");
     const graph::TextureId state =
         graph.import(sheet.state().handle(), sheet.state().desc(), sheet.state().label());
     const graph::Block block = sheet.block();
@@ -250,7 +245,7 @@ Result<VertexImages> recordWater(graph::FrameGraph& graph, gl::Context& context,
         pass.sample(state);
         images = {pass.createColor("views.waterPositions", sheet.imageDesc()),
                   pass.createColor("views.waterNormals", sheet.imageDesc())};
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program, .block = block, .textures = {{"uState", resources[state]}}});
         };
     });

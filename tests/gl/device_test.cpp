@@ -48,10 +48,9 @@ struct DeviceTest : support::GlTest {
         const shaders::Piece vertexPiece{"test.vert", 1, vertex.c_str()};
         const shaders::Piece fragmentPiece{"test.frag", 1, fragment.c_str()};
         const shaders::Piece *const ofVertex = &vertexPiece, *const ofFragment = &fragmentPiece;
-        Result<Program> linked =
-            Program::link("test", {"test.vert", &ofVertex, 1}, {"test.frag", &ofFragment, 1}, {});
-        EXPECT_TRUE(linked.ok()) << (linked.ok() ? "" : linked.error().message);
-        programs.push_back(std::make_unique<Program>(std::move(*linked)));
+        programs.push_back(std::make_unique<Program>("test", shaders::Stage{"test.vert", &ofVertex, 1},
+                                                     shaders::Stage{"test.frag", &ofFragment, 1},
+                                                     std::vector<std::string>{}));
         return programs.back().get();
     }
     Texture texture(const TextureDesc& desc, const std::string& label = "test") {

@@ -105,8 +105,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
     if (occlusion) defines.push_back("USE_OCCLUSION");
     if (flux) defines.push_back("USE_FLUX");
     if (in.show == scene::Aov::Irradiance) defines.push_back("SHOW_IRRADIANCE");
-    Result<const gl::Program*> program = context_.program("brdf/light", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("brdf/light", defines);
     std::vector<graph::Block> blocks;
     for (int first = 0; first < int(in.scene.objects.size()); first += MattBlock::kObjects)
         blocks.push_back(mattBlock(in, first));
@@ -119,7 +118,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
             if (id) pass.sample(id);
         pass.write(target);
         if (in.clears) pass.clear(target, vec4(0));
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
                                                  {"uLights", resources[table]}};
             if (occlusion) textures.push_back({"uOcclusion", resources[occlusion]});
@@ -135,9 +134,8 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
 Status Brdf::recordMirrors(graph::FrameGraph& graph, const MirrorInputs& in) const {
     if (in.mirrors.empty()) return Done{};
     const bool hasSky = in.environment != graph::TextureHandle::None;
-    Result<const gl::Program*> program = context_.program(
-        "brdf/mirror", hasSky ? std::vector<std::string>{"USE_SKY"} : std::vector<std::string>{});
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("brdf/mirror", hasSky ? std::vector<std::string>{"USE_SKY"}
+                                                                        : std::vector<std::string>{});
     std::vector<graph::Block> blocks;
     for (const views::PosedMesh& mesh : in.mirrors)
         blocks.push_back(mirrorBlock(in, mesh));
@@ -145,8 +143,8 @@ Status Brdf::recordMirrors(graph::FrameGraph& graph, const MirrorInputs& in) con
         pass.reason(std::to_string(in.mirrors.size()) + " mirror(s); they show the environment only");
         pass.sample(in.surface);
         pass.write(in.target);
-        return [=, surface = in.surface, environment = in.environment,
-                program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=, surface = in.surface, environment = in.environment](const graph::Resources& resources,
+                                                                       graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
             if (hasSky) textures.push_back({"uEnvironment", environment});
             for (const graph::Block& block : blocks)

@@ -115,15 +115,14 @@ Result<bool> liesBehind(graph::TexturePool& pool, gl::Context& context, views::S
     const graph::Texture both(context.device(), desc, "caustics.both");
     const graph::TextureId target = graph.import(both.handle(), desc, both.label());
     graph.keep(target);
-    Result<const gl::Program*> program = context.program("caustics/both");
-    if (!program) return program.error();
+    const gl::Program* program = context.program("caustics/both");
     graph.addPass("caustics.both", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("whether receivers lie behind others");
         pass.sample(*depths);
         pass.sample(*behind);
         pass.write(target);
-        return [program = *program, depths = *depths, behind = *behind](const graph::Resources& resources,
-                                                                        graph::Commands& commands) {
+        return [program, depths = *depths, behind = *behind](const graph::Resources& resources,
+                                                             graph::Commands& commands) {
             commands.draw({.program = program,
                            .textures = {{"uShadow", resources[depths]}, {"uBehind", resources[behind]}}});
         };

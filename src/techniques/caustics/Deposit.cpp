@@ -48,8 +48,7 @@ Status LightPasses::spread(Sheet& sheet) {
         defines.push_back("OF_RESTS");
         samples.push_back({"uGridLanding", sheet.grid.landing});
     }
-    Result<const gl::Program*> spreading = programOnMap("caustics/spread", std::move(defines));
-    if (!spreading) return spreading.error();
+    const gl::Program* spreading = programOnMap("caustics/spread", std::move(defines));
     graph_.addPass("caustics.spread", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("over what rays spread their light where no beam carries it");
         for (const auto& [name, texture] : samples)
@@ -60,9 +59,8 @@ Status LightPasses::spread(Sheet& sheet) {
         pass.clear(sheet.sides, vec4(0));
         pass.clear(sheet.shares, vec4(0));
         const float widest = std::min(context_.caps().maxPointSize, kWidestFootprint);
-        return [=, draw = drawOf(Part::Rests), program = *spreading,
-                block = depositBlock(sheet.rest, widest)](const graph::Resources& resources,
-                                                          graph::Commands& commands) {
+        return [=, draw = drawOf(Part::Rests), program = spreading, block = depositBlock(sheet.rest, widest)](
+                   const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw filled = draw;
             filled.program = program;
             filled.block = block;
@@ -86,9 +84,7 @@ LightPasses::Range LightPasses::allOf(const Sheet& sheet) { return {0, areaOf(sh
 
 Status LightPasses::addKind(const char* stem, std::vector<std::string> defines, Kind kind,
                             std::vector<Kind>& kinds) {
-    Result<const gl::Program*> found = programOnMap(stem, std::move(defines));
-    if (!found) return found.error();
-    kind.program = *found;
+    kind.program = programOnMap(stem, std::move(defines));
     kinds.push_back(std::move(kind));
     return Done{};
 }
@@ -190,8 +186,7 @@ Status LightPasses::lookUp(TextureId& sum) {
     if (in_.solid) defines.push_back("FROM_SOLID");
     const char* const name = in_.solid ? "uSolid" : "uSurface";
     const TextureId pixels = in_.solid ? in_.solid : in_.surface;
-    Result<const gl::Program*> looking = programOnMap("caustics/lookup", defines);
-    if (!looking) return looking.error();
+    const gl::Program* looking = programOnMap("caustics/lookup", defines);
     const TextureId before = sum;
     graph_.addPass("caustics.lookup", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("irradiance that one point of a light throws on each pixel by way of glass");
@@ -205,7 +200,7 @@ Status LightPasses::lookUp(TextureId& sum) {
                                 .faces = Faces(mapViews()),
                                 .faceCount = int(mapViews().faces.size()),
                                 .unit = unit()};
-        return [=, program = *looking, map = map_, depths = mapDepths_,
+        return [=, program = looking, map = map_, depths = mapDepths_,
                 behind = mapBehind_](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{
                 {name, resources[pixels]}, {"uMap", resources[map]}, {"uShadow", resources[depths]}};

@@ -6,8 +6,7 @@ using graph::Format;
 using graph::TextureId;
 
 Status LightPasses::drawLines(TextureId& sum) {
-    Result<const gl::Program*> drawing = program("caustics/line");
-    if (!drawing) return drawing.error();
+    const gl::Program* drawing = program("caustics/line");
     const views::Bounds box = boxOfReceivers();
     TextureId flux;
     graph_.addPass("caustics.lines", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -20,7 +19,7 @@ Status LightPasses::drawLines(TextureId& sum) {
         }
         flux = pass.createColor("caustics.linesFlux", {.size = in_.size, .format = sumFormat()});
         pass.clear(flux, vec4(0));
-        return [=, program = *drawing, sheets = sheets_, surface = in_.surface, unit = unit(),
+        return [=, program = drawing, sheets = sheets_, surface = in_.surface, unit = unit(),
                 view = views::viewBlock(in_.eye, in_.size)](const graph::Resources& resources,
                                                             graph::Commands& commands) {
             for (const Sheet& sheet : sheets) {
@@ -42,9 +41,8 @@ Status LightPasses::drawLines(TextureId& sum) {
 }
 
 Status LightPasses::gather(TextureId flux, TextureId& sum) {
-    Result<const gl::Program*> gathering =
+    const gl::Program* gathering =
         program("caustics/gather", sum ? std::vector<std::string>{"USE_BEFORE"} : std::vector<std::string>{});
-    if (!gathering) return gathering.error();
     const TextureId before = sum;
     graph_.addPass("caustics.gather", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("irradiance by the rays that met what the pixels around show");
@@ -52,7 +50,7 @@ Status LightPasses::gather(TextureId flux, TextureId& sum) {
         pass.sample(flux);
         if (before) pass.sample(before);
         sum = pass.createColor("caustics.irradiance", {.size = in_.size, .format = Format::RGBA32F});
-        return [=, program = *gathering, surface = in_.surface,
+        return [=, program = gathering, surface = in_.surface,
                 block = GatherBlock{views::viewBlock(in_.eye, in_.size), unit()}](
                    const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uSurface", resources[surface]},

@@ -94,8 +94,7 @@ Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views:
                           TextureId solid, const Start& start) {
     std::vector<std::string> defines = start.defines();
     if (solid) defines.push_back("USE_SOLID");
-    Result<const gl::Program*> traced = program("caustics/photon", defines);
-    if (!traced) return traced.error();
+    const gl::Program* traced = program("caustics/photon", defines);
     graph_.addPass("caustics.photon", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(start.book       ? "where their light stays"
                     : start.isRest() ? "rays of one point of a light where no beam carries it"
@@ -108,7 +107,7 @@ Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views:
             pass.write(target);
             if (start.isRest()) pass.clear(target, vec4(0));
         }
-        return [=, draw = drawOf(start.part), program = *traced, block = photonBlock(view, tint)](
+        return [=, draw = drawOf(start.part), program = traced, block = photonBlock(view, tint)](
                    const graph::Resources& resources, graph::Commands& commands) {
             auto textures = views::layerBindings(resources, layers);
             if (solid) textures.push_back({"uSolid", resources[solid]});
@@ -142,8 +141,7 @@ Result<TextureId> LightPasses::surfaceOf(const views::Eye& eye) {
 }
 
 Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Start& start) {
-    Result<const gl::Program*> reflecting = program("caustics/mirror", start.defines());
-    if (!reflecting) return reflecting.error();
+    const gl::Program* reflecting = program("caustics/mirror", start.defines());
     graph_.addPass("caustics.mirror", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(start.book       ? "where their light stays"
                     : start.isRest() ? "rays of one point of a light where no beam carries it"
@@ -155,7 +153,7 @@ Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Sta
             pass.write(target);
             if (start.isRest()) pass.clear(target, vec4(0));
         }
-        return [=, draw = drawOf(start.part), program = *reflecting,
+        return [=, draw = drawOf(start.part), program = reflecting,
                 block = mirrorBlock(view)](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
             for (const auto& [name, texture] : start.samples())
@@ -233,8 +231,7 @@ Status LightPasses::land(Photons& photons, Part part, const Cells& cells) {
     if (behind_) defines.push_back("USE_BEHIND");
     if (isRest(part)) defines.push_back("PACKED");
     if (light_.receivers.faces.size() == 1) defines.push_back("ONE_VIEW");
-    Result<const gl::Program*> landing = program("caustics/land", defines);
-    if (!landing) return landing.error();
+    const gl::Program* landing = program("caustics/land", defines);
     const views::Bounds box = boxOfReceivers();
     photons.landing = targets_.make("caustics.landing", {.size = photons.count, .format = Format::RGBA32F});
     const TextureId effort =
@@ -258,7 +255,7 @@ Status LightPasses::land(Photons& photons, Part part, const Cells& cells) {
                               .high = vec4(box.high, 0),
                               .faceCount = int(light_.receivers.faces.size()),
                               .steps = settings_.steps};
-        return [=, draw = drawOf(part), program = *landing, depths = depths_, behind = behind_,
+        return [=, draw = drawOf(part), program = landing, depths = depths_, behind = behind_,
                 back = back_](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uPlace", resources[photons.place]},
                                                  {"uDirection", resources[photons.direction]},
@@ -276,9 +273,8 @@ Status LightPasses::land(Photons& photons, Part part, const Cells& cells) {
 
 // @param cell  width of a ray's: m, or of a point's light m for each metre from it
 Result<TextureId> LightPasses::beamsOf(const Photons& photons, float cell) {
-    Result<const gl::Program*> choosing = programOnMap(
+    const gl::Program* choosing = programOnMap(
         "caustics/beams", refines() ? std::vector<std::string>{"REFINE"} : std::vector<std::string>{});
-    if (!choosing) return choosing.error();
     TextureId beams;
     graph_.addPass("caustics.beams", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("which triangles between rays carry the light between them");
@@ -287,8 +283,8 @@ Result<TextureId> LightPasses::beamsOf(const Photons& photons, float cell) {
         pass.sample(photons.landing);
         beams = pass.createColor("caustics.beams", {.size = photons.count, .format = Format::RGBA32F});
         const DepositBlock block = depositBlock(photons, cell);
-        return [photons, block, program = *choosing](const graph::Resources& resources,
-                                                     graph::Commands& commands) {
+        return [photons, block, program = choosing](const graph::Resources& resources,
+                                                    graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uPlace", resources[photons.place]},
@@ -302,15 +298,14 @@ Result<TextureId> LightPasses::beamsOf(const Photons& photons, float cell) {
 // What is known of the cells of a grid of rays.
 Result<TextureId> LightPasses::recordCells(const char* stem, const char* reason, const TextureDesc& desc,
                                            const Samples& samples) {
-    Result<const gl::Program*> found = program(stem);
-    if (!found) return found.error();
+    const gl::Program* found = program(stem);
     TextureId cells;
     graph_.addPass("caustics.cells", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(reason);
         for (const auto& [name, texture] : samples)
             pass.sample(texture);
         cells = pass.createColor("caustics.cells", desc);
-        return [=, program = *found](const graph::Resources& resources, graph::Commands& commands) {
+        return [=, program = found](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{.program = program};
             for (const auto& [name, texture] : samples)
                 draw.textures.push_back({name, resources[texture]});
@@ -351,9 +346,8 @@ Status LightPasses::weigh(Sheet& sheet) {
 
 // @param sharpen  what was found before
 Status LightPasses::weighOnce(Sheet& sheet, bool sharpen) {
-    Result<const gl::Program*> weighing = program(
-        "caustics/density", sharpen ? std::vector<std::string>{"SHARPEN"} : std::vector<std::string>{});
-    if (!weighing) return weighing.error();
+    const gl::Program* weighing = program("caustics/density", sharpen ? std::vector<std::string>{"SHARPEN"}
+                                                                      : std::vector<std::string>{});
     const TextureId before = sheet.density;
     graph_.addPass("caustics.density", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how densely the triangles around each ray light what they fall on");
@@ -364,7 +358,7 @@ Status LightPasses::weighOnce(Sheet& sheet, bool sharpen) {
         sheet.density = pass.createColor("caustics.density", desc);
         if (!sharpen) sheet.points = pass.createColor("caustics.points", desc);
         return [=, beams = sheet.cells.beams, flux = sheet.grid.flux, block = depositBlock(sheet.grid, 0),
-                program = *weighing](const graph::Resources& resources, graph::Commands& commands) {
+                program = weighing](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{.program = program,
                              .block = block,
                              .textures = {{"uBeams", resources[beams]}, {"uFlux", resources[flux]}}};
@@ -377,8 +371,7 @@ Status LightPasses::weighOnce(Sheet& sheet, bool sharpen) {
 
 // Depths at which what the light sees ends, where it is solid.
 Status LightPasses::recordBack() {
-    Result<const gl::Program*> drawing = program("views/shadow", {"BEHIND", "BACK"});
-    if (!drawing) return drawing.error();
+    const gl::Program* drawing = program("views/shadow", {"BEHIND", "BACK"});
     graph_.addPass("caustics.back", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how thick what the light sees is, past which it may come");
         for (const views::PosedMesh& mesh : receivers_) {
@@ -390,7 +383,7 @@ Status LightPasses::recordBack() {
         back_ = pass.createColor("caustics.back", {.size = size, .format = Format::R32F});
         pass.clear(back_, vec4(1e30f));
         pass.clear(pass.createDepth("caustics.backDepth", size, Format::Depth32F), 1.0f);
-        return [program = *drawing, views = light_.receivers, meshes = receivers_,
+        return [program = drawing, views = light_.receivers, meshes = receivers_,
                 first = depths_](const graph::Resources& resources, graph::Commands& commands) {
             for (int face = 0; face < int(views.faces.size()); ++face)
                 for (const views::PosedMesh& mesh : meshes)
@@ -408,8 +401,7 @@ Status LightPasses::recordBack() {
 Status LightPasses::recordRound() {
     std::vector<std::string> defines{"PARABOLOIDS"};
     if (behind_) defines.push_back("USE_BEHIND");
-    Result<const gl::Program*> rounding = program("caustics/round", defines);
-    if (!rounding) return rounding.error();
+    const gl::Program* rounding = program("caustics/round", defines);
     graph_.addPass("caustics.round", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how far what the light sees lies behind each texel of the map's paraboloids");
         Samples samples{{"uShadow", depths_}};
@@ -422,8 +414,8 @@ Status LightPasses::recordRound() {
         RoundBlock block{
             .faces = Faces(light_.receivers), .halves = {}, .faceCount = int(light_.receivers.faces.size())};
         std::copy_n(Faces(light_.halves).list, 2, block.halves);
-        return [=, program = *rounding, samples = std::move(samples)](const graph::Resources& resources,
-                                                                      graph::Commands& commands) {
+        return [=, program = rounding, samples = std::move(samples)](const graph::Resources& resources,
+                                                                     graph::Commands& commands) {
             std::vector<graph::Binding> textures;
             for (const auto& [name, texture] : samples)
                 textures.push_back({name, resources[texture]});

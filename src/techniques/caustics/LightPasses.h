@@ -112,7 +112,7 @@ private:
     };
     using Trace = std::function<Status(const Start&)>;
 
-    Result<const gl::Program*> program(const char* stem, std::vector<std::string> defines = {}) {
+    const gl::Program* program(const char* stem, std::vector<std::string> defines = {}) {
         return context_.program(stem, defines);
     }
     ivec2 viewSize() const { return viewSizeOf(settings_.grid); }
@@ -156,7 +156,7 @@ private:
     }
     ivec2 mapSize() const { return mapViews().imageSize() * ivec2(1, light_.hasBehind ? 2 : 1); }
     // Of a program that knows where the map's texels lie.
-    Result<const gl::Program*> programOnMap(const char* stem, std::vector<std::string> defines = {}) {
+    const gl::Program* programOnMap(const char* stem, std::vector<std::string> defines = {}) {
         if (!light_.halves.faces.empty()) defines.push_back("PARABOLOIDS");
         if (mapViews().faces.size() == 1) defines.push_back("ONE_VIEW");
         return program(stem, std::move(defines));

@@ -24,8 +24,7 @@ struct MapBlock {
 
 Status recordMapView(graph::FrameGraph& graph, gl::Context& context, const Map& map, graph::TextureId target,
                      ivec2 size) {
-    Result<const gl::Program*> program = context.program("caustics/map_view");
-    if (!program) return program.error();
+    const gl::Program* program = context.program("caustics/map_view");
     const vec2 room(size), all(map.size);
     const float texels = std::max(all.x / room.x, all.y / room.y);
     const MapBlock block{(room - all / texels) / 2.0f, texels};
@@ -34,8 +33,8 @@ Status recordMapView(graph::FrameGraph& graph, gl::Context& context, const Map& 
         pass.sample(map.flux);
         pass.sample(map.depths);
         pass.write(target);
-        return [=, program = *program, flux = map.flux,
-                depths = map.depths](const graph::Resources& resources, graph::Commands& commands) {
+        return [=, flux = map.flux, depths = map.depths](const graph::Resources& resources,
+                                                         graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uMap", resources[flux]}, {"uShadow", resources[depths]}}});

@@ -64,8 +64,7 @@ Status LightPasses::beginOnWater(const Tint& tint, ivec2 rays, TextureId shadow,
     std::vector<std::string> defines;
     if (shadow) defines.push_back("USE_SHADOW");
     if (book) defines.push_back("WITH_BOOK");
-    Result<const gl::Program*> beginning = program("caustics/water", defines);
-    if (!beginning) return beginning.error();
+    const gl::Program* beginning = program("caustics/water", defines);
     graph_.addPass("caustics.water", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(book ? "where their light stays" : "rays of one point of a light from the water on");
         const views::PosedMesh& mesh = in_.glass.front();
@@ -74,7 +73,7 @@ Status LightPasses::beginOnWater(const Tint& tint, ivec2 rays, TextureId shadow,
         if (shadow) pass.sample(shadow);
         for (const TextureId target : targets)
             pass.write(target);
-        return [=, program = *beginning, block = waterBlock(tint, rays), positions = mesh.positions,
+        return [=, program = beginning, block = waterBlock(tint, rays), positions = mesh.positions,
                 normals = mesh.normals](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uPositions", resources[positions]},
                                                  {"uNormals", resources[normals]}};
@@ -86,9 +85,8 @@ Status LightPasses::beginOnWater(const Tint& tint, ivec2 rays, TextureId shadow,
 }
 
 Status LightPasses::soak(const Photons& photons, TextureId before, TextureId met, TextureId target) {
-    Result<const gl::Program*> soaking =
+    const gl::Program* soaking =
         program("caustics/soak", met ? std::vector<std::string>{"WITH_BOOK"} : std::vector<std::string>{});
-    if (!soaking) return soaking.error();
     graph_.addPass("caustics.soak", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("what the water leaves of their light until they land");
         pass.sample(photons.place);
@@ -97,8 +95,8 @@ Status LightPasses::soak(const Photons& photons, TextureId before, TextureId met
         if (met) pass.sample(met);
         pass.write(target);
         const views::GlassBlock glass = views::glassBlock(objectOf(in_.glass.front()).material);
-        return [=, program = *soaking, block = SoakBlock{glass.absorption}](const graph::Resources& resources,
-                                                                            graph::Commands& commands) {
+        return [=, program = soaking, block = SoakBlock{glass.absorption}](const graph::Resources& resources,
+                                                                           graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uPlace", resources[photons.place]},
                                                  {"uLanding", resources[photons.landing]},
                                                  {"uFlux", resources[before]}};
@@ -111,8 +109,7 @@ Status LightPasses::soak(const Photons& photons, TextureId before, TextureId met
 
 // The light of triangles that are no beams goes with the rays at their corners.
 Status LightPasses::leaveAlone(Sheet& sheet) {
-    Result<const gl::Program*> leaving = program("caustics/alone");
-    if (!leaving) return leaving.error();
+    const gl::Program* leaving = program("caustics/alone");
     sheet.rest.count = sheet.grid.count;
     const Samples samples{{"uFlux", sheet.grid.flux},
                           {"uLanding", sheet.grid.landing},
@@ -127,8 +124,8 @@ Status LightPasses::leaveAlone(Sheet& sheet) {
         sheet.rest.landing = pass.createColor("caustics.aloneLanding", desc);
         pass.clear(sheet.rest.flux, vec4(0));
         pass.clear(sheet.rest.landing, vec4(0));
-        return [=, draw = drawOf(Part::Rests), program = *leaving](const graph::Resources& resources,
-                                                                   graph::Commands& commands) {
+        return [=, draw = drawOf(Part::Rests), program = leaving](const graph::Resources& resources,
+                                                                  graph::Commands& commands) {
             graph::Draw filled = draw;
             filled.program = program;
             for (const auto& [name, texture] : samples)

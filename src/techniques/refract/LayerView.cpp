@@ -30,14 +30,12 @@ Status recordLayerView(graph::FrameGraph& graph, gl::Context& context, const vie
     std::vector<std::string> defines;
     if (show == scene::Aov::LayerDepth) defines.push_back("SHOW_DEPTH");
     if (show == scene::Aov::LayerNormal) defines.push_back("SHOW_NORMAL");
-    Result<const gl::Program*> program = context.program("refract/layer_view", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context.program("refract/layer_view", defines);
     graph.addPass("refract.layerView", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("layer " + std::to_string(number) + " itself is shown");
         pass.sample(layers.images);
         pass.write(target);
-        return [=, program = *program, images = layers.images](const graph::Resources& resources,
-                                                               graph::Commands& commands) {
+        return [=, images = layers.images](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = LayerBlock{number - 1},
                            .textures = {{"uLayers", resources[images]}}});

@@ -252,11 +252,9 @@ Status Refract::record(graph::FrameGraph& graph, const Inputs& in, ivec2 size,
         for (std::string& define : views::depthDefines(depths))
             defines.push_back(std::move(define));
     }
-    Result<const gl::Program*> program = context_.program("refract/refract", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("refract/refract", defines);
     defines.push_back("BESIDE");
-    Result<const gl::Program*> beside = context_.program("refract/refract", defines);
-    if (!beside) return beside.error();
+    const gl::Program* beside = context_.program("refract/refract", defines);
     const views::Layers layers = in.layers;
     const graph::TextureId opaque = in.opaque, solid = in.solid, target = in.target;
     const bool counts = bisects && in.show == scene::Aov::Layers; // and looks at nothing else
@@ -278,31 +276,32 @@ Status Refract::record(graph::FrameGraph& graph, const Inputs& in, ivec2 size,
         }
         pass.write(target);
         if (parts) pass.write(layers.depth);
-        return [=, program = *program, beside = *beside,
-                environment = in.environment](const graph::Resources& resources, graph::Commands& commands) {
-            std::vector<graph::Binding> textures;
-            if (bisects) textures = views::depthBindings(resources, depths);
-            if (bisects && !counts) {
-                for (const graph::Binding& binding : views::triangleBindings(resources, layers.triangles))
-                    textures.push_back(binding);
-                textures.push_back({"uDeepest", resources[depths.deepest]});
-                textures.push_back({"uLayers", resources[layers.images]});
-            }
-            if (!bisects) textures = views::layerBindings(resources, layers);
-            if (environment != graph::TextureHandle::None) textures.push_back({"uEnvironment", environment});
-            if (opaque && !counts) {
-                textures.push_back({"uOpaque", resources[opaque]});
-                textures.push_back({"uSolid", resources[solid]});
-            }
-            graph::Draw draw{.program = program, .block = block, .textures = std::move(textures)};
-            if (!parts) return commands.draw(draw);
-            draw.depthWrite = false;
-            draw.depthTest = graph::DepthTest::Greater;
-            commands.draw(draw);
-            draw.program = beside;
-            draw.depthTest = graph::DepthTest::LessEqual;
-            commands.draw(draw);
-        };
+        return
+            [=, environment = in.environment](const graph::Resources& resources, graph::Commands& commands) {
+                std::vector<graph::Binding> textures;
+                if (bisects) textures = views::depthBindings(resources, depths);
+                if (bisects && !counts) {
+                    for (const graph::Binding& binding : views::triangleBindings(resources, layers.triangles))
+                        textures.push_back(binding);
+                    textures.push_back({"uDeepest", resources[depths.deepest]});
+                    textures.push_back({"uLayers", resources[layers.images]});
+                }
+                if (!bisects) textures = views::layerBindings(resources, layers);
+                if (environment != graph::TextureHandle::None)
+                    textures.push_back({"uEnvironment", environment});
+                if (opaque && !counts) {
+                    textures.push_back({"uOpaque", resources[opaque]});
+                    textures.push_back({"uSolid", resources[solid]});
+                }
+                graph::Draw draw{.program = program, .block = block, .textures = std::move(textures)};
+                if (!parts) return commands.draw(draw);
+                draw.depthWrite = false;
+                draw.depthTest = graph::DepthTest::Greater;
+                commands.draw(draw);
+                draw.program = beside;
+                draw.depthTest = graph::DepthTest::LessEqual;
+                commands.draw(draw);
+            };
     });
     return Done{};
 }

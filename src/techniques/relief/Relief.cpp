@@ -133,9 +133,8 @@ float Relief::shareOfLight(const scene::Scene& scene) {
 Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings& settings) const {
     std::vector<const gl::Program*> programs;
     for (const views::DrawnObject& drawn : in.objects) {
-        Result<const gl::Program*> program = context_.program("relief/light", defines(drawn, settings, in));
-        if (!program) return program.error();
-        programs.push_back(*program);
+        const gl::Program* program = context_.program("relief/light", defines(drawn, settings, in));
+        programs.push_back(program);
     }
     std::vector<graph::Block> blocks;
     for (const views::DrawnObject& drawn : in.objects)

@@ -157,8 +157,7 @@ Status Transfer::run(graph::TexturePool& pool, const char* name, const graph::Te
 
 // Rows of d for scattered texels; when all are there, the basis is learned from them.
 Status Transfer::sample(graph::TexturePool& pool, const views::DrawnObject& drawn) {
-    Result<const gl::Program*> program = context_.program("relief/trace", {"SCATTERED"});
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("relief/trace", {"SCATTERED"});
     gl::Device& device = context_.device();
     const int padded = roundUp(cells_.count(), 4);
     if (!directions_) {
@@ -176,7 +175,7 @@ Status Transfer::sample(graph::TexturePool& pool, const views::DrawnObject& draw
     std::vector<graph::Binding> textures = drawn.field->bindings();
     textures.push_back({"uLights", directions_.handle()});
     const Status drawnRows = run(pool, "relief.sample", sampled_, [&](graph::Commands& commands) {
-        commands.draw({.program = *program,
+        commands.draw({.program = program,
                        .region = {0, row_, sampled_.desc().size.x, rows},
                        .block = block,
                        .textures = textures});
@@ -208,8 +207,7 @@ Status Transfer::sample(graph::TexturePool& pool, const views::DrawnObject& draw
 
 // d of a tile's texels in the sensor directions, then their coefficients.
 Status Transfer::trace(graph::TexturePool& pool, const views::DrawnObject& drawn) {
-    Result<const gl::Program*> program = context_.program("relief/trace");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("relief/trace");
     const ivec2 tile = glm::min(grid_, ivec2(kTile));
     const ivec2 corner = tile * ivec2(tile_ % tiles().x, tile_ / tiles().x);
     const int rows = std::min(rowsAtOnce_, kBlockRows - row_);
@@ -221,7 +219,7 @@ Status Transfer::trace(graph::TexturePool& pool, const views::DrawnObject& drawn
     std::vector<graph::Binding> textures = drawn.field->bindings();
     textures.push_back({"uLights", directions_.handle()});
     const Status traced = run(pool, "relief.trace", traced_, [&](graph::Commands& commands) {
-        commands.draw({.program = *program,
+        commands.draw({.program = program,
                        .region = {0, row_ * tile.y, traced_.desc().size.x, rows * tile.y},
                        .block = block,
                        .textures = textures});
@@ -241,8 +239,7 @@ Status Transfer::trace(graph::TexturePool& pool, const views::DrawnObject& drawn
 }
 
 Status Transfer::project(graph::TexturePool& pool, ivec2 corner) {
-    Result<const gl::Program*> program = context_.program("relief/project");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("relief/project");
     const ivec2 tile = glm::min(grid_, ivec2(kTile));
     const int columns = coefficients_.desc().size.x / grid_.x;
     const ivec2 size = glm::min(tile, grid_ - corner);
@@ -254,7 +251,7 @@ Status Transfer::project(graph::TexturePool& pool, ivec2 corner) {
                 for (int i = 0; i < 4; ++i)
                     block.fit[sensor][i] = basis_.fit(4 * image + i, sensor);
             block.tile = ivec4(at, tile);
-            commands.draw({.program = *program,
+            commands.draw({.program = program,
                            .region = ivec4(at, size),
                            .block = block,
                            .textures = {{"uTraced", traced_.handle()}}});
@@ -313,9 +310,8 @@ void Transfer::setEnvironment(const scene::Object& object, const std::vector<Sma
 
 Result<graph::TextureId> Transfer::recordIrradiance(graph::FrameGraph& graph) const {
     const bool oneView = light_.size() == kMostTerms;
-    Result<const gl::Program*> program = context_.program(
+    const gl::Program* program = context_.program(
         "relief/gather", oneView ? std::vector<std::string>{} : std::vector<std::string>{"USE_NODES"});
-    if (!program) return program.error();
     GatherBlock block{};
     if (oneView) std::copy(light_.begin(), light_.end(), block.light);
     block.size = grid_;
@@ -329,8 +325,7 @@ Result<graph::TextureId> Transfer::recordIrradiance(graph::FrameGraph& graph) co
                     " coefficients");
         pass.sample(source);
         target = pass.createColor("relief.irradiance", {.size = grid_, .format = Format::RGBA32F});
-        return [=, program = *program, nodes = nodes_.handle()](const graph::Resources& resources,
-                                                                graph::Commands& commands) {
+        return [=, nodes = nodes_.handle()](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uCoefficients", resources[source]}};
             if (!oneView) textures.push_back({"uNodes", nodes});
             commands.draw({.program = program, .block = block, .textures = std::move(textures)});

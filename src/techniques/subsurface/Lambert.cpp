@@ -127,8 +127,7 @@ private:
         std::vector<std::string> defines;
         if (*define) defines.push_back(define);
         if (sum_) defines.push_back("USE_BEFORE");
-        Result<const gl::Program*> program = context_.program("subsurface/lambert", defines);
-        if (!program) return program.error();
+        const gl::Program* program = context_.program("subsurface/lambert", defines);
         const TextureId before = sum_;
         graph_.addPass("subsurface.lambert", [&](graph::PassBuilder& pass) -> graph::Execute {
             pass.reason("light of " + source + " that leaves where it entered");
@@ -136,8 +135,7 @@ private:
             if (shadow) pass.sample(shadow);
             if (before) pass.sample(before);
             sum_ = create(pass);
-            return [=, surface = in_.surface, program = *program](const graph::Resources& resources,
-                                                                  graph::Commands& commands) {
+            return [=, surface = in_.surface](const graph::Resources& resources, graph::Commands& commands) {
                 std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
                 if (shadow) textures.push_back({"uShadow", resources[shadow]});
                 if (before) textures.push_back({"uBefore", resources[before]});

@@ -153,8 +153,7 @@ private:
 };
 
 Status Steady::carry(const Moment& moment) {
-    Result<const gl::Program*> program = context_.program("subsurface/carried");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("subsurface/carried");
     const Moment& then = past_->moment;
     std::vector<graph::Block> blocks;
     for (std::size_t i = 0; i < moment.bodies.size(); ++i)
@@ -168,8 +167,8 @@ Status Steady::carry(const Moment& moment) {
             pass.sample(id);
         carried_ = pass.createColor("subsurface.carried", {.size = in_.size, .format = Format::RGBA32F});
         pass.clear(carried_, vec4(0));
-        return [=, program = *program, now = now_.places, light = light_,
-                then = places_](const graph::Resources& resources, graph::Commands& commands) {
+        return [=, now = now_.places, light = light_, then = places_](const graph::Resources& resources,
+                                                                      graph::Commands& commands) {
             for (const graph::Block& block : blocks)
                 commands.draw({.program = program,
                                .block = block,
@@ -182,16 +181,15 @@ Status Steady::carry(const Moment& moment) {
 }
 
 Status Steady::change() {
-    Result<const gl::Program*> program = context_.program("subsurface/change");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("subsurface/change");
     graph_.addPass("subsurface.change", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how light has changed over squares of " + std::to_string(block_.side) + " pixels");
         for (const TextureId id : {now_.places, now_.light, carried_})
             pass.sample(id);
         change_ = pass.createColor("subsurface.change", {.size = (in_.size + block_.side - 1) / block_.side,
                                                          .format = Format::RGBA32F});
-        return [program = *program, now = now_, carried = carried_,
-                block = block_](const graph::Resources& resources, graph::Commands& commands) {
+        return [program, now = now_, carried = carried_, block = block_](const graph::Resources& resources,
+                                                                         graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uPlaces", resources[now.places]},
@@ -204,9 +202,8 @@ Status Steady::change() {
 
 Result<Radiosity> Steady::record(Moment moment) {
     const bool follows = bool(carried_);
-    Result<const gl::Program*> program = context_.program(
+    const gl::Program* program = context_.program(
         "subsurface/steady", follows ? std::vector<std::string>{"FOLLOWS"} : std::vector<std::string>{});
-    if (!program) return program.error();
     graph_.addPass("subsurface.steady", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(follows ? "light that leaves, mixed with that of the picture before"
                             : "light that leaves, kept for the next picture");
@@ -217,8 +214,7 @@ Result<Radiosity> Steady::record(Moment moment) {
                 pass.sample(id);
         pass.write(light_);
         pass.write(places_);
-        return [=, program = *program, now = now_, carried = carried_, change = change_, block = block_,
-                past = past_,
+        return [=, now = now_, carried = carried_, change = change_, block = block_, past = past_,
                 moment = std::move(moment)](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{
                 .program = program,

@@ -72,9 +72,8 @@ Level createLevel(graph::PassBuilder& pass, ivec2 size, bool painted) {
 Result<Level> recordMerge(graph::FrameGraph& graph, gl::Context& context, const Level& fine,
                           const MergeBlock& block) {
     const bool painted = bool(fine.sharpness);
-    Result<const gl::Program*> program = context.program(
+    const gl::Program* program = context.program(
         "subsurface/merge", painted ? std::vector<std::string>{"PAINTED"} : std::vector<std::string>{});
-    if (!program) return program.error();
     Level level;
     graph.addPass("subsurface.merge", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("points for four blocks each");
@@ -82,7 +81,7 @@ Result<Level> recordMerge(graph::FrameGraph& graph, gl::Context& context, const 
             pass.sample(id);
         if (painted) pass.sample(fine.sharpness);
         level = createLevel(pass, (fine.size + 1) / 2, painted);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{.program = program,
                              .block = block,
                              .textures = {{"uPlace", resources[fine.place]},
@@ -101,15 +100,14 @@ Result<Points> recordPoints(graph::FrameGraph& graph, gl::Context& context, cons
     std::vector<std::string> defines;
     if (fromSky) defines.push_back("FROM_SKY");
     if (paint) defines.push_back("PAINTED");
-    Result<const gl::Program*> program = context.program("subsurface/flux", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context.program("subsurface/flux", defines);
     Points points;
     graph.addPass("subsurface.flux", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("light that enters object \"" + name + "\"");
         pass.sample(surface);
         if (paint) pass.sample(paint);
         points.push_back(createLevel(pass, size, bool(paint)));
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{
                 .program = program, .block = block, .textures = {{"uSurface", resources[surface]}}};
             if (paint) draw.textures.push_back({"uPaint", resources[paint]});
@@ -141,8 +139,7 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::E
     std::vector<std::string> defines;
     if (!before) defines.push_back("PEEL_FIRST");
     if (object.drawn.paint) defines.push_back("PAINTED");
-    Result<const gl::Program*> program = context.program("subsurface/peel", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context.program("subsurface/peel", defines);
     graph.addPass("subsurface.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("a surface of object \"" + object.drawn.object->name + "\" that the environment lights");
         pass.sample(object.positions);
@@ -155,7 +152,7 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::E
             pass.clear(paint, vec4(1));
         }
         pass.clear(pass.createDepth("subsurface.depth", size, Format::Depth32F), 1.0f);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{.depthTest = graph::DepthTest::Less};
             if (object.drawn.paint) draw.textures = views::enteringBindings(*object.drawn.paint);
             if (before) draw.textures.push_back({"uBefore", resources[before]});

@@ -196,8 +196,7 @@ private:
 };
 
 Status Splatter::recordPlaces(int scale) {
-    Result<const gl::Program*> program = context_.program("subsurface/receivers");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("subsurface/receivers");
     Places places;
     places.side = 1 << scale;
     places.size = (in_.size + places.side - 1) / places.side;
@@ -207,7 +206,7 @@ Status Splatter::recordPlaces(int scale) {
                     std::to_string(places.side) + " pixel(s)");
         pass.sample(in_.surface);
         places.place = pass.createColor("subsurface.receivers", desc);
-        return [program = *program, surface = in_.surface, side = places.side,
+        return [program, surface = in_.surface, side = places.side,
                 view = views::viewBlock(in_.eye, in_.size)](const graph::Resources& resources,
                                                             graph::Commands& commands) {
             commands.draw({.program = program,
@@ -230,16 +229,15 @@ Status Splatter::recordPlaces(int scale) {
 Result<TextureId> Splatter::ballsOf(Places& places, int side) {
     TextureId& balls = places.balls[side];
     if (balls) return balls;
-    Result<const gl::Program*> program = context_.program("subsurface/balls");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("subsurface/balls");
     graph_.addPass("subsurface.balls", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("balls around " + std::to_string(side) + " x " + std::to_string(side) +
                     " places, which most splats miss");
         pass.sample(places.place);
         balls = pass.createColor("subsurface.balls",
                                  {.size = (places.size + side - 1) / side, .format = Format::RGBA32F});
-        return [program = *program, place = places.place, side](const graph::Resources& resources,
-                                                                graph::Commands& commands) {
+        return [program, place = places.place, side](const graph::Resources& resources,
+                                                     graph::Commands& commands) {
             commands.draw(
                 {.program = program, .block = BallsBlock{side}, .textures = {{"uPlaces", resources[place]}}});
         };
@@ -320,9 +318,8 @@ Status Splatter::splatPart(const Target& target, const Points& points, std::size
     std::vector<std::string> defines;
     if (offset) defines.push_back("OFFSET");
     if (painted) defines.push_back("PAINTED");
-    Result<const gl::Program*> program =
+    const gl::Program* program =
         context_.program(splats() ? "subsurface/splat" : "subsurface/gather", defines);
-    if (!program) return program.error();
     Places& places = places_[std::size_t(part.scale)];
     // Of the largest splat, places along a side.
     const double bluntest = painted ? std::max(part.bluntest, scene::kLeastSharpness) : 1;
@@ -369,8 +366,7 @@ Status Splatter::splatPart(const Target& target, const Points& points, std::size
         block.side = square;
         block.corners = std::min(widest, double(std::max(region.z, region.w))) <= kMostPoint ? 1 : 6;
         if (region.z <= 0 || region.w <= 0) return [](const graph::Resources&, graph::Commands&) {};
-        return [=, splats = splats(), program = *program](const graph::Resources& resources,
-                                                          graph::Commands& commands) {
+        return [=, splats = splats()](const graph::Resources& resources, graph::Commands& commands) {
             for (int i = first; i <= last; ++i) {
                 const Level& level = points[std::size_t(i)];
                 const Level& coarser = points[std::size_t(std::min(i + 1, last))];
@@ -445,8 +441,7 @@ Status Splatter::sky(const Target& target) {
 
 // Carries what stands on few places over to twice as many a side.
 Status Splatter::spread(std::size_t from) {
-    Result<const gl::Program*> program = context_.program("subsurface/spread");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("subsurface/spread");
     const Places few = places_[from], many = places_[from - 1];
     const views::ViewBlock view = views::viewBlock(in_.eye, in_.size);
     const SpreadBlock block{.side = many.side,
@@ -460,7 +455,7 @@ Status Splatter::spread(std::size_t from) {
         for (const TextureId id : {few.place, few.light, many.place})
             pass.sample(id);
         pass.write(many.light);
-        return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .blend = graph::Blend::Add,
                            .block = block,

@@ -105,8 +105,7 @@ Result<TextureId> recordHighlight(graph::FrameGraph& graph, gl::Context& context
     std::vector<std::string> defines;
     if (shadow) defines.push_back("USE_SHADOW");
     if (before) defines.push_back("USE_BEFORE");
-    Result<const gl::Program*> program = context.program("subsurface/highlight", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context.program("subsurface/highlight", defines);
     std::vector<graph::Block> blocks;
     for (const views::PosedMesh& mesh : objects) {
         const scene::Material& material = mesh.drawn.object->material;
@@ -132,8 +131,7 @@ Result<TextureId> recordHighlight(graph::FrameGraph& graph, gl::Context& context
         if (before) pass.sample(before);
         sum = pass.createColor("subsurface.highlight", {.size = in.size, .format = graph::Format::RGBA32F});
         pass.clear(sum, vec4(0));
-        return [=, surface = in.surface, program = *program](const graph::Resources& resources,
-                                                             graph::Commands& commands) {
+        return [=, surface = in.surface](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
             if (shadow) textures.push_back({"uShadow", resources[shadow]});
             if (before) textures.push_back({"uBefore", resources[before]});
@@ -172,8 +170,7 @@ Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs&
     if (hasSky) defines.push_back("USE_SKY");
     if (showsLight(in)) defines.push_back("SHOW_RADIOSITY");
     if (paint) defines.push_back("PAINTED");
-    Result<const gl::Program*> program = context.program("subsurface/shade", defines);
-    if (!program) return program.error();
+    const gl::Program* program = context.program("subsurface/shade", defines);
     std::vector<graph::Block> blocks;
     for (const views::PosedMesh& mesh : objects)
         blocks.push_back(shadeBlock(in, mesh, leaving.unit, settings));
@@ -188,8 +185,8 @@ Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs&
         if (paint) pass.sample(paint);
         if (matt) pass.sample(matt);
         pass.write(in.target);
-        return [=, surface = in.surface, environment = in.environment,
-                program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [=, surface = in.surface, environment = in.environment](const graph::Resources& resources,
+                                                                       graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
                                                  {"uRadiosity", resources[radiosity]}};
             if (highlight) textures.push_back({"uHighlight", resources[highlight]});
@@ -222,8 +219,7 @@ Status recordLayer(graph::FrameGraph& graph, gl::Context& context, const Inputs&
     Result<TextureId> map = entering ? views::recordEnteringMap(graph, context, in.eye, painted, in.size)
                                      : views::recordLeaving(graph, context, in.eye, painted, in.size);
     if (!map) return map.error();
-    Result<const gl::Program*> program = context.program("subsurface/layer");
-    if (!program) return program.error();
+    const gl::Program* program = context.program("subsurface/layer");
     std::vector<graph::Block> blocks;
     for (const views::PosedMesh& mesh : painted)
         blocks.push_back(LayerBlock{.object = mesh.drawn.index, .layer = int(layer)});
@@ -233,8 +229,8 @@ Status recordLayer(graph::FrameGraph& graph, gl::Context& context, const Inputs&
         pass.sample(in.surface);
         pass.sample(*map);
         pass.write(in.target);
-        return [blocks, surface = in.surface, paint = *map,
-                program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [blocks, surface = in.surface, paint = *map, program](const graph::Resources& resources,
+                                                                     graph::Commands& commands) {
             for (const graph::Block& block : blocks)
                 commands.draw({.program = program,
                                .block = block,

@@ -82,14 +82,13 @@ public:
 private:
     // Painted objects as if they were opaque: what is drawn into cannot be read as well.
     Result<TextureId> recordMatt(graph::FrameGraph& graph, TextureId shown, ivec2 size) {
-        Result<const gl::Program*> program = store_.context.program("subsurface/matt");
-        if (!program) return program.error();
+        const gl::Program* program = store_.context.program("subsurface/matt");
         TextureId matt;
         graph.addPass("subsurface.matt", [&](graph::PassBuilder& pass) -> graph::Execute {
             pass.reason("painted objects are matt where they are not translucent");
             pass.sample(shown);
             matt = pass.createColor("subsurface.matt", {.size = size, .format = graph::Format::RGBA32F});
-            return [=, program = *program](const graph::Resources& resources, graph::Commands& commands) {
+            return [=](const graph::Resources& resources, graph::Commands& commands) {
                 commands.draw({.program = program, .textures = {{"uShown", resources[shown]}}});
             };
         });

@@ -203,10 +203,9 @@ Status Body::columns(int axis) {
         "subsurface.columns", {.size = size, .format = Format::RGBA32F, .layers = std::max(2, count)});
     TextureId before;
     for (int layer = 0; layer < count; ++layer) {
-        Result<const gl::Program*> program =
+        const gl::Program* program =
             context_.program("subsurface/volume_column",
                              before ? std::vector<std::string>{} : std::vector<std::string>{"PEEL_FIRST"});
-        if (!program) return program.error();
         const TextureId last = before;
         graph_.addPass("subsurface.column", [&](graph::PassBuilder& pass) -> graph::Execute {
             pass.reason("surface " + std::to_string(layer + 1) + " of object \"" + mesh_.drawn.object->name +
@@ -219,8 +218,7 @@ Status Body::columns(int axis) {
             before = pass.createColor("subsurface.columned", {.size = size, .format = Format::RG32F});
             pass.clear(before, vec4(0));
             pass.clear(pass.createDepth("subsurface.depth", size, Format::Depth32F), 1.0f);
-            return [=, mesh = mesh_, program = *program](const graph::Resources& resources,
-                                                         graph::Commands& commands) {
+            return [=, mesh = mesh_](const graph::Resources& resources, graph::Commands& commands) {
                 graph::Draw draw{.depthTest = graph::DepthTest::Less};
                 if (last) draw.textures.push_back({"uBefore", resources[last]});
                 drawMesh(commands, *program, resources, mesh, eye, size, mesh.drawn.index, std::move(draw));
@@ -235,16 +233,15 @@ Status Body::columns(int axis) {
 Status Body::cut() {
     for (int axis = 0; axis < 3; ++axis)
         if (Status s = columns(axis); !s) return s;
-    Result<const gl::Program*> program = context_.program("subsurface/volume_cells");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("subsurface/volume_cells");
     graph_.addPass("subsurface.cells", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("cells of object \"" + mesh_.drawn.object->name + "\", cut by its surface");
         for (const TextureId id : along_)
             pass.sample(id);
         pass.write(cell_ = kept(solution_->cells, "subsurface.cells"));
         faces_ = pass.createColor("subsurface.faces", imageDesc(Format::RGBA32F));
-        return [block = block(), along = along_, program = *program](const graph::Resources& resources,
-                                                                     graph::Commands& commands) {
+        return [block = block(), along = along_, program](const graph::Resources& resources,
+                                                          graph::Commands& commands) {
             commands.draw({.program = program, .block = block, .textures = columnBindings(resources, along)});
         };
     });
@@ -252,8 +249,7 @@ Status Body::cut() {
 }
 
 Status Body::bind() {
-    Result<const gl::Program*> program = context_.program("subsurface/volume_bind");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("subsurface/volume_bind");
     graph_.addPass("subsurface.bind", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how cells give each other light, and the world outside");
         pass.sample(cell_);
@@ -261,8 +257,8 @@ Status Body::bind() {
         lower_ = pass.createColor("subsurface.lower", imageDesc(Format::RGBA32F));
         upper_ = pass.createColor("subsurface.upper", imageDesc(Format::RGBA32F));
         diagonal_ = pass.createColor("subsurface.diagonal", imageDesc(Format::RGBA32F));
-        return [block = block(), cell = cell_, faces = faces_,
-                program = *program](const graph::Resources& resources, graph::Commands& commands) {
+        return [block = block(), cell = cell_, faces = faces_, program](const graph::Resources& resources,
+                                                                        graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uCell", resources[cell]}, {"uFaces", resources[faces]}}});
@@ -272,8 +268,7 @@ Status Body::bind() {
 }
 
 Status Body::lay(const Points& points, vec4 lamp) {
-    Result<const gl::Program*> program = context_.program("subsurface/volume_source");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("subsurface/volume_source");
     const Level& level = points.front();
     graph_.addPass("subsurface.source", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("where light that entered object \"" + mesh_.drawn.object->name + "\" first scatters");
@@ -290,8 +285,8 @@ Status Body::lay(const Points& points, vec4 lamp) {
         VolumeBlock block = this->block();
         block.lamp = lamp;
         block.columns = level.size.x;
-        return [level, block, cell = cell_, program = *program](const graph::Resources& resources,
-                                                                graph::Commands& commands) {
+        return [level, block, cell = cell_, program](const graph::Resources& resources,
+                                                     graph::Commands& commands) {
             commands.draw({.program = program,
                            .vertices = 2 * kDepths * level.size.x * level.size.y,
                            .topology = graph::Topology::Points,
@@ -353,10 +348,9 @@ Status Body::solve() {
     TextureId before;
     for (int round = 0; round < rounds.count; ++round) {
         const char* const variants[] = {"STEP_FIRST", "STEP_SECOND"};
-        Result<const gl::Program*> program =
+        const gl::Program* program =
             context_.program("subsurface/volume_step", round < 2 ? std::vector<std::string>{variants[round]}
                                                                  : std::vector<std::string>{});
-        if (!program) return program.error();
         if (round > 0) omega = round == 1 ? 2.0 / (2.0 - squares) : 1.0 / (1.0 - squares * omega / 4.0);
         const TextureId now = fluence_;
         graph_.addPass("subsurface.diffuse", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -376,8 +370,7 @@ Status Body::solve() {
             VolumeBlock block = this->block();
             block.omega = vec4(vec3(omega), 0);
             return [=, lower = lower_, upper = upper_, diagonal = diagonal_, source = source_,
-                    solution = solution_,
-                    program = *program](const graph::Resources& resources, graph::Commands& commands) {
+                    solution = solution_](const graph::Resources& resources, graph::Commands& commands) {
                 std::vector<graph::Binding> textures{{"uDiagonal", resources[diagonal]},
                                                      {"uSource", resources[source]}};
                 if (round > 0)
@@ -395,15 +388,14 @@ Status Body::solve() {
 }
 
 Status Body::leave(TextureId target) {
-    Result<const gl::Program*> program = context_.program("subsurface/volume_leave");
-    if (!program) return program.error();
+    const gl::Program* program = context_.program("subsurface/volume_leave");
     graph_.addPass("subsurface.leave", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("what leaves object \"" + mesh_.drawn.object->name + "\" where the camera sees it");
         for (const TextureId id : {in_.surface, cell_, fluence_})
             pass.sample(id);
         pass.write(target);
         return [block = block(), surface = in_.surface, cell = cell_, fluence = fluence_,
-                program = *program](const graph::Resources& resources, graph::Commands& commands) {
+                program](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uSurface", resources[surface]},
