@@ -12,13 +12,15 @@
 #include "views/surface_pixel.glsl"
 #include "light/sample.glsl"
 #include "light/occlusion.glsl"
+const int kMostMatter = 256; // objects of a draw
+
 struct Matter {
     vec4 base;
     vec4 diffuse; // a: 0 for what is not shaded here
 };
 layout(std140) uniform MattBlock {
     View view;
-    Matter matter[256];
+    Matter matter[kMostMatter];
     int first;      // object of the scene that matter[0] is of
     int firstLight;
     int endLight;

@@ -17,7 +17,6 @@ layout(std140) uniform MirrorBlock {
     vec4 reflectance;
     int object;
     float intensity; // of the environment
-    int padding0, padding1;
 } mirror;
 layout(location = 0) out vec4 oColor;
 

@@ -10,7 +10,6 @@ layout(std140) uniform DepositBlock {
     float unit; // [W] that the map counts as 1
     float size; // of a splat, texels; of what bends light: width of a ray's cell [m], of a point's light a metre deep
     int first;  // ray that is drawn
-    int padding;
 } light;
 #include "caustics/map_view.glsl"
 #include "caustics/behind.glsl"

@@ -9,7 +9,6 @@
 layout(std140) uniform GatherBlock {
     View view; // of the camera
     float unit; // [W] that the picture of lines counts as 1
-    float padding0, padding1, padding2;
 } light;
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"

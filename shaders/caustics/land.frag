@@ -16,7 +16,6 @@ layout(std140) uniform LandBlock {
     vec4 low, high; // of a box around the receivers
     int faceCount;
     int steps;      // looks at most
-    int padding0, padding1;
 } light;
 #include "caustics/receivers.glsl"
 #include "caustics/behind.glsl"

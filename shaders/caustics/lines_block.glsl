@@ -5,5 +5,4 @@ layout(std140) uniform LinesBlock {
     vec4 low, high; // of a box around the receivers
     ivec2 grid; // rays a side
     float unit; // [W] that the picture of lines counts as 1
-    float padding;
 } light;

@@ -15,7 +15,6 @@ layout(std140) uniform LookupBlock {
     View faces[6];
     int faceCount;
     float unit; // [W] that the map counts as 1
-    int padding0, padding1;
 } light;
 #include "lib/octahedral.glsl"
 #ifdef FROM_SOLID

@@ -6,7 +6,6 @@
 layout(std140) uniform MapBlock {
     vec2 corner;  // of the map in the picture, pixels
     float texels; // along a side of a pixel
-    int padding;
 } shown;
 uniform sampler2D uMap;
 uniform sampler2D uShadow;

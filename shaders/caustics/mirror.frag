@@ -6,13 +6,14 @@
 #include "caustics/lamp.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
+const int kMostMirrors = 32;
+
 layout(std140) uniform MirrorBlock {
     View view; // of the light
     Lamp lamp;
-    vec4 mirrors[32]; // reflectance; a: object
+    vec4 mirrors[kMostMirrors]; // reflectance; a: object
     int count;
     int border; // pixels at each side that belong to the lamp's next view
-    int padding0, padding1;
 } light;
 
 // The mirror of an object in the list; light.count: it is none.

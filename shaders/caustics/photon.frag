@@ -16,7 +16,6 @@ layout(std140) uniform PhotonBlock {
     int count;   // layers
     int channel; // whose index of refraction counts
     int border;  // pixels at each side that belong to the lamp's next view
-    int padding;
 } layers;
 #include "views/glass.glsl"
 

@@ -9,7 +9,6 @@ layout(std140) uniform RoundBlock {
     View faces[6];
     View halves[2];
     int faceCount;
-    int padding0, padding1, padding2;
 } light;
 #include "caustics/map_view.glsl"
 #include "caustics/receivers.glsl"

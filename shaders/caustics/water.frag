@@ -22,7 +22,6 @@ layout(std140) uniform WaterRaysBlock {
     int faceCount;
     int channel; // whose index of refraction counts
     float area;  // m² of a ray's cell
-    int padding;
 } light;
 #include "lib/fresnel.glsl"
 #ifdef USE_SHADOW

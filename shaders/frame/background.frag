@@ -9,7 +9,6 @@ layout(std140) uniform BackgroundBlock {
     View view;
     mat4 mapFromWorld;
     float intensity;
-    int padding0, padding1, padding2;
 } background;
 uniform sampler2D uShown;
 layout(location = 0) out vec4 oColor;

@@ -13,7 +13,6 @@ layout(std140) uniform DisplayBlock {
     int isScalar; // show the sum's alpha channel as grey
     int encode;   // apply the sRGB curve: for light, not for normals or counts
     int isHeat;   // show the binary logarithm of the brightest channel, scaled and shifted, in false colours
-    int padding;
 } display;
 uniform sampler2D uSum;
 layout(location = 0) out vec4 oColor;

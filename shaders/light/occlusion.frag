@@ -18,7 +18,6 @@ layout(std140) uniform OcclusionBlock {
     float texelSize;
     int object;
     int faceCount;
-    int padding;
 } light;
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"

@@ -6,7 +6,6 @@
 #include "views/layer_texel.glsl"
 layout(std140) uniform LayerBlock {
     int layer;
-    int padding0, padding1, padding2;
 } shown;
 uniform sampler2DArray uLayers;
 layout(location = 0) out vec4 oValue;

@@ -24,7 +24,6 @@ layout(std140) uniform RefractBlock {
     vec4 low, high;  // USE_BOX: a box around all glass, from the eye
     vec2 depths;     // of bisection: nearest and farthest depth of all surfaces
     int depthCount;  // and how many lie behind each other
-    int padding;
 } layers;
 #include "views/glass.glsl"
 #include "views/environment.glsl"

@@ -3,8 +3,10 @@
 //
 // in    uCoefficients  four a texel in a column of images, one image above the other (relief/project.frag)
 // out   oIrradiance    sum of d times light times forward scatter, linear Rec. 709; a: mean of d
+const int kMostTerms = 128; // of a transfer
+
 layout(std140) uniform GatherBlock {
-    vec4 light[128]; // the environment on the basis
+    vec4 light[kMostTerms]; // the environment on the basis
     ivec2 size;      // texels
     int terms;
     int columns;     // of images

@@ -2,8 +2,10 @@
 //
 // in    uTraced        d (relief/trace.frag)
 // out   oCoefficients  of d = sum_k coefficient_k basis_k(direction)
+const int kSensors = 512; // directions traced for every texel
+
 layout(std140) uniform ProjectBlock {
-    vec4 fit[512];  // for each sensed direction its part in the four
+    vec4 fit[kSensors];  // for each sensed direction its part in the four
     ivec4 tile;     // where the tile lies in the target: x, y; its width and height
 } project;
 uniform sampler2D uTraced;

@@ -4,7 +4,6 @@
 // out   oBall    xyz: world, middle; w: radius [m], below 0 where the square shows nothing
 layout(std140) uniform BallsBlock {
     int side; // of a square
-    int padding0, padding1, padding2;
 } balls;
 uniform sampler2D uPlaces;
 layout(location = 0) out vec4 oBall;

@@ -9,7 +9,6 @@ layout(std140) uniform CarriedBlock {
     View view;        // of the picture before
     mat4 thenFromNow; // of the object, world
     int object;
-    int padding0, padding1, padding2;
 } carried;
 uniform sampler2D uPlaces;
 uniform sampler2D uThen;

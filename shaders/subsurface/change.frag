@@ -4,11 +4,7 @@
 //       uNow      [unit] that leaves
 //       uCarried  subsurface/carried.frag
 // out   oChange   rgb: mean over the pixels that show one object, the first one met [W/m²]; a: 1 + object, 0: none
-layout(std140) uniform ChangeBlock {
-    int side;   // of a square
-    float unit; // [W/m²] of uNow
-    int padding0, padding1;
-} change;
+#include "subsurface/change_block.glsl"
 uniform sampler2D uPlaces;
 uniform sampler2D uNow;
 uniform sampler2D uCarried;

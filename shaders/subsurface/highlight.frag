@@ -14,7 +14,6 @@ layout(std140) uniform HighlightBlock {
     int faceCount;
     int object;
     float ior, roughness;
-    float padding0, padding1;
 } light;
 #include "lib/octahedral.glsl"
 #include "lib/fresnel.glsl"

@@ -15,7 +15,6 @@ layout(std140) uniform LambertBlock {
     int faceCount;
     int object;
     float ior;
-    float padding0, padding1, padding2;
 } light;
 #include "lib/octahedral.glsl"
 #include "lib/fresnel.glsl"

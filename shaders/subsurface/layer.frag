@@ -9,7 +9,6 @@
 #include "views/surface_pixel.glsl"
 layout(std140) uniform PaintLayerBlock {
     int object, layer;
-    int padding0, padding1;
 } shown;
 uniform sampler2D uPaint;
 layout(location = 0) out vec4 oColor;

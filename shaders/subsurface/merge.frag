@@ -7,7 +7,6 @@
 layout(std140) uniform MergeBlock {
     float width; // of a coarse block across the view [m], of a perspective view a metre deep
     int perspective;
-    int padding0, padding1;
 } level;
 uniform sampler2D uPlace;
 uniform sampler2D uFlux;

@@ -6,7 +6,6 @@
 layout(std140) uniform ReceiversBlock {
     View view;
     int side; // of a square
-    int padding0, padding1, padding2;
 } camera;
 uniform sampler2D uSurface;
 layout(location = 0) out vec4 oPlace;

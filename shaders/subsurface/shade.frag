@@ -23,7 +23,6 @@ layout(std140) uniform SubsurfaceShadeBlock {
     float intensity; // of the environment
     int object;
     float unit;      // [W/m²] of uRadiosity
-    int padding0, padding1;
 } shade;
 uniform sampler2D uRadiosity;
 #ifdef USE_LAMPS

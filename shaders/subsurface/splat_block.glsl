@@ -1,10 +1,12 @@
 // subsurface/splat_block.glsl: one level of points and the band of the profile that they leave around them.
 #include "views/view.glsl"
+const int kMostPoles = 32;
+
 layout(std140) uniform SplatBlock {
     View view;        // the camera's, in pixels of what is drawn into
     vec4 bounds;      // lowest and highest pixel that the object may cover
-    vec4 depths[32];  // rgb: of each pole below the place where light enters [m]; a: of depths[0]: how many
-    vec4 weights[32]; // rgb: [m]
+    vec4 depths[kMostPoles];  // rgb: of each pole below the place where light enters [m]; a: of depths[0]: how many
+    vec4 weights[kMostPoles]; // rgb: [m]
     vec4 transport;   // rgb: [1/m]
     vec4 albedo;      // rgb
     int columns;      // of the level
@@ -20,5 +22,4 @@ layout(std140) uniform SplatBlock {
     float sharpest;   // up to this one
     int side;         // of a ball's square [pixels of what is drawn into]
     int corners;      // vertices of a splat: 1, a square point; 6, two triangles
-    int padding0, padding1, padding2;
 } splat;

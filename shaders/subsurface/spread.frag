@@ -10,7 +10,6 @@ layout(std140) uniform SpreadBlock {
     int side;      // of a square of the many, pixels
     float width;   // of a pixel [m], of a perspective view a metre deep
     int perspective;
-    int padding;
     vec4 eye;      // world
     vec4 forward;
 } spread;

@@ -15,7 +15,6 @@ layout(std140) uniform VolumeBlock {
     vec4 omega;      // rgb: Chebyshev's factor of this round
     int object;      // in the scene
     int columns;     // points in a row
-    int padding0, padding1;
 } volume;
 
 ivec2 texelOf(ivec3 cell) {

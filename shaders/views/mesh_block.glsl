@@ -6,5 +6,4 @@ layout(std140) uniform MeshBlock {
     View view;
     int object;  // in the scene
     int firstCorner; // of a refractive mesh, among those of all
-    int padding0, padding1;
 } mesh;

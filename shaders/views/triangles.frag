@@ -14,7 +14,6 @@ layout(std140) uniform TrianglesBlock {
     mat4 normalFromObject;
     int first; // where this mesh begins among all
     int count;
-    int padding0, padding1;
 } mesh;
 layout(location = 0) out vec4 oCorner;
 layout(location = 1) out vec4 oNormal;

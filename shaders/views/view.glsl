@@ -7,7 +7,6 @@ struct View {
     vec4 right;   // world way of one pixel: in metres, or of a perspective view a metre deep; w: near depth
     vec4 up;
     vec2 size;    // pixels
-    vec2 padding;
 };
 
 // From the eye to a place.

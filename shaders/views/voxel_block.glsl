@@ -3,5 +3,4 @@ layout(std140) uniform VoxelBlock {
     ivec2 size;   // of the picture, or of the image that is reduced
     ivec2 blocks; // of the reduced image
     int count;    // surfaces behind each other
-    int padding;
 } voxels;

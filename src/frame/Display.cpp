@@ -1,10 +1,10 @@
 // From linear light to what is shown, alone or beside its truth.
 #include "frame/RendererState.h"
 
+#include "shaders/frame/Blocks.h"
 #include "views/Surface.h"
 
 #include <cmath>
-#include <cstddef>
 
 namespace lucent::frame {
 
@@ -14,47 +14,9 @@ using scene::Aov;
 
 namespace {
 
-struct DisplayBlock {
-    vec4 scale{1}, shift{0};
-    int isScalar = 0, encode = 0, isHeat = 0;
-    int padding = 0;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"scale", offsetof(DisplayBlock, scale)},
-                                                             {"shift", offsetof(DisplayBlock, shift)},
-                                                             {"isScalar", offsetof(DisplayBlock, isScalar)},
-                                                             {"encode", offsetof(DisplayBlock, encode)},
-                                                             {"isHeat", offsetof(DisplayBlock, isHeat)}};
-        static const graph::BlockLayout layout{"DisplayBlock", sizeof(DisplayBlock), members};
-        return layout;
-    }
-};
-
-struct BesideBlock {
-    vec4 scale{1}, shift{0};
-    vec2 corner{0};
-    float pixelsPerTexel = 1, divider = 0, full = 1;
-    int encode = 0, right = 0;
-    int padding = 0;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {
-            {"scale", offsetof(BesideBlock, scale)},
-            {"shift", offsetof(BesideBlock, shift)},
-            {"corner", offsetof(BesideBlock, corner)},
-            {"pixelsPerTexel", offsetof(BesideBlock, pixelsPerTexel)},
-            {"divider", offsetof(BesideBlock, divider)},
-            {"full", offsetof(BesideBlock, full)},
-            {"encode", offsetof(BesideBlock, encode)},
-            {"right", offsetof(BesideBlock, right)}};
-        static const graph::BlockLayout layout{"BesideBlock", sizeof(BesideBlock), members};
-        return layout;
-    }
-};
-
 // How a quantity is shown as a picture. Light is exposed and encoded; the rest is brought into [0, 1].
 DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
-    DisplayBlock block;
+    DisplayBlock block{.scale = vec4(1)};
     switch (scene.view.show) {
     case Aov::Color:
     case Aov::Irradiance:

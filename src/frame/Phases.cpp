@@ -1,10 +1,10 @@
 // One picture's passes: what the guests draw, phase by phase.
 #include "frame/RendererState.h"
 
+#include "shaders/frame/Blocks.h"
 #include "views/Surface.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace lucent::frame {
 
@@ -17,24 +17,6 @@ using technique::Picture;
 namespace {
 
 using views::hasEnvironment;
-
-struct BackgroundBlock {
-    views::ViewBlock view;
-    mat4 mapFromWorld;
-    float intensity;
-    int padding[3] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(BackgroundBlock, view));
-            list.insert(list.end(), {{"mapFromWorld", offsetof(BackgroundBlock, mapFromWorld)},
-                                     {"intensity", offsetof(BackgroundBlock, intensity)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"BackgroundBlock", sizeof(BackgroundBlock), members};
-        return layout;
-    }
-};
 
 } // namespace
 

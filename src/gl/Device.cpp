@@ -202,8 +202,8 @@ private:
         return true;
     }
     bool bindBlock(const Program& program, const graph::Block& block) {
-        if (!block.layout) return true;
-        if (Status status = program.checkBlock(*block.layout); !status) {
+        if (block.name.empty()) return true;
+        if (Status status = program.checkBlock(block); !status) {
             device_.fail(status.error().message);
             return false;
         }

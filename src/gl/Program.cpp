@@ -183,33 +183,19 @@ void Program::bindSamplers() const {
     glUseProgram(0);
 }
 
-Status Program::checkBlock(const graph::BlockLayout& layout) const {
-    if (checked_ == &layout) return Done{};
-    const std::string blockName(layout.name);
-    const std::string where = name_ + ": block " + blockName + ": ";
-    const GLuint block = glGetUniformBlockIndex(id_, blockName.c_str());
-    if (block == GL_INVALID_INDEX) return Error{where + "not in the shader", Fault::Machine};
-    glUniformBlockBinding(id_, block, 0);
-    for (const auto& member : layout.members) {
-        const std::string name = blockName + "." + std::string(member.name);
-        const char* text = name.c_str();
-        GLuint index = GL_INVALID_INDEX;
-        glGetUniformIndices(id_, 1, &text, &index);
-        if (index == GL_INVALID_INDEX) continue; // the compiler dropped what this variant does not use
-        GLint offset = 0;
-        glGetActiveUniformsiv(id_, 1, &index, GL_UNIFORM_OFFSET, &offset);
-        if (std::size_t(offset) == member.offset) continue;
-        return Error{where + std::string(member.name) + " at offset " + std::to_string(offset) +
-                         " in GLSL, " + std::to_string(member.offset) + " in C++",
-                     Fault::Machine};
-    }
+Status Program::checkBlock(const graph::Block& block) const {
+    if (checked_ == block.name) return Done{};
+    const std::string name(block.name), where = name_ + ": block " + name + ": ";
+    const GLuint index = glGetUniformBlockIndex(id_, name.c_str());
+    if (index == GL_INVALID_INDEX) return Error{where + "not in the shader", Fault::Machine};
+    glUniformBlockBinding(id_, index, 0);
     GLint size = 0;
-    glGetActiveUniformBlockiv(id_, block, GL_UNIFORM_BLOCK_DATA_SIZE, &size);
-    if (std::size_t(size) > layout.size)
-        return Error{where + std::to_string(size) + " bytes in GLSL, " + std::to_string(layout.size) +
+    glGetActiveUniformBlockiv(id_, index, GL_UNIFORM_BLOCK_DATA_SIZE, &size);
+    if (std::size_t(size) > block.bytes.size())
+        return Error{where + std::to_string(size) + " bytes in GLSL, " + std::to_string(block.bytes.size()) +
                          " in C++",
                      Fault::Machine};
-    checked_ = &layout;
+    checked_ = block.name;
     return Done{};
 }
 

@@ -43,8 +43,8 @@ public:
 
     /// Compares a block of C++ with what GL made of it, once.
     ///
-    /// @return Error "relief/light: block ReliefBlock: depth at offset 16 in GLSL, 12 in C++"
-    Status checkBlock(const graph::BlockLayout& layout) const;
+    /// @return Error "relief/light: block ReliefBlock: 528 bytes in GLSL, 512 in C++"
+    Status checkBlock(const graph::Block& block) const;
 
 private:
     struct CompiledStage {
@@ -60,7 +60,7 @@ private:
     mutable std::vector<CompiledStage> stages_; // until ready()
     mutable std::optional<Status> status_;
     mutable std::vector<Sampler> samplers_;
-    mutable const graph::BlockLayout* checked_ = nullptr;
+    mutable std::string_view checked_; // block
 };
 
 /// Rewrites a driver's log so that each "0:LINE" or "ERROR: 0:LINE" names the file and line that was written.

@@ -18,25 +18,14 @@ public:
     virtual ~Program() = default;
 };
 
-/// Memory layout of a std140 block as C++ sees it; the device compares it with what GL reports.
-struct BlockLayout {
-    struct Member {
-        std::string_view name; ///< as GL reports it after the block's name: "field.texels"
-        std::size_t offset;
-    };
-    std::string_view name;
-    std::size_t size;
-    std::span<const Member> members;
-};
-
-/// The uniform block of one draw: a plain struct with a static `layout`.
+/// The uniform block of one draw: a struct of a generated shaders/FOLDER/Blocks.h.
 struct Block {
     Block() = default;
     template <class Struct>
     Block(const Struct& values)
-        : layout(&Struct::layout()), bytes(reinterpret_cast<const std::byte*>(&values),
-                                           reinterpret_cast<const std::byte*>(&values + 1)) {}
-    const BlockLayout* layout = nullptr;
+        : name(Struct::kName), bytes(reinterpret_cast<const std::byte*>(&values),
+                                     reinterpret_cast<const std::byte*>(&values + 1)) {}
+    std::string_view name; ///< in the shader; empty: none
     std::vector<std::byte> bytes;
 };
 

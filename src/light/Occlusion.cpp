@@ -1,7 +1,8 @@
 #include "light/Occlusion.h"
 
+#include "shaders/light/Blocks.h"
+
 #include <algorithm>
-#include <cstddef>
 
 namespace lucent::views {
 
@@ -14,35 +15,6 @@ constexpr int kSamplesPerTexel = 4; // one a channel
 constexpr int kPartShare = 2;      // a lamp's view has as many times the texels a side of one of its samples,
 constexpr int kDirectionShare = 4; // and of a direction of an environment
 constexpr int kLeastShadowSize = 16; // texels a side
-
-struct OcclusionBlock {
-    ViewBlock view;
-    ViewBlock faces[ShadowViews::kMost];
-    mat4 worldFromObject{1};
-    vec4 source{0}, channel{0};
-    vec2 corner{0}, texels{0};
-    float texelSize = 0;
-    int object = -1, faceCount = 0, padding = 0;
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = viewMembers(offsetof(OcclusionBlock, view));
-            list.insert(list.end(), {{"faces[0].eye", offsetof(OcclusionBlock, faces)},
-                                     {"faces[1].size", offsetof(OcclusionBlock, faces[1].size)},
-                                     {"worldFromObject", offsetof(OcclusionBlock, worldFromObject)},
-                                     {"source", offsetof(OcclusionBlock, source)},
-                                     {"channel", offsetof(OcclusionBlock, channel)},
-                                     {"corner", offsetof(OcclusionBlock, corner)},
-                                     {"texels", offsetof(OcclusionBlock, texels)},
-                                     {"texelSize", offsetof(OcclusionBlock, texelSize)},
-                                     {"object", offsetof(OcclusionBlock, object)},
-                                     {"faceCount", offsetof(OcclusionBlock, faceCount)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"OcclusionBlock", sizeof(OcclusionBlock), members};
-        return layout;
-    }
-};
 
 // Pixels that the same things can shade: those of one height field, or of all other shapes.
 struct Group {
@@ -68,13 +40,12 @@ int shadowSizeFor(const LampPoint& sample, int size) {
     return std::max(kLeastShadowSize, size / share);
 }
 
-OcclusionBlock blockOf(const Lit& in, const Group& group, const LampPoint& sample, const ShadowViews& views,
-                       ivec2 corner, int channel) {
-    OcclusionBlock block{.view = viewBlock(in.eye, in.size), .faces = {}};
-    for (std::size_t i = 0; i < views.faces.size(); ++i)
-        block.faces[i] = viewBlock(views.faces[i], ivec2(views.size));
-    block.faceCount = int(views.faces.size());
-    block.source = sample.place;
+light::OcclusionBlock blockOf(const Lit& in, const Group& group, const LampPoint& sample,
+                              const ShadowViews& views, ivec2 corner, int channel) {
+    light::OcclusionBlock block{.view = viewBlock(in.eye, in.size),
+                                .faces = facesOf(views),
+                                .source = sample.place,
+                                .faceCount = int(views.faces.size())};
     block.channel[channel] = 1;
     block.corner = vec2(corner);
     if (!group.field) return block;

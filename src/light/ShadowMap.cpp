@@ -163,6 +163,13 @@ ivec2 ShadowViews::imageSize() const {
     return size * ivec2(std::min(count, kColumns), (count + kColumns - 1) / kColumns);
 }
 
+std::array<ViewBlock, ShadowViews::kMost> facesOf(const ShadowViews& views) {
+    std::array<ViewBlock, ShadowViews::kMost> blocks{};
+    std::transform(views.faces.begin(), views.faces.end(), blocks.begin(),
+                   [&](const Eye& face) { return viewBlock(face, ivec2(views.size)); });
+    return blocks;
+}
+
 ShadowViews shadowViews(const ShadowSource& source, const Bounds& casters, const Bounds& receivers,
                         int size) {
     ShadowViews views{.faces = {}, .size = size};

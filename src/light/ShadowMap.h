@@ -5,6 +5,7 @@
 #include "views/Meshes.h"
 #include "views/Surface.h"
 
+#include <array>
 #include <limits>
 
 namespace lucent::views {
@@ -26,6 +27,9 @@ struct ShadowViews {
     ivec2 imageSize() const;
     ivec2 corner(int face) const { return size * ivec2(face % kColumns, face / kColumns); }
 };
+
+/// The views as blocks of shaders hold them; the rest of the six is 0.
+std::array<ViewBlock, ShadowViews::kMost> facesOf(const ShadowViews& views);
 
 /// Where to look from a light: as narrow as what casts shadows and what receives them allow. Parallel light
 /// and a point that has everything before it within 60 degrees need one view, other points those of a cube's

@@ -2,13 +2,13 @@
 
 #include "gl/Timer.h"
 #include "graph/Device.h"
+#include "shaders/measure/Blocks.h"
 
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <optional>
 
@@ -27,20 +27,6 @@ constexpr double kWorkMs = 8; // of a draw that is timed: far above the cost of 
 constexpr int kMostWork = 1 << 18;
 constexpr double kPatienceMs = 3000; // until a timer query is taken not to answer
 
-struct ProbeBlock {
-    float one = 1;
-    int count = 0, readsSum = 0, columns = kColumns;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"one", offsetof(ProbeBlock, one)},
-                                                             {"count", offsetof(ProbeBlock, count)},
-                                                             {"readsSum", offsetof(ProbeBlock, readsSum)},
-                                                             {"columns", offsetof(ProbeBlock, columns)}};
-        static const graph::BlockLayout layout{"ProbeBlock", sizeof(ProbeBlock), members};
-        return layout;
-    }
-};
-
 double now() {
     using namespace std::chrono;
     return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
@@ -49,10 +35,11 @@ double now() {
 double rampAt(int column) { return double(65536 + 257 * column) / 65536; }
 
 // Draws one question of measure/probe.frag; false when the device cannot.
-bool ask(gl::Context& context, const char* question, TextureHandle target, const ProbeBlock& block,
+bool ask(gl::Context& context, const char* question, TextureHandle target, ProbeBlock block,
          TextureHandle source = TextureHandle::None, bool add = false) {
     const gl::Program* program = context.program("measure/probe", {question});
-    if (!program) return false;
+    block.one = 1;
+    block.columns = kColumns;
     graph::Draw draw;
     draw.program = program;
     draw.blend = add ? graph::Blend::Add : graph::Blend::None;

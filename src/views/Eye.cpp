@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace lucent::views {
 
@@ -65,15 +64,6 @@ ViewBlock viewBlock(const Eye& eye, ivec2 size) {
             .right = vec4(pixel.x * eye.right, eye.nearest),
             .up = vec4(pixel.y * eye.up, 0),
             .size = vec2(size)};
-}
-
-std::vector<graph::BlockLayout::Member> viewMembers(std::size_t offset) {
-    return {{"view.eye", offset + offsetof(ViewBlock, eye)},
-            {"view.forward", offset + offsetof(ViewBlock, forward)},
-            {"view.right", offset + offsetof(ViewBlock, right)},
-            {"view.up", offset + offsetof(ViewBlock, up)},
-            {"view.size", offset + offsetof(ViewBlock, size)},
-            {"view.padding", offset + offsetof(ViewBlock, padding)}};
 }
 
 Eye makeEye(const scene::Scene& scene, float aspect, float nearestPart) {

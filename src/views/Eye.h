@@ -3,6 +3,7 @@
 
 #include "graph/Device.h"
 #include "scene/Scene.h"
+#include "shaders/views/Blocks.h"
 
 #include <vector>
 
@@ -30,14 +31,7 @@ struct Eye {
 ///                 far one. Depth buffers that are not linear need a thousandth
 Eye makeEye(const scene::Scene& scene, float aspect, float nearest = 1e-3f);
 
-/// Mirrors struct View of shaders/views/view.glsl.
-struct ViewBlock {
-    vec4 eye, forward, right, up;
-    vec2 size, padding{0};
-};
 ViewBlock viewBlock(const Eye& eye, ivec2 size);
-/// Offsets of a ViewBlock's members in a block that holds one named `view` at `offset`, for a BlockLayout.
-std::vector<graph::BlockLayout::Member> viewMembers(std::size_t offset);
 
 /// Corners of the box around an object in world space: lowest and highest coordinate.
 struct Bounds {

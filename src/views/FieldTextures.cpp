@@ -4,21 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace lucent::views {
 
 using graph::Format;
-
-std::vector<graph::BlockLayout::Member> fieldMembers(std::size_t offset) {
-    return {{"field.texels", offset + offsetof(FieldBlock, texels)},
-            {"field.texelSize", offset + offsetof(FieldBlock, texelSize)},
-            {"field.heightScale", offset + offsetof(FieldBlock, heightScale)},
-            {"field.lowest", offset + offsetof(FieldBlock, lowest)},
-            {"field.highest", offset + offsetof(FieldBlock, highest)},
-            {"field.bottom", offset + offsetof(FieldBlock, bottom)},
-            {"field.topLevel", offset + offsetof(FieldBlock, topLevel)}};
-}
 
 namespace {
 

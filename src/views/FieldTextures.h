@@ -4,6 +4,7 @@
 #include "gl/Context.h"
 #include "graph/Device.h"
 #include "scene/Scene.h"
+#include "shaders/views/Blocks.h"
 #include "views/Meshes.h"
 
 #include <cstdint>
@@ -12,17 +13,6 @@
 #include <vector>
 
 namespace lucent::views {
-
-/// Mirrors struct Field of shaders/views/field.glsl.
-struct FieldBlock {
-    vec2 texels;
-    float texelSize, heightScale;
-    float lowest, highest;
-    float bottom, topLevel;
-};
-
-/// Offsets of a FieldBlock's members in a block that holds one at `offset`, for a BlockLayout.
-std::vector<graph::BlockLayout::Member> fieldMembers(std::size_t offset);
 
 struct HeightRange {
     float lowest, highest; ///< stored heights

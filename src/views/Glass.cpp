@@ -1,17 +1,11 @@
 #include "views/Glass.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace lucent::views {
 
 GlassBlock glassBlock(const scene::Material& material) {
     return {vec4(iorsOf(material), material.fresnel), vec4(material.absorption(), material.transmission)};
-}
-
-std::vector<graph::BlockLayout::Member> glassMembers(std::size_t offset) {
-    return {{"glass[0].ior", offset + offsetof(GlassBlock, ior)},
-            {"glass[1].absorption", offset + sizeof(GlassBlock) + offsetof(GlassBlock, absorption)}};
 }
 
 vec3 iorsOf(const scene::Material& material) {

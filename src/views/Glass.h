@@ -5,16 +5,8 @@
 
 namespace lucent::views {
 
-/// A view traces at most so many refractive objects: each is a bit of a number.
-inline constexpr std::size_t kMostGlass = 31;
-
-/// Mirrors struct Glass.
-struct GlassBlock {
-    vec4 ior, absorption;
-};
+/// A view traces at most kMostGlass refractive objects.
 GlassBlock glassBlock(const scene::Material& material);
-/// Offsets of the ends of an array GlassBlock glass[kMostGlass] at `offset`, for a BlockLayout.
-std::vector<graph::BlockLayout::Member> glassMembers(std::size_t offset);
 
 /// Indices of refraction at the lines C, d and F (656, 588, 486 nm), which stand for red, green and blue:
 /// n = A + B / wavelength² with the Abbe number 20 / dispersion = (n_d - 1) / (n_F - n_C), as

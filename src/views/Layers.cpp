@@ -3,7 +3,6 @@
 #include "base/Log.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace lucent::views {
 
@@ -12,37 +11,6 @@ using graph::TextureDesc;
 using graph::TextureId;
 
 namespace {
-
-struct RangesBlock {
-    ViewBlock view;
-    ivec2 size;
-    int first, count;
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = viewMembers(offsetof(RangesBlock, view));
-            list.insert(list.end(), {{"size", offsetof(RangesBlock, size)},
-                                     {"first", offsetof(RangesBlock, first)},
-                                     {"count", offsetof(RangesBlock, count)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"RangesBlock", sizeof(RangesBlock), members};
-        return layout;
-    }
-};
-
-struct BlocksBlock {
-    ivec2 size;
-    int side, row;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"size", offsetof(BlocksBlock, size)},
-                                                             {"side", offsetof(BlocksBlock, side)},
-                                                             {"row", offsetof(BlocksBlock, row)}};
-        static const graph::BlockLayout layout{"BlocksBlock", sizeof(BlocksBlock), members};
-        return layout;
-    }
-};
 
 constexpr const char kImagesLabel[] = "views.layers", kBlocksLabel[] = "views.blocks",
                      kDepthLabel[] = "views.peelDepth";

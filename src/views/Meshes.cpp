@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <numeric>
@@ -14,26 +13,6 @@ namespace lucent::views {
 using graph::Format;
 
 namespace {
-
-struct MeshBlock {
-    mat4 clipFromWorld, worldFromObject, normalFromObject;
-    ViewBlock view;
-    int object, firstCorner = 0, padding0 = 0, padding1 = 0;
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = viewMembers(offsetof(MeshBlock, view));
-            list.insert(list.end(), {{"clipFromWorld", offsetof(MeshBlock, clipFromWorld)},
-                                     {"worldFromObject", offsetof(MeshBlock, worldFromObject)},
-                                     {"normalFromObject", offsetof(MeshBlock, normalFromObject)},
-                                     {"object", offsetof(MeshBlock, object)},
-                                     {"firstCorner", offsetof(MeshBlock, firstCorner)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"MeshBlock", sizeof(MeshBlock), members};
-        return layout;
-    }
-};
 
 bool isWaved(const scene::Object& object) { return object.wave.amplitude != vec3(0); }
 

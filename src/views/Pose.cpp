@@ -1,8 +1,9 @@
 #include "views/Pose.h"
 
+#include "shaders/views/Blocks.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 namespace lucent::views {
@@ -10,17 +11,6 @@ namespace lucent::views {
 using graph::Format;
 
 namespace {
-
-struct PoseBlock {
-    vec4 amplitude{0}, turns{0}; // turns: of the sine for each metre along its direction; w: at the origin
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"amplitude", offsetof(PoseBlock, amplitude)},
-                                                             {"turns", offsetof(PoseBlock, turns)}};
-        static const graph::BlockLayout layout{"PoseBlock", sizeof(PoseBlock), members};
-        return layout;
-    }
-};
 
 PoseBlock blockOf(const scene::Wave& wave, float time) {
     return {vec4(wave.amplitude, 0),

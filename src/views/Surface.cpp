@@ -1,68 +1,8 @@
 #include "views/Surface.h"
 
-#include <cstddef>
-
 namespace lucent::views {
 
 namespace {
-
-struct SurfaceBlock {
-    mat4 clipFromObject, objectFromPixel;
-    vec4 depthFromObject, eye;
-    FieldBlock field;
-    vec2 size;
-    int object, hasAlpha;
-    vec2 corner, depths;
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = fieldMembers(offsetof(SurfaceBlock, field));
-            list.insert(list.end(), {{"clipFromObject", offsetof(SurfaceBlock, clipFromObject)},
-                                     {"objectFromPixel", offsetof(SurfaceBlock, objectFromPixel)},
-                                     {"depthFromObject", offsetof(SurfaceBlock, depthFromObject)},
-                                     {"corner", offsetof(SurfaceBlock, corner)},
-                                     {"depths", offsetof(SurfaceBlock, depths)},
-                                     {"size", offsetof(SurfaceBlock, size)},
-                                     {"eye", offsetof(SurfaceBlock, eye)},
-                                     {"object", offsetof(SurfaceBlock, object)},
-                                     {"hasAlpha", offsetof(SurfaceBlock, hasAlpha)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"SurfaceBlock", sizeof(SurfaceBlock), members};
-        return layout;
-    }
-};
-
-struct GeometryBlock {
-    mat4 worldFromObject;
-    vec4 eye, forward;
-    FieldBlock field;
-    int object;
-    int padding[3] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = fieldMembers(offsetof(GeometryBlock, field));
-            list.insert(list.end(), {{"worldFromObject", offsetof(GeometryBlock, worldFromObject)},
-                                     {"eye", offsetof(GeometryBlock, eye)},
-                                     {"forward", offsetof(GeometryBlock, forward)},
-                                     {"object", offsetof(GeometryBlock, object)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"GeometryBlock", sizeof(GeometryBlock), members};
-        return layout;
-    }
-};
-
-struct SolidBlock {
-    ViewBlock view;
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = viewMembers(offsetof(SolidBlock, view));
-        static const graph::BlockLayout layout{"SolidBlock", sizeof(SolidBlock), members};
-        return layout;
-    }
-};
 
 const char* switchFor(scene::Aov aov) {
     switch (aov) {

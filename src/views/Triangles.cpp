@@ -3,7 +3,6 @@
 #include "views/Meshes.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <numeric>
 #include <tuple>
 
@@ -66,21 +65,6 @@ void joinNeighbours(TriangleTable& table, const std::vector<vec3>& positions) {
             across(other) = one.number;
         }
 }
-
-struct TrianglesBlock {
-    mat4 worldFromObject, normalFromObject;
-    int first, count, padding0 = 0, padding1 = 0;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {
-            {"worldFromObject", offsetof(TrianglesBlock, worldFromObject)},
-            {"normalFromObject", offsetof(TrianglesBlock, normalFromObject)},
-            {"first", offsetof(TrianglesBlock, first)},
-            {"count", offsetof(TrianglesBlock, count)}};
-        static const graph::BlockLayout layout{"TrianglesBlock", sizeof(TrianglesBlock), members};
-        return layout;
-    }
-};
 
 // Five numbers of three bytes in four of four: the last one is spread over the others' highest bytes.
 glm::uvec4 packed(const TriangleTable::Triangle& triangle) {

@@ -3,7 +3,6 @@
 #include "base/Log.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace lucent::views {
 
@@ -14,21 +13,6 @@ namespace {
 
 constexpr float kNoDepth = -1e30f; // shaders/views/depth.glsl
 constexpr int kColumns = 4;        // of images in the reduced one, shaders/views/deepest.frag
-
-struct VoxelBlock {
-    vec2 bounds{0};
-    ivec2 size{0}, blocks{0};
-    int count = 0, padding = 0;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"bounds", offsetof(VoxelBlock, bounds)},
-                                                             {"size", offsetof(VoxelBlock, size)},
-                                                             {"blocks", offsetof(VoxelBlock, blocks)},
-                                                             {"count", offsetof(VoxelBlock, count)}};
-        static const graph::BlockLayout layout{"VoxelBlock", sizeof(VoxelBlock), members};
-        return layout;
-    }
-};
 
 int blocksOf(int size, int side) { return (size + side - 1) / side; }
 

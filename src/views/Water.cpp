@@ -1,33 +1,17 @@
 #include "views/Water.h"
 
 #include "base/Text.h"
+#include "shaders/views/Blocks.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstddef>
 
 namespace lucent::views {
 
 using graph::Format;
 
 namespace {
-
-struct WaterBlock {
-    vec4 sine, drop;
-    vec2 size, cell;
-    float step, damping, speed, rest;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {
-            {"sine", offsetof(WaterBlock, sine)},   {"drop", offsetof(WaterBlock, drop)},
-            {"size", offsetof(WaterBlock, size)},   {"cell", offsetof(WaterBlock, cell)},
-            {"step", offsetof(WaterBlock, step)},   {"damping", offsetof(WaterBlock, damping)},
-            {"speed", offsetof(WaterBlock, speed)}, {"rest", offsetof(WaterBlock, rest)}};
-        static const graph::BlockLayout layout{"WaterBlock", sizeof(WaterBlock), members};
-        return layout;
-    }
-};
 
 vec2 cellOf(const scene::Water& water) { return water.size / vec2(waterCells(water)); }
 

@@ -21,13 +21,8 @@ using graph::uvec4;
 
 // What a draw needs besides textures, in one block.
 struct TestBlock {
+    static constexpr std::string_view kName = "TestBlock";
     vec4 value{0}, place{0};
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"value", offsetof(TestBlock, value)},
-                                                             {"place", offsetof(TestBlock, place)}};
-        static const graph::BlockLayout layout{"TestBlock", sizeof(TestBlock), members};
-        return layout;
-    }
 };
 
 const std::string kBlock = "layout(std140) uniform TestBlock { vec4 value; vec4 place; } test;\n";

@@ -1,61 +1,12 @@
 #include "techniques/brdf/Brdf.h"
 
-#include <cstddef>
+#include "shaders/brdf/Blocks.h"
 
 namespace lucent::brdf {
 
 namespace {
 
-struct Matter {
-    vec4 base, diffuse;
-};
-
-struct MattBlock {
-    static constexpr int kObjects = 256;
-
-    views::ViewBlock view;
-    Matter matter[kObjects] = {};
-    int first = 0, firstLight = 0, endLight = 0, columns = 1;
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(MattBlock, view));
-            list.insert(list.end(), {{"matter[0].base", offsetof(MattBlock, matter)},
-                                     {"matter[1].diffuse", offsetof(MattBlock, matter[1].diffuse)},
-                                     {"first", offsetof(MattBlock, first)},
-                                     {"firstLight", offsetof(MattBlock, firstLight)},
-                                     {"endLight", offsetof(MattBlock, endLight)},
-                                     {"columns", offsetof(MattBlock, columns)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"MattBlock", sizeof(MattBlock), members};
-        return layout;
-    }
-};
-
-struct MirrorBlock {
-    views::ViewBlock view;
-    mat4 mapFromWorld{1};
-    vec4 reflectance{0};
-    int object = 0;
-    float intensity = 0;
-    int padding[2] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(MirrorBlock, view));
-            list.insert(list.end(), {{"mapFromWorld", offsetof(MirrorBlock, mapFromWorld)},
-                                     {"reflectance", offsetof(MirrorBlock, reflectance)},
-                                     {"object", offsetof(MirrorBlock, object)},
-                                     {"intensity", offsetof(MirrorBlock, intensity)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"MirrorBlock", sizeof(MirrorBlock), members};
-        return layout;
-    }
-};
-
-// Of the objects [first, first + kObjects) of the scene.
+// Of the objects [first, first + kMostMatter) of the scene.
 MattBlock mattBlock(const Inputs& in, int first) {
     MattBlock block{.view = views::viewBlock(in.eye, in.size)};
     block.first = first;
@@ -64,9 +15,9 @@ MattBlock mattBlock(const Inputs& in, int first) {
     block.columns = in.occlusion.columns;
     for (const views::PosedMesh& solid : in.solids) {
         const int place = solid.drawn.index - first;
-        if (place < 0 || place >= MattBlock::kObjects) continue;
+        if (place < 0 || place >= kMostMatter) continue;
         const scene::Material& material = solid.drawn.object->material;
-        block.matter[place] = {vec4(material.base, 0), vec4(material.diffuse, 1)};
+        block.matter[std::size_t(place)] = {vec4(material.base, 0), vec4(material.diffuse, 1)};
     }
     return block;
 }
@@ -107,7 +58,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
     if (in.show == scene::Aov::Irradiance) defines.push_back("SHOW_IRRADIANCE");
     const gl::Program* program = context_.program("brdf/light", defines);
     std::vector<graph::Block> blocks;
-    for (int first = 0; first < int(in.scene.objects.size()); first += MattBlock::kObjects)
+    for (int first = 0; first < int(in.scene.objects.size()); first += kMostMatter)
         blocks.push_back(mattBlock(in, first));
     graph.addPass("brdf.light", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("light samples " + std::to_string(in.first) + " to " + std::to_string(in.end - 1) +

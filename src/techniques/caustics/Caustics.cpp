@@ -343,9 +343,9 @@ Status Caustics::checkLimits(const Inputs& in, const Settings& settings) const {
         return Error{"caustics: " + std::to_string(in.glass.size()) +
                          " refractive objects; must be at most " + std::to_string(views::kMostGlass),
                      Fault::Machine};
-    if (const std::size_t count = mirrorsOf(in.solids).size(); count > MirrorBlock::kMost)
+    if (const std::size_t count = mirrorsOf(in.solids).size(); count > kMostMirrors)
         return Error{"caustics: " + std::to_string(count) + " mirrors; must be at most " +
-                         std::to_string(MirrorBlock::kMost),
+                         std::to_string(kMostMirrors),
                      Fault::Machine};
     if (const int side = viewSizeOf(settings.grid).x; side > context_.caps().maxTextureSize)
         return Error{"caustics: grid is " + std::to_string(settings.grid) + ", for which a lamp's view has " +

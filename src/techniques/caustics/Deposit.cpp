@@ -30,7 +30,7 @@ float LightPasses::splatSize(const views::Eye& glass) const {
 }
 
 DepositBlock LightPasses::depositBlock(const Photons& photons, float size) const {
-    return {.faces = Faces(mapViews()),
+    return {.faces = views::facesOf(mapViews()),
             .frame = vec4(0),
             .grid = photons.count,
             .faceCount = int(mapViews().faces.size()),
@@ -197,7 +197,7 @@ Status LightPasses::lookUp(TextureId& sum) {
         if (before) pass.sample(before);
         sum = pass.createColor("caustics.irradiance", {.size = in_.size, .format = Format::RGBA32F});
         const LookupBlock block{.view = views::viewBlock(in_.eye, in_.size),
-                                .faces = Faces(mapViews()),
+                                .faces = views::facesOf(mapViews()),
                                 .faceCount = int(mapViews().faces.size()),
                                 .unit = unit()};
         return [=, program = looking, map = map_, depths = mapDepths_,

@@ -250,7 +250,7 @@ Status LightPasses::land(Photons& photons, Part part, const Cells& cells) {
             if (isRest(part)) pass.clear(target, vec4(0));
         }
         if (isRest(part)) pass.sample(cells.index);
-        const LandBlock block{.faces = Faces(light_.receivers),
+        const LandBlock block{.faces = views::facesOf(light_.receivers),
                               .low = vec4(box.low, 0),
                               .high = vec4(box.high, 0),
                               .faceCount = int(light_.receivers.faces.size()),
@@ -411,9 +411,9 @@ Status LightPasses::recordRound() {
         const TextureDesc desc{.size = mapViews().imageSize(), .format = Format::R32F};
         mapDepths_ = pass.createColor("caustics.round", desc);
         if (behind_) mapBehind_ = pass.createColor("caustics.roundBehind", desc);
-        RoundBlock block{
-            .faces = Faces(light_.receivers), .halves = {}, .faceCount = int(light_.receivers.faces.size())};
-        std::copy_n(Faces(light_.halves).list, 2, block.halves);
+        RoundBlock block{.faces = views::facesOf(light_.receivers),
+                         .faceCount = int(light_.receivers.faces.size())};
+        std::copy_n(views::facesOf(light_.halves).begin(), 2, block.halves.begin());
         return [=, program = rounding, samples = std::move(samples)](const graph::Resources& resources,
                                                                      graph::Commands& commands) {
             std::vector<graph::Binding> textures;

@@ -2,7 +2,7 @@
 /// The passes of one point of a light: its rays through glass and off mirrors, where they land, what they
 /// leave there, and what pixels see of that.
 
-#include "techniques/caustics/Blocks.h"
+#include "shaders/caustics/Blocks.h"
 #include "techniques/caustics/Caustics.h"
 #include "techniques/caustics/Spectrum.h"
 

@@ -1,26 +1,10 @@
 #include "techniques/caustics/MapView.h"
 
+#include "shaders/caustics/Blocks.h"
+
 #include <algorithm>
-#include <cstddef>
 
 namespace lucent::caustics {
-
-namespace {
-
-struct MapBlock {
-    vec2 corner;
-    float texels;
-    int padding = 0;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"corner", offsetof(MapBlock, corner)},
-                                                             {"texels", offsetof(MapBlock, texels)}};
-        static const graph::BlockLayout layout{"MapBlock", sizeof(MapBlock), members};
-        return layout;
-    }
-};
-
-} // namespace
 
 Status recordMapView(graph::FrameGraph& graph, gl::Context& context, const Map& map, graph::TextureId target,
                      ivec2 size) {

@@ -43,7 +43,7 @@ WaterRaysBlock LightPasses::waterBlock(const Tint& tint, ivec2 rays) const {
     const scene::Object& object = objectOf(in_.glass.front());
     const auto& water = std::get<scene::Water>(object.shape);
     const vec2 size = object.transform.scale * water.size / vec2(rays - 1);
-    WaterRaysBlock block{.faces = Faces(light_.water->over),
+    WaterRaysBlock block{.faces = views::facesOf(light_.water->over),
                          .worldFromObject = object.transform.worldFromObject(),
                          .normalFromObject = mat4(rotationFromDegrees(object.transform.rotate)),
                          .lamp = lampBlock(),

@@ -1,25 +1,9 @@
 #include "techniques/refract/LayerView.h"
 
+#include "shaders/refract/Blocks.h"
 #include "views/Objects.h"
 
-#include <cstddef>
-
 namespace lucent::refract {
-
-namespace {
-
-struct LayerBlock {
-    int layer;
-    int padding[3] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"layer", offsetof(LayerBlock, layer)}};
-        static const graph::BlockLayout layout{"LayerBlock", sizeof(LayerBlock), members};
-        return layout;
-    }
-};
-
-} // namespace
 
 Status recordLayerView(graph::FrameGraph& graph, gl::Context& context, const views::Layers& layers,
                        int number, scene::Aov show, graph::TextureId target) {

@@ -1,10 +1,10 @@
 #include "techniques/refract/Refract.h"
 
 #include "base/Log.h"
+#include "shaders/refract/Blocks.h"
 #include "views/Glass.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace lucent::refract {
 
@@ -17,38 +17,6 @@ constexpr std::string_view kPeelings[] = {"pass", "on-the-fly"};
 constexpr std::string_view kTraces[] = {"pyramid", "bisection"};
 constexpr std::string_view kNormals[] = {"stored", "neighbours", "delta1", "delta2"};
 constexpr std::string_view kPathLengths[] = {"geometric", "optical"};
-
-struct RefractBlock {
-    views::ViewBlock view;
-    mat4 mapFromWorld{1};
-    views::GlassBlock glass[views::kMostGlass];
-    int count = 0, hasEnvironment = 0;
-    float intensity = 1;
-    int around = 0;
-    vec4 low{0}, high{0};
-    vec2 depths{0};
-    int depthCount = 0, padding = 0;
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(RefractBlock, view));
-            const auto glass = views::glassMembers(offsetof(RefractBlock, glass));
-            list.insert(list.end(), glass.begin(), glass.end());
-            list.insert(list.end(), {{"mapFromWorld", offsetof(RefractBlock, mapFromWorld)},
-                                     {"count", offsetof(RefractBlock, count)},
-                                     {"hasEnvironment", offsetof(RefractBlock, hasEnvironment)},
-                                     {"intensity", offsetof(RefractBlock, intensity)},
-                                     {"around", offsetof(RefractBlock, around)},
-                                     {"low", offsetof(RefractBlock, low)},
-                                     {"high", offsetof(RefractBlock, high)},
-                                     {"depths", offsetof(RefractBlock, depths)},
-                                     {"depthCount", offsetof(RefractBlock, depthCount)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"RefractBlock", sizeof(RefractBlock), members};
-        return layout;
-    }
-};
 
 bool holds(const views::Bounds& bounds, vec3 place) {
     return glm::all(glm::greaterThanEqual(place, bounds.low)) &&

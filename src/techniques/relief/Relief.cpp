@@ -1,7 +1,5 @@
 #include "techniques/relief/Relief.h"
 
-#include "techniques/relief/ReliefBlock.h"
-
 #include <algorithm>
 #include <cmath>
 

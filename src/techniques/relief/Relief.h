@@ -6,6 +6,7 @@
 #include "graph/FrameGraph.h"
 #include "light/Occlusion.h"
 #include "scene/Scene.h"
+#include "shaders/relief/Blocks.h"
 #include "views/Surface.h"
 
 #include <optional>
@@ -16,8 +17,6 @@ namespace lucent::relief {
 
 enum class Method : int { Hierarchy, March, Counting, Transfer };
 enum class Attenuation : int { Ratio, Exponential };
-
-inline constexpr int kMostTerms = 128; ///< of a transfer
 
 struct Settings {
     Method method = Method::Hierarchy;
@@ -72,5 +71,9 @@ public:
 private:
     gl::Context& context_;
 };
+
+/// The block for one object with everything that is the object's own. World space is the object's own unless
+/// the caller says otherwise.
+ReliefBlock makeBlock(const views::DrawnObject& drawn, const Settings& settings);
 
 } // namespace lucent::relief

@@ -1,7 +1,6 @@
 #include "techniques/relief/Transfer.h"
 
 #include "light/EnvironmentLights.h"
-#include "techniques/relief/ReliefBlock.h"
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +14,6 @@ using graph::TextureDesc;
 namespace {
 
 constexpr int kCells = 1024;   // about as many parts of the sphere does the basis tell apart
-constexpr int kSensors = 512;  // directions traced for every texel; the shaders know this number
 constexpr int kSamples = 1024; // texels of which the basis is learned
 constexpr int kTile = 64;      // texels a side
 constexpr int kBlocksPerRow = 16, kBlockRows = kSensors / 4 / kBlocksPerRow;
@@ -23,33 +21,6 @@ constexpr int kSmallLights = 16384;
 constexpr std::size_t kMostBytes = std::size_t(128) << 20; // of coefficients
 constexpr double kStepMs = 40;
 constexpr ivec2 kGlossSize{64, 32};
-
-struct ProjectBlock {
-    vec4 fit[kSensors];
-    ivec4 tile;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"fit[0]", offsetof(ProjectBlock, fit)},
-                                                             {"tile", offsetof(ProjectBlock, tile)}};
-        static const graph::BlockLayout layout{"ProjectBlock", sizeof(ProjectBlock), members};
-        return layout;
-    }
-};
-
-struct GatherBlock {
-    vec4 light[kMostTerms];
-    ivec2 size;
-    int terms, columns;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"light[0]", offsetof(GatherBlock, light)},
-                                                             {"size", offsetof(GatherBlock, size)},
-                                                             {"terms", offsetof(GatherBlock, terms)},
-                                                             {"columns", offsetof(GatherBlock, columns)}};
-        static const graph::BlockLayout layout{"GatherBlock", sizeof(GatherBlock), members};
-        return layout;
-    }
-};
 
 // Texels of the transfer: the field's own, or fewer where their coefficients would not fit.
 ivec2 gridFor(ivec2 texels, int terms) {
@@ -249,7 +220,7 @@ Status Transfer::project(graph::TexturePool& pool, ivec2 corner) {
             ProjectBlock block;
             for (int sensor = 0; sensor < kSensors; ++sensor)
                 for (int i = 0; i < 4; ++i)
-                    block.fit[sensor][i] = basis_.fit(4 * image + i, sensor);
+                    block.fit[std::size_t(sensor)][i] = basis_.fit(4 * image + i, sensor);
             block.tile = ivec4(at, tile);
             commands.draw({.program = program,
                            .region = ivec4(at, size),
@@ -313,7 +284,7 @@ Result<graph::TextureId> Transfer::recordIrradiance(graph::FrameGraph& graph) co
     const gl::Program* program = context_.program(
         "relief/gather", oneView ? std::vector<std::string>{} : std::vector<std::string>{"USE_NODES"});
     GatherBlock block{};
-    if (oneView) std::copy(light_.begin(), light_.end(), block.light);
+    if (oneView) std::copy(light_.begin(), light_.end(), block.light.begin());
     block.size = grid_;
     block.terms = termsUsed_;
     block.columns = coefficients_.desc().size.x / grid_.x;

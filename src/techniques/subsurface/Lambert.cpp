@@ -1,9 +1,8 @@
 #include "techniques/subsurface/Lambert.h"
 
 #include "light/ShadowMap.h"
+#include "shaders/subsurface/Blocks.h"
 #include "techniques/subsurface/Sky.h"
-
-#include <cstddef>
 
 namespace lucent::subsurface {
 
@@ -13,38 +12,6 @@ namespace {
 
 constexpr int kShadowSize =
     1024; // texels a side, in which highlights are cut off; of lamps with a size half as many
-
-struct LambertBlock {
-    views::ViewBlock view;
-    views::ViewBlock faces[views::ShadowViews::kMost];
-    vec4 place{0}, color{0}, axis{0};
-    vec4 sky[9] = {};
-    vec4 whole{0};
-    vec2 cone{0};
-    int faceCount = 0, object = 0;
-    float ior = 1;
-    float padding[3] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(LambertBlock, view));
-            list.insert(list.end(), {{"faces[0].eye", offsetof(LambertBlock, faces)},
-                                     {"faces[1].size", offsetof(LambertBlock, faces[1].size)},
-                                     {"place", offsetof(LambertBlock, place)},
-                                     {"color", offsetof(LambertBlock, color)},
-                                     {"axis", offsetof(LambertBlock, axis)},
-                                     {"sky", offsetof(LambertBlock, sky)},
-                                     {"whole", offsetof(LambertBlock, whole)},
-                                     {"cone", offsetof(LambertBlock, cone)},
-                                     {"faceCount", offsetof(LambertBlock, faceCount)},
-                                     {"object", offsetof(LambertBlock, object)},
-                                     {"ior", offsetof(LambertBlock, ior)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"LambertBlock", sizeof(LambertBlock), members};
-        return layout;
-    }
-};
 
 // Share of the light that entered which leaves again, of each colour.
 vec3 wholeOf(const scene::Material& material, const Settings& settings) {
@@ -74,8 +41,7 @@ public:
             block.axis = vec4(lamp.axis, lamp.fades);
             block.cone = lamp.cone;
             block.faceCount = int(shadow->views.faces.size());
-            for (std::size_t i = 0; i < shadow->views.faces.size(); ++i)
-                block.faces[i] = views::viewBlock(shadow->views.faces[i], ivec2(shadow->views.size));
+            block.faces = views::facesOf(shadow->views);
             blocks.push_back(block);
         }
         return add(blocks, shadow->map, shadow->map ? "USE_SHADOW" : "", "one point of a lamp");

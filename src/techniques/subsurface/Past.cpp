@@ -1,8 +1,9 @@
 #include "techniques/subsurface/Past.h"
 
+#include "shaders/subsurface/Blocks.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace lucent::subsurface {
 
@@ -16,37 +17,6 @@ namespace {
 constexpr float kTurn = 0.17f;
 constexpr double kSquare = 8;                 // distances of points, a square over which light changes evenly
 constexpr int kLeastSide = 4, kMostSide = 64; // pixels, of a square
-
-struct CarriedBlock {
-    views::ViewBlock view;
-    mat4 thenFromNow{1};
-    int object = 0;
-    int padding[3] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(CarriedBlock, view));
-            list.insert(list.end(), {{"thenFromNow", offsetof(CarriedBlock, thenFromNow)},
-                                     {"object", offsetof(CarriedBlock, object)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"CarriedBlock", sizeof(CarriedBlock), members};
-        return layout;
-    }
-};
-
-struct ChangeBlock {
-    int side;
-    float unit;
-    int padding[2] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"side", offsetof(ChangeBlock, side)},
-                                                             {"unit", offsetof(ChangeBlock, unit)}};
-        static const graph::BlockLayout layout{"ChangeBlock", sizeof(ChangeBlock), members};
-        return layout;
-    }
-};
 
 std::vector<float> numbersOf(const Settings& settings) {
     return {float(settings.method),    float(settings.profile), float(settings.dipoleGeometry),

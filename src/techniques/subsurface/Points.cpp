@@ -2,11 +2,11 @@
 
 #include "base/Log.h"
 #include "light/ShadowMap.h"
+#include "shaders/subsurface/Blocks.h"
 #include "views/Surface.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace lucent::subsurface {
 
@@ -14,45 +14,6 @@ using graph::Format;
 using graph::TextureId;
 
 namespace {
-
-struct FluxBlock {
-    views::ViewBlock view;
-    vec4 color{0}, axis{0};
-    vec4 sky[9] = {};
-    vec4 sharpness{0};
-    vec2 cone{0};
-    int object = 0;
-    float ior = 1;
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(FluxBlock, view));
-            list.insert(list.end(), {{"color", offsetof(FluxBlock, color)},
-                                     {"axis", offsetof(FluxBlock, axis)},
-                                     {"sky", offsetof(FluxBlock, sky)},
-                                     {"sharpness", offsetof(FluxBlock, sharpness)},
-                                     {"cone", offsetof(FluxBlock, cone)},
-                                     {"object", offsetof(FluxBlock, object)},
-                                     {"ior", offsetof(FluxBlock, ior)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"FluxBlock", sizeof(FluxBlock), members};
-        return layout;
-    }
-};
-
-struct MergeBlock {
-    float width;
-    int perspective;
-    int padding[2] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {
-            {"width", offsetof(MergeBlock, width)}, {"perspective", offsetof(MergeBlock, perspective)}};
-        static const graph::BlockLayout layout{"MergeBlock", sizeof(MergeBlock), members};
-        return layout;
-    }
-};
 
 constexpr const char* kPlace = "subsurface.place";
 constexpr const char* kFlux = "subsurface.flux";
@@ -225,7 +186,7 @@ Result<std::vector<Points>> recordSky(graph::FrameGraph& graph, gl::Context& con
                                       const std::array<vec3, 9>& sky, const Grid& grid) {
     const ivec2 size = pixelsOf(axis, *object.drawn.object, grid);
     FluxBlock block = blockOf(axis, size, object, grid.sharpness);
-    std::transform(sky.begin(), sky.end(), block.sky, [](vec3 one) { return vec4(one, 0); });
+    std::transform(sky.begin(), sky.end(), block.sky.begin(), [](vec3 one) { return vec4(one, 0); });
     std::vector<Points> list;
     TextureId before;
     for (int i = 0; i < layers; ++i) {

@@ -1,11 +1,11 @@
 #include "techniques/subsurface/Splatting.h"
 
 #include "light/ShadowMap.h"
+#include "shaders/subsurface/Blocks.h"
 #include "techniques/subsurface/Sky.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <map>
 
 namespace lucent::subsurface {
@@ -33,95 +33,6 @@ constexpr int kLeastGathered = 4096, kMostGathered = 60000, kParts = 32;
 
 // M_d lies above half of two to this power and not above it.
 int octaveOf(float sharpness) { return int(std::ceil(std::log2(sharpness))); }
-
-struct ReceiversBlock {
-    views::ViewBlock view;
-    int side;
-    int padding[3] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(ReceiversBlock, view));
-            list.push_back({"side", offsetof(ReceiversBlock, side)});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"ReceiversBlock", sizeof(ReceiversBlock), members};
-        return layout;
-    }
-};
-
-struct SplatBlock {
-    static constexpr std::size_t kMostPoles = 32;
-
-    views::ViewBlock view;
-    vec4 bounds{0};
-    vec4 depths[kMostPoles] = {}, weights[kMostPoles] = {};
-    vec4 transport{0}, albedo{0};
-    int columns = 0, object = 0;
-    float widest = 0, reach = 0;
-    int isFinest = 0, isCoarsest = 0;
-    int first = 0, count = 0;
-    float unit = 1;
-    float bluntest = 0, sharpest = 0;
-    int side = 1, corners = 1;
-    int padding[3] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(SplatBlock, view));
-            list.insert(list.end(), {{"bounds", offsetof(SplatBlock, bounds)},
-                                     {"depths", offsetof(SplatBlock, depths)},
-                                     {"weights", offsetof(SplatBlock, weights)},
-                                     {"transport", offsetof(SplatBlock, transport)},
-                                     {"albedo", offsetof(SplatBlock, albedo)},
-                                     {"columns", offsetof(SplatBlock, columns)},
-                                     {"object", offsetof(SplatBlock, object)},
-                                     {"widest", offsetof(SplatBlock, widest)},
-                                     {"reach", offsetof(SplatBlock, reach)},
-                                     {"isFinest", offsetof(SplatBlock, isFinest)},
-                                     {"isCoarsest", offsetof(SplatBlock, isCoarsest)},
-                                     {"first", offsetof(SplatBlock, first)},
-                                     {"count", offsetof(SplatBlock, count)},
-                                     {"unit", offsetof(SplatBlock, unit)},
-                                     {"bluntest", offsetof(SplatBlock, bluntest)},
-                                     {"sharpest", offsetof(SplatBlock, sharpest)},
-                                     {"side", offsetof(SplatBlock, side)},
-                                     {"corners", offsetof(SplatBlock, corners)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"SplatBlock", sizeof(SplatBlock), members};
-        return layout;
-    }
-};
-
-struct BallsBlock {
-    int side;
-    int padding[3] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"side", offsetof(BallsBlock, side)}};
-        static const graph::BlockLayout layout{"BallsBlock", sizeof(BallsBlock), members};
-        return layout;
-    }
-};
-
-struct SpreadBlock {
-    int side;
-    float width;
-    int perspective, padding = 0;
-    vec4 eye, forward;
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {
-            {"side", offsetof(SpreadBlock, side)},
-            {"width", offsetof(SpreadBlock, width)},
-            {"perspective", offsetof(SpreadBlock, perspective)},
-            {"eye", offsetof(SpreadBlock, eye)},
-            {"forward", offsetof(SpreadBlock, forward)}};
-        static const graph::BlockLayout layout{"SpreadBlock", sizeof(SpreadBlock), members};
-        return layout;
-    }
-};
 
 // Lowest and highest pixel that a box may cover in a picture.
 vec4 pixelsOf(const views::Eye& eye, const views::Bounds& box, ivec2 size) {
@@ -294,7 +205,7 @@ SplatBlock Splatter::blockOf(const Target& target, const Band& band) const {
         block.albedo[c] = float(media[channel].albedo());
         const std::vector<diffusion::Pole>& poles = target.plan.profile->poles[channel];
         count = std::max(count, poles.size());
-        for (std::size_t i = 0; i < SplatBlock::kMostPoles; ++i) {
+        for (std::size_t i = 0; i < kMostPoles; ++i) {
             const bool is = i < poles.size();
             block.depths[i][c] = is ? float(poles[i].depth) : 1.0f;
             block.weights[i][c] = is ? float(poles[i].weight) : 0.0f;

@@ -2,6 +2,7 @@
 
 #include "base/Log.h"
 #include "light/ShadowMap.h"
+#include "shaders/subsurface/Blocks.h"
 #include "techniques/subsurface/Lambert.h"
 #include "techniques/subsurface/Past.h"
 #include "techniques/subsurface/Splatting.h"
@@ -9,7 +10,6 @@
 #include "views/Layers.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace lucent::subsurface {
 
@@ -23,60 +23,6 @@ constexpr std::string_view kGeometries[] = {"planar", "offset"};
 constexpr std::string_view kSplats[] = {"bound", "paper"};
 constexpr std::string_view kExits[] = {"whole", "paper"};
 constexpr std::string_view kBlurEnergies[] = {"kept", "paper"};
-
-struct HighlightBlock {
-    views::ViewBlock view;
-    views::ViewBlock faces[views::ShadowViews::kMost];
-    vec4 place{0}, color{0}, axis{0};
-    vec2 cone{0};
-    int faceCount = 0, object = 0;
-    float ior = 1, roughness = 0;
-    float padding[2] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(HighlightBlock, view));
-            list.insert(list.end(), {{"faces[0].eye", offsetof(HighlightBlock, faces)},
-                                     {"faces[1].size", offsetof(HighlightBlock, faces[1].size)},
-                                     {"place", offsetof(HighlightBlock, place)},
-                                     {"color", offsetof(HighlightBlock, color)},
-                                     {"axis", offsetof(HighlightBlock, axis)},
-                                     {"cone", offsetof(HighlightBlock, cone)},
-                                     {"faceCount", offsetof(HighlightBlock, faceCount)},
-                                     {"object", offsetof(HighlightBlock, object)},
-                                     {"ior", offsetof(HighlightBlock, ior)},
-                                     {"roughness", offsetof(HighlightBlock, roughness)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"HighlightBlock", sizeof(HighlightBlock), members};
-        return layout;
-    }
-};
-
-struct ShadeBlock {
-    views::ViewBlock view;
-    mat4 mapFromWorld{1};
-    float ior = 1, roughness = 0, mean = 1, intensity = 0;
-    int object = 0;
-    float unit = 1;
-    int padding[2] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(ShadeBlock, view));
-            list.insert(list.end(), {{"mapFromWorld", offsetof(ShadeBlock, mapFromWorld)},
-                                     {"ior", offsetof(ShadeBlock, ior)},
-                                     {"roughness", offsetof(ShadeBlock, roughness)},
-                                     {"mean", offsetof(ShadeBlock, mean)},
-                                     {"intensity", offsetof(ShadeBlock, intensity)},
-                                     {"object", offsetof(ShadeBlock, object)},
-                                     {"unit", offsetof(ShadeBlock, unit)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"SubsurfaceShadeBlock", sizeof(ShadeBlock), members};
-        return layout;
-    }
-};
 
 bool scatters(const scene::Object& object) {
     return object.visible && !object.isField() && object.material.isScattering();
@@ -110,7 +56,7 @@ Result<TextureId> recordHighlight(graph::FrameGraph& graph, gl::Context& context
     for (const views::PosedMesh& mesh : objects) {
         const scene::Material& material = mesh.drawn.object->material;
         HighlightBlock block{.view = views::viewBlock(in.eye, in.size),
-                             .faces = {},
+                             .faces = facesOf(views),
                              .place = lamp.place,
                              .color = vec4(lamp.color, lamp.exponent),
                              .axis = vec4(lamp.axis, lamp.fades),
@@ -119,8 +65,6 @@ Result<TextureId> recordHighlight(graph::FrameGraph& graph, gl::Context& context
                              .object = mesh.drawn.index,
                              .ior = material.surfaceIor(),
                              .roughness = material.roughness};
-        for (std::size_t i = 0; i < views.faces.size(); ++i)
-            block.faces[i] = views::viewBlock(views.faces[i], ivec2(views.size));
         blocks.push_back(block);
     }
     TextureId sum;
@@ -142,13 +86,15 @@ Result<TextureId> recordHighlight(graph::FrameGraph& graph, gl::Context& context
     return sum;
 }
 
-ShadeBlock shadeBlock(const Inputs& in, const views::PosedMesh& mesh, float unit, const Settings& settings) {
+SubsurfaceShadeBlock shadeBlock(const Inputs& in, const views::PosedMesh& mesh, float unit,
+                                const Settings& settings) {
     const scene::Material& material = mesh.drawn.object->material;
-    ShadeBlock block{.view = views::viewBlock(in.eye, in.size),
-                     .ior = material.surfaceIor(),
-                     .roughness = material.roughness,
-                     .object = mesh.drawn.index,
-                     .unit = unit};
+    SubsurfaceShadeBlock block{.view = views::viewBlock(in.eye, in.size),
+                               .ior = material.surfaceIor(),
+                               .roughness = material.roughness,
+                               .mean = 1,
+                               .object = mesh.drawn.index,
+                               .unit = unit};
     if (settings.exit == Exit::Whole) block.mean = float(diffusion::meanTransmittance(material.surfaceIor()));
     if (in.environment != graph::TextureHandle::None) {
         block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.scene.environment->rotation)));
@@ -200,18 +146,6 @@ Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs&
     return Done{};
 }
 
-struct LayerBlock {
-    int object = 0, layer = 0;
-    int padding[2] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const graph::BlockLayout::Member members[] = {{"object", offsetof(LayerBlock, object)},
-                                                             {"layer", offsetof(LayerBlock, layer)}};
-        static const graph::BlockLayout layout{"PaintLayerBlock", sizeof(LayerBlock), members};
-        return layout;
-    }
-};
-
 // Shows what is painted on objects in place of their light.
 Status recordLayer(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
                    const std::vector<views::PosedMesh>& painted, PaintLayer layer) {
@@ -222,7 +156,7 @@ Status recordLayer(graph::FrameGraph& graph, gl::Context& context, const Inputs&
     const gl::Program* program = context.program("subsurface/layer");
     std::vector<graph::Block> blocks;
     for (const views::PosedMesh& mesh : painted)
-        blocks.push_back(LayerBlock{.object = mesh.drawn.index, .layer = int(layer)});
+        blocks.push_back(PaintLayerBlock{.object = mesh.drawn.index, .layer = int(layer)});
     graph.addPass("subsurface.layer", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("what is painted on " + std::to_string(painted.size()) +
                     " object(s), in place of their light");

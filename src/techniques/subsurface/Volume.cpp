@@ -2,11 +2,11 @@
 
 #include "base/Log.h"
 #include "light/ShadowMap.h"
+#include "shaders/subsurface/Blocks.h"
 #include "techniques/subsurface/Sky.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace lucent::subsurface {
 
@@ -18,35 +18,6 @@ namespace {
 constexpr int kDepths = 4;         // shaders/subsurface/volume_source.vert
 constexpr double kUnsolved = 1e-3; // what is left of the first error
 constexpr double kWidestCell = 4;  // mean free paths
-
-struct VolumeBlock {
-    views::ViewBlock view;
-    vec4 low{0};
-    ivec4 cells{0}, layers{0};
-    vec4 diffusion{0}, absorption{0}, extinction{0}, albedo{0}, lamp{0}, omega{0};
-    int object = 0, columns = 0;
-    int padding[2] = {};
-
-    static const graph::BlockLayout& layout() {
-        static const auto members = [] {
-            auto list = views::viewMembers(offsetof(VolumeBlock, view));
-            list.insert(list.end(), {{"low", offsetof(VolumeBlock, low)},
-                                     {"cells", offsetof(VolumeBlock, cells)},
-                                     {"layers", offsetof(VolumeBlock, layers)},
-                                     {"diffusion", offsetof(VolumeBlock, diffusion)},
-                                     {"absorption", offsetof(VolumeBlock, absorption)},
-                                     {"extinction", offsetof(VolumeBlock, extinction)},
-                                     {"albedo", offsetof(VolumeBlock, albedo)},
-                                     {"lamp", offsetof(VolumeBlock, lamp)},
-                                     {"omega", offsetof(VolumeBlock, omega)},
-                                     {"object", offsetof(VolumeBlock, object)},
-                                     {"columns", offsetof(VolumeBlock, columns)}});
-            return list;
-        }();
-        static const graph::BlockLayout layout{"VolumeBlock", sizeof(VolumeBlock), members};
-        return layout;
-    }
-};
 
 // 2 A of the mixed condition phi = 2 A D dphi/dn, by what the boundary mirrors of the fluence and of the flux
 // of light that is even but for a drift (Haskell et al. 1994, eq. 2.3.5 to 2.3.7).
