@@ -5,7 +5,8 @@
 
 Every file is embedded once, in pieces between its includes; every .vert and .frag file becomes a list of pieces with all
 includes in their places (each file once, paths relative to SHADERS). Comments and indentation are dropped, #version is
-added later; line breaks stay, so that a driver's message can be translated back to file and line. Shaders.h is written
+added later; line breaks stay, so that a driver's message can be translated back to file and line. A .frag file says in
+lines of `#pragma variants` with which feature switches its program is compiled (src/gl/Variants.h). Shaders.h is written
 beside OUT_CPP. Exits 1 with "FILE:LINE: what was found; what was expected" for an unknown include or a cycle.
 """
 import re
@@ -31,6 +32,7 @@ struct Stage {
     const char* path; ///< "relief/light.frag"
     const Piece* const* pieces;
     int pieceCount;
+    const char* variants = ""; ///< what follows each `#pragma variants` of the file, a line each
 };
 
 /// The stage at a path, or nullptr.
@@ -70,6 +72,9 @@ def strip_comments(text: str) -> str:
     return re.sub(r"//[^\n]*|/\*.*?\*/", blank, text, flags=re.DOTALL)
 
 
+VARIANTS = re.compile(r"^\s*#\s*pragma\s+variants\s+(.*?)\s*$", re.MULTILINE)
+
+
 def pieces_of(root: Path, name: str, asked_by: str) -> list[str | tuple[int, str]]:
     """A file as what it includes (names) and its own stretches between (first line, text)."""
     path = root / name
@@ -77,7 +82,7 @@ def pieces_of(root: Path, name: str, asked_by: str) -> list[str | tuple[int, str
         raise ShaderError(f'{asked_by}: includes "{name}", which does not exist; the path is relative to shaders/')
     parts: list[str | tuple[int, str]] = []
     begin, text = 1, ""
-    for number, line in enumerate(strip_comments(path.read_text()).splitlines(), start=1):
+    for number, line in enumerate(VARIANTS.sub("", strip_comments(path.read_text())).splitlines(), start=1):
         include = re.match(r'\s*#\s*include\s+"([^"]+)"\s*$', line)
         if not include and re.match(r"\s*#\s*(include|version)", line):
             raise ShaderError(f'{name}:{number}: found {line.strip()}; expected #include "FOLDER/FILE.glsl" '
@@ -152,7 +157,8 @@ def stages_code(root: Path) -> str:
     code += "\nconst Stage kStages[] = {\n"
     for name in names:
         symbol = f"stage_{identifier(name)}"
-        code += f"    {{{quote(name)}, {symbol}, int(sizeof {symbol} / sizeof(Piece*))}},\n"
+        variants = "\\n".join(VARIANTS.findall(strip_comments((root / name).read_text())))
+        code += f'    {{{quote(name)}, {symbol}, int(sizeof {symbol} / sizeof(Piece*)), "{variants}"}},\n'
     return code + f"}};\nconst int kCount = {len(names)};\n" + FOOTER
 
 

@@ -7,6 +7,9 @@
 //       uFlux       USE_FLUX: [W/m²] irradiance that caustics add
 // out   oSum.rgb    [W/(m² sr)], linear Rec. 709; SHOW_IRRADIANCE: [W/m²], whatever the colour; a: 1
 // model base + diffuse E / pi (Lambert), on the side that is seen
+#pragma variants - USE_OCCLUSION
+#pragma variants - USE_FLUX
+#pragma variants - SHOW_IRRADIANCE
 #include "views/view.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"

@@ -5,6 +5,7 @@
 // out   oColor        linear Rec. 709; a: 1
 // model reflectance times the environment in the mirrored direction
 // not   objects in a mirror
+#pragma variants - USE_SKY
 #include "views/view.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"

@@ -1,5 +1,7 @@
 // caustics/beam.frag: light that one triangle of the grid leaves on a texel of the map; drawn with addition, so that
 // folded sheets of light add up.
+#pragma variants - PARABOLOIDS ONE_VIEW
+#pragma variants - SEVERAL_VIEWS
 #include "caustics/deposit_block.glsl"
 in vec3 vFlux;
 flat in int vLayer;

@@ -9,6 +9,8 @@
 //       ones, as at folds, which lie on each other rather than side by side: flux over the number of texels that they
 //       cover, so that it is kept; those that cover none are points. The light of triangles that are no beams is carried
 //       by rays of their own
+#pragma variants - PARABOLOIDS ONE_VIEW
+#pragma variants - REFINE
 #include "caustics/deposit_block.glsl"
 #include "caustics/grid.glsl"
 #include "caustics/sixths.glsl"

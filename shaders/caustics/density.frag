@@ -8,6 +8,7 @@
 //                      SHARPEN: and what the triangles have beyond that, over their area. Where rays draw together, as
 //                      before a focus, the mean of six triangles lies outwards of a ray; this brings the light back
 //       oPoint.rgb     [light.unit] a third of the flux of those that are too small to be drawn: a point's
+#pragma variants - SHARPEN
 #include "caustics/deposit_block.glsl"
 #include "caustics/grid.glsl"
 uniform sampler2D uFlux;

@@ -1,4 +1,7 @@
 // caustics/footprint.frag: light of one ray on a texel of its parallelogram, or of the four around it.
+#pragma variants - PARABOLOIDS ONE_VIEW
+#pragma variants - ON_ONE_TEXEL
+#pragma variants - AS_QUADS
 #include "caustics/deposit_block.glsl"
 #include "caustics/spread.glsl"
 #include "caustics/tent.glsl"

@@ -5,6 +5,7 @@
 //       uBefore             USE_BEFORE: the sum so far
 // out   oSum.rgb [W/m²]
 // model Gaussian of 7 x 7 pixels, of those that show the same surface; their flux over the area that they show
+#pragma variants - USE_BEFORE
 #include "views/view.glsl"
 layout(std140) uniform GatherBlock {
     View view; // of the camera

@@ -10,6 +10,10 @@
 //       depth between P and the receiver, which has a sign where the text's distance has none, so that its slope
 //       does not jump at the root; else a bracket in which secants are taken and, where they do not halve it, its
 //       middle, which no oscillation between two points survives
+#pragma variants - FIXED_POINT NEWTON SECANT
+#pragma variants - USE_BEHIND
+#pragma variants - PACKED
+#pragma variants - ONE_VIEW
 #include "views/view.glsl"
 layout(std140) uniform LandBlock {
     View faces[6];

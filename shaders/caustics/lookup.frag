@@ -9,6 +9,10 @@
 // model mean flux of the texels that the pixel covers, each by how much of it, over the area that a texel covers on the
 //       surface: a focus may be smaller than a pixel. Where a pixel is smaller than a texel that is bilinear
 // not   light on the side that is turned away from the lamp
+#pragma variants - PARABOLOIDS ONE_VIEW
+#pragma variants - USE_BEFORE
+#pragma variants - USE_BEHIND
+#pragma variants - FROM_SOLID
 #include "views/view.glsl"
 layout(std140) uniform LookupBlock {
     View view; // of the camera

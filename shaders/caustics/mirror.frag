@@ -3,6 +3,9 @@
 // in    uSurface  views/solid.frag: the first surface that the light meets
 // out   oPlace, oDirection, oFlux, or the book: caustics/photon.glsl
 // not   light that meets a mirror twice, or a mirror and glass
+#pragma variants - VERTICES RESTS PIXELS
+#pragma variants PACKED if RESTS PIXELS
+#pragma variants - WITH_BOOK
 #include "caustics/lamp.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"

@@ -6,6 +6,10 @@
 // model as refract/refract.frag: Snell's law at every interface, total reflection followed, Fresnel's reflections and
 //       absorption taken off
 // not   the mirrored light
+#pragma variants - VERTICES RESTS PIXELS
+#pragma variants PACKED if RESTS PIXELS
+#pragma variants - WITH_BOOK
+#pragma variants - USE_SOLID
 #include "caustics/lamp.glsl"
 #include "views/glass_block.glsl"
 layout(std140) uniform PhotonBlock {

@@ -1,4 +1,6 @@
 // caustics/point.frag: light of one point on a texel of the map.
+#pragma variants - PARABOLOIDS ONE_VIEW
+#pragma variants - ON_ONE_TEXEL
 #include "caustics/deposit_block.glsl"
 #include "caustics/tent.glsl"
 flat in vec3 vFlux;

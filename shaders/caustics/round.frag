@@ -4,6 +4,8 @@
 // out   oDepth   [m] from the light; 1e30: nothing there
 //       oBehind  USE_BEHIND: of the receivers behind
 // model between texels as rays find receivers: planes stay planes
+#pragma variants PARABOLOIDS
+#pragma variants - USE_BEHIND
 #include "views/view.glsl"
 layout(std140) uniform RoundBlock {
     View faces[6];

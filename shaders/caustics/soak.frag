@@ -2,6 +2,7 @@
 //
 // in    uPlace, uFlux, uLanding  of the rays: where they entered, with what, where they landed
 // out   oFlux    as uFlux. WITH_BOOK: oFlux what is absorbed of the share uMet.a of it
+#pragma variants - WITH_BOOK
 layout(std140) uniform SoakBlock {
     vec4 absorption; // 1/m
 } water;

@@ -1,6 +1,7 @@
 // caustics/splat.frag: light of one ray, spread by a Gaussian over its point.
 //
 // model weights exp(-r²/2) over the disc of radius kRadius, whose integral is 2 pi (1 - exp(-kRadius²/2))
+#pragma variants - PARABOLOIDS ONE_VIEW
 #include "caustics/deposit_block.glsl"
 flat in vec3 vFlux;
 flat in int vLayer;

@@ -7,6 +7,8 @@
 // model half the way between the neighbouring rays that landed on the same surface (photon differentials after
 //       Schjoth 2007), or the whole way to one of them. Flux over the number of texels that a small one covers, of
 //       large ones over their area
+#pragma variants - PARABOLOIDS ONE_VIEW
+#pragma variants - OF_RESTS
 #include "caustics/deposit_block.glsl"
 #include "caustics/grid.glsl"
 #include "caustics/spread.glsl"

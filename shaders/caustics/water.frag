@@ -7,6 +7,8 @@
 // model Snell's law and Fresnel's share at one interface; heights and normals bilinear between vertices; flux of a ray:
 //       irradiance times the area of its cell across the light
 // not   waves that stand in each other's light
+#pragma variants - USE_SHADOW
+#pragma variants - WITH_BOOK
 #include "caustics/lamp.glsl"
 #include "views/glass_block.glsl"
 layout(std140) uniform WaterRaysBlock {

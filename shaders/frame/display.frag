@@ -2,6 +2,8 @@
 //
 // in    uSum     see relief/light.frag, views/geometry.frag; COMPOSED: refract/refract.frag, whose a is the coverage
 // out   oColor   LINEAR: values | coverage; else exposure, clamp and sRGB curve, premultiplied by the coverage
+#pragma variants - LINEAR
+#pragma variants - COMPOSED
 #ifndef COMPOSED
 #include "views/surface_pixel.glsl"
 #endif

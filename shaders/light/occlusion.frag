@@ -6,6 +6,7 @@
 //
 // OF_FIELD: of one height field, whose shadow on itself is left to whoever walks through it: the plane that its point is
 // compared by faces the light. Else of all other shapes.
+#pragma variants - OF_FIELD
 #include "views/view.glsl"
 layout(std140) uniform OcclusionBlock {
     View view;

@@ -6,6 +6,7 @@
 //                FILTER, BY_HAND: between the two texels, as far along as the column is along the row
 //                STEP: smallest power of two that still makes a difference to 1
 //                WORK: a long sum of cosines, for timing
+#pragma variants RAMP ADD FILTER BY_HAND STEP WORK
 layout(std140) uniform ProbeBlock {
     float one; // 1, but no compiler knows
     int count; // terms of WORK, the term of ADD, 1 for STEP

@@ -3,6 +3,7 @@
 // in    uLayers  views/layer_texel.glsl
 // out   oValue   SHOW_DEPTH: m along the view; SHOW_NORMAL: outward, world; else a colour for each object, darker
 //                where its inside faces the eye; a: 1 where the layer has a surface
+#pragma variants - SHOW_DEPTH SHOW_NORMAL
 #include "views/layer_texel.glsl"
 layout(std140) uniform LayerBlock {
     int layer;

@@ -11,6 +11,17 @@
 //       the first one that the eye meets (dissertation 2007, 5); absorption along the geometric way, or
 //       (USE_OPTICAL_LENGTH) that times the index of refraction (thesis 2008, 3.8)
 // not   reflections inside, light from what the view does not show
+#pragma variants - SHOW_DIRECTION SHOW_LAYERS SHOW_LOST
+#pragma variants USE_SOLID USE_BOX
+#pragma variants - USE_DISPERSION
+#pragma variants - USE_OPTICAL_LENGTH
+#pragma variants - BESIDE
+#pragma variants - USE_BISECTION
+#pragma variants FROM_PEEL FROM_VOXELS FROM_BITS FROM_BOUNDS if USE_BISECTION
+#pragma variants SLICES=256 SLICES=512 if FROM_BITS
+#pragma variants - GLOBAL_BOUNDS if FROM_BITS
+#pragma variants NORMALS_STORED NORMALS_NEIGHBOURS NORMALS_DELTA=1..2 if FROM_PEEL
+#pragma variants NORMALS_NEIGHBOURS NORMALS_DELTA=1..2 if FROM_VOXELS FROM_BITS FROM_BOUNDS
 #include "views/glass_block.glsl"
 #include "views/view.glsl"
 layout(std140) uniform RefractBlock {

@@ -3,6 +3,7 @@
 //
 // in    uCoefficients  four a texel in a column of images, one image above the other (relief/project.frag)
 // out   oIrradiance    sum of d times light times forward scatter, linear Rec. 709; a: mean of d
+#pragma variants - USE_NODES
 const int kMostTerms = 128; // of a transfer
 
 layout(std140) uniform GatherBlock {

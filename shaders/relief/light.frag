@@ -13,6 +13,14 @@
 // out   oSum.rgb     light towards the eye, [W/(m² sr)], linear Rec. 709; SHOW_IRRADIANCE: [W/m²] on the surface, whatever its colour
 //       oSum.a       weighted sum of d, or of the quantity that SHOW_... names
 // model height-field thesis 2017, 3.5
+#pragma variants - METHOD_MARCH METHOD_COUNTING USE_TRANSFER
+#pragma variants - SHOW_ITERATIONS SHOW_VISIBILITY SHOW_IRRADIANCE
+#pragma variants - USE_BASE_MAP
+#pragma variants - USE_DIFFUSE_MAP
+#pragma variants - USE_SPECULAR_MAP
+#pragma variants - USE_OCCLUSION
+#pragma variants - USE_FLUX
+#pragma variants - LIGHTLESS
 #include "relief/model.glsl"
 #include "views/surface_pixel.glsl"
 #include "light/occlusion.glsl"

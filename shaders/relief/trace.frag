@@ -5,6 +5,7 @@
 //
 // SCATTERED: a row for each of a low-discrepancy set of texels, column j. Else: a tile of texels, tile.zw wide and high
 // from tile.xy on, once for each j, 16 tiles a row.
+#pragma variants - SCATTERED
 #include "relief/model.glsl"
 layout(location = 0) out vec4 oTraced;
 

@@ -7,6 +7,8 @@
 // model F_t(cos) times the flux of the pixel: the cosine at which light arrives and the slope of the surface in the
 //       pixel cancel. FROM_SKY: irradiance with F_t in it, times area, times cos² of the angle to the view, so that
 //       views along three axes count each place once and none divides by a small cosine
+#pragma variants - FROM_SKY
+#pragma variants - PAINTED
 #include "views/view.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/fresnel.glsl"

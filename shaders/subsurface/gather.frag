@@ -3,6 +3,8 @@
 //
 // in    uReceivers  subsurface/receivers.frag
 // out   oRadiosity.rgb [splat.unit]  added up
+#pragma variants - OFFSET
+#pragma variants - PAINTED
 #include "subsurface/level.glsl"
 #include "subsurface/leaving.glsl"
 uniform sampler2D uReceivers;

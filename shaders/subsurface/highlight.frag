@@ -5,6 +5,8 @@
 // out   oSum.rgb [W/(m² sr)]
 // model mirror facets (subsurface/ggx.glsl) with unpolarised Fresnel; roughness 0 shows no lamp, whose points are of no
 //       size
+#pragma variants - USE_SHADOW
+#pragma variants - USE_BEFORE
 #include "views/view.glsl"
 layout(std140) uniform HighlightBlock {
     View view;

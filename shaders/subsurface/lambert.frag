@@ -4,6 +4,8 @@
 //       uShadow  USE_SHADOW: see views/shadow.glsl
 // out   oSum.rgb [W/m²]
 // model whole F_t(cos) E cos; FROM_SKY: whole times irradiance with F_t in it
+#pragma variants - USE_SHADOW FROM_SKY
+#pragma variants - USE_BEFORE
 #include "views/view.glsl"
 layout(std140) uniform LambertBlock {
     View view;

@@ -4,6 +4,7 @@
 // out   the coarser level
 // model a block is as wide as its pixels are apart, along the view and across: where surfaces lie behind each other
 //       in one block it is wide and is not used, as where the surface is steep. PAINTED: nor where M_d differs
+#pragma variants - PAINTED
 layout(std140) uniform MergeBlock {
     float width; // of a coarse block across the view [m], of a perspective view a metre deep
     int perspective;

@@ -3,6 +3,8 @@
 // in    uBefore   the layer before; PEEL_FIRST: none
 // out   oSurface  see views/surface_pixel.glsl, but with outward normals
 //       oPaint    PAINTED: what enters, of views/paint.glsl
+#pragma variants - PEEL_FIRST
+#pragma variants - PAINTED
 #include "views/mesh_block.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"

@@ -10,6 +10,10 @@
 //       (a mean of 1 is the dissertation's eq. 6.13, which loses it); and the highlights. PAINTED: translucency and
 //       factor times that, and the rest of the surface matt
 // not   in a highlight: objects
+#pragma variants - USE_LAMPS
+#pragma variants - USE_SKY
+#pragma variants - SHOW_RADIOSITY
+#pragma variants - PAINTED
 #include "views/view.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/fresnel.glsl"

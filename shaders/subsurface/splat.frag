@@ -4,6 +4,8 @@
 // in    uReceivers  subsurface/receivers.frag
 // out   oRadiosity.rgb [W/m²]  added up
 // not   light for other objects: they have other numbers
+#pragma variants - OFFSET
+#pragma variants - PAINTED
 #include "subsurface/splat_block.glsl"
 #include "subsurface/leaving.glsl"
 flat in vec4 vPlace;

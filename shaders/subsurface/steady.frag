@@ -8,6 +8,7 @@
 //       oPlaces   uPlaces, for the next picture
 // model what was there, all of the change that is smooth from square to square, and a share of the rest: that is
 //       mostly how the points happen to lie
+#pragma variants - FOLLOWS
 #include "subsurface/change_block.glsl"
 uniform sampler2D uPlaces;
 uniform sampler2D uNow;

@@ -4,6 +4,7 @@
 // in    uBefore  depth of the surface before; PEEL_FIRST: none
 // out   oColumn  xy: octahedral normal, outward; z: depth [m]; w: 1 where there is a surface
 //       oDone    x: the depth, y: 1, for the next surface
+#pragma variants - PEEL_FIRST
 #include "views/mesh_block.glsl"
 #include "lib/octahedral.glsl"
 in vec3 vNormal;

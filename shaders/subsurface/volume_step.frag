@@ -6,6 +6,7 @@
 //       uBefore  that of the round before; STEP_SECOND: dark
 // out   oFluence
 // model -div(D grad phi) + sigma_a phi = Q; through the open part of a face flows D/width times the difference
+#pragma variants - STEP_FIRST STEP_SECOND
 #include "subsurface/volume.glsl"
 uniform sampler2D uDiagonal;
 uniform sampler2D uSource;

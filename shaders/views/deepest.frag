@@ -3,6 +3,9 @@
 // in    FROM_...   depths (views/depth_layers.glsl); else uFine: what this pass left before
 // out   oDeepest   four layers a texel. Each four have an image of their own, four of which stand beside each other, so
 //                  that one pass reduces them all
+#pragma variants FROM_FINE FROM_PEEL FROM_VOXELS FROM_BITS FROM_BOUNDS
+#pragma variants SLICES=256 SLICES=512 if FROM_BITS
+#pragma variants - GLOBAL_BOUNDS if FROM_BITS
 #include "views/depth.glsl"
 #include "views/layer_texel.glsl"
 #include "views/voxel_block.glsl"

@@ -4,6 +4,8 @@
 // out   oSum.rgb  SHOW_NORMAL: world normal; SHOW_POSITION: world position [m]; SHOW_DEPTH: distance from the eye
 //                 along the view direction [m], in all three
 //                 SHOW_SOLID: depth, octahedral normal, 1 (uSolid of views/layers.glsl)
+#pragma variants SHOW_NORMAL SHOW_POSITION SHOW_DEPTH SHOW_SOLID
+#pragma variants - OF_MESHES
 #include "views/surface_pixel.glsl"
 #include "lib/octahedral.glsl"
 #ifdef OF_MESHES

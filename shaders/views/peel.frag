@@ -4,6 +4,7 @@
 // out   oLayer   views/layer_texel.glsl
 //       oDone    its depth and code, for the next layer: an array that is drawn into cannot be read
 // model surfaces in one place are told apart by their codes, so that touching objects keep both faces
+#pragma variants - PEEL_FIRST
 #include "views/mesh_block.glsl"
 #include "views/layer_texel.glsl"
 in float vDepth;

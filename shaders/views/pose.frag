@@ -4,6 +4,9 @@
 //       p' = p + amplitude sin(2 pi (turns . p + turns.w)). Normals go by the inverse transpose of each motion's
 //       derivative times the size of its determinant, which exists for flat ones as well; for the wave, whose
 //       derivative is 1 + a k^T, that is the sign of 1 + a.k times (1 + a.k) - k a^T (Sherman, Morrison 1950)
+#pragma variants - TARGETS
+#pragma variants - JOINTS
+#pragma variants - WAVE
 uniform sampler2D uPositions;
 uniform sampler2D uNormals;
 layout(location = 0) out vec4 oPosition;

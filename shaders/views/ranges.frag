@@ -2,6 +2,7 @@
 //
 // in    views/layers.glsl: uLayers; WITH_SOLID: uSolid
 // out   oRanges  xy of the first one, zw of the next; 1e30, -1e30 where the block has none
+#pragma variants - WITH_SOLID
 #include "views/view.glsl"
 #include "views/layer_texel.glsl"
 layout(std140) uniform RangesBlock {

@@ -3,6 +3,8 @@
 // in    uFirst  BEHIND: depths of the nearest ones; what is drawn are the nearest behind those that face the light, or
 //               BACK: that are turned away from it, at which solid things end
 // out   oDepth  [m]  along the view's forward: evenly spaced, which a depth buffer of a perspective view is not
+#pragma variants - BEHIND
+#pragma variants - BACK if BEHIND
 #include "views/mesh_block.glsl"
 in float vDepth;
 layout(location = 0) out float oDepth;

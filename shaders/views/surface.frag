@@ -4,6 +4,8 @@
 // out   oSurface  see surface_pixel.glsl
 //       oDepth    AS_SHADOW: [m] along the view, as in views/shadow.frag
 // model the bilinear field itself, met exactly; side walls down to field.bottom; open below
+#pragma variants - AS_SHADOW
+#pragma variants - BEHIND if AS_SHADOW
 #include "views/surface_block.glsl"
 #include "views/surface_pixel.glsl"
 uniform sampler2D uAlpha;

@@ -4,6 +4,7 @@
 //       oFarthest  depth
 // model drawn with MAX: the larger of negated depths is the nearer one. ONLY_NEAREST, ONLY_FARTHEST: one of them by the
 //       depth test, where 32-bit floats do not blend
+#pragma variants - ONLY_NEAREST ONLY_FARTHEST
 #include "views/mesh_block.glsl"
 in float vDepth;
 #if defined(ONLY_NEAREST)

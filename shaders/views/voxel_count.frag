@@ -1,6 +1,8 @@
 // views/voxel_count.frag: how many surfaces of a pixel the bits tell apart.
 //
 // out   oCount  x: surfaces; y: those in bytes where two or more lay in one slice; z: such bytes; w: of them saturated
+#pragma variants SLICES=256 SLICES=512
+#pragma variants - GLOBAL_BOUNDS
 #include "views/voxels.glsl"
 layout(location = 0) out vec4 oCount;
 

@@ -2,6 +2,10 @@
 //
 // out   oDepths0..  depths [m] of four surfaces each, from surface 4 FIRST on, as many as TARGETS; kNoDepth behind the
 //                   last one
+#pragma variants SLICES=256 SLICES=512
+#pragma variants - GLOBAL_BOUNDS
+#pragma variants FIRST=0..7
+#pragma variants TARGETS=1..8
 #include "views/depth.glsl"
 #include "views/voxel_block.glsl"
 #include "views/voxels.glsl"

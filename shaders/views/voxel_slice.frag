@@ -4,6 +4,10 @@
 // out   oTarget0..  images FIRST, FIRST + 1 .. of views/voxels.glsl, as many as TARGETS; drawn with addition
 // model WebGL blends no integers and has no logic operations: bits are added. Two surfaces in one slice carry, or, in
 //       the last slice of a byte, saturate it; the counts tell
+#pragma variants SLICES=256 SLICES=512
+#pragma variants - GLOBAL_BOUNDS
+#pragma variants FIRST=0..23
+#pragma variants TARGETS=1..8
 #include "views/mesh_block.glsl"
 #include "views/slices.glsl"
 in float vDepth;

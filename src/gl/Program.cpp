@@ -1,6 +1,7 @@
 #include "gl/Program.h"
 
 #include "gl/Gl.h"
+#include "gl/Variants.h"
 #include "shaders/Shaders.h"
 
 #include <algorithm>
@@ -111,7 +112,13 @@ std::string translateLog(const std::string& log, const std::string& stagePath, i
 }
 
 Program::Program(const std::string& stem, const std::vector<std::string>& defines)
-    : Program(stem, vertexStage(stem), fragmentStage(stem), defines) {}
+    : Program(stem, vertexStage(stem), fragmentStage(stem), defines) {
+    if (isVariant(fragmentStage(stem).variants, defines)) return;
+    std::string asked = stem + ": its #pragma variants do not allow";
+    for (const std::string& define : defines)
+        asked += " " + define;
+    status_ = Error{asked + (defines.empty() ? " to leave all switches out" : ""), Fault::Machine};
+}
 
 Program::Program(const std::string& name, const shaders::Stage& vertex, const shaders::Stage& fragment,
                  const std::vector<std::string>& defines)

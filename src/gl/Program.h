@@ -17,7 +17,7 @@ namespace lucent::gl {
 class Program : public graph::Program {
 public:
     /// Begins to compile and link STEM.vert (or lib/screen.vert when there is none: one triangle over the
-    /// target) and STEM.frag with `defines` ("NAME" or "NAME VALUE").
+    /// target) and STEM.frag with `defines` ("NAME" or "NAME VALUE"), a variant that STEM.frag declares.
     Program(const std::string& stem, const std::vector<std::string>& defines);
     /// The same from two stages; `name` stands before messages about both.
     Program(const std::string& name, const shaders::Stage& vertex, const shaders::Stage& fragment,

@@ -1,6 +1,7 @@
 // The GL layer on a real driver.
 #include "gl/Context.h"
 #include "gl/Timer.h"
+#include "gl/Variants.h"
 #include "shaders/Shaders.h"
 #include "tests/support/Gl.h"
 
@@ -11,22 +12,57 @@ namespace {
 
 using Gl = support::GlTest;
 
+// With every set of switches that shaders declare, which are all that programs may be asked for with. Those
+// of one shader are compiled beside each other where the driver can.
 TEST_F(Gl, EveryShaderCompilesInEveryVariant) {
-    const std::vector<std::pair<std::string, std::vector<std::string>>> programs = {
-        {"views/surface", {}},
-        {"views/geometry", {"SHOW_NORMAL"}},
-        {"views/geometry", {"SHOW_POSITION"}},
-        {"views/geometry", {"SHOW_DEPTH"}},
-        {"relief/light", {}},
-        {"relief/light", {"METHOD_MARCH", "SHOW_VISIBILITY"}},
-        {"relief/light", {"METHOD_COUNTING", "SHOW_ITERATIONS"}},
-        {"relief/light", {"USE_BASE_MAP", "USE_DIFFUSE_MAP", "USE_SPECULAR_MAP"}},
-        {"frame/display", {}},
-        {"frame/display", {"LINEAR"}}};
-    for (const auto& [stem, defines] : programs) {
-        const Status& ready = context->program(stem, defines)->ready();
-        EXPECT_TRUE(ready.ok()) << (ready.ok() ? "" : ready.error().message);
+    const std::string ending = ".frag";
+    int shaders = 0, compiled = 0;
+    for (const shaders::Stage* stage = shaders::begin(); stage != shaders::end(); ++stage) {
+        const std::string path = stage->path;
+        if (path.size() < ending.size() || path.substr(path.size() - ending.size()) != ending) continue;
+        const std::string stem = path.substr(0, path.size() - ending.size());
+        const std::vector<Switches> variants = variantsOf(stage->variants);
+        std::vector<std::unique_ptr<Program>> programs;
+        for (const Switches& switches : variants)
+            programs.push_back(std::make_unique<Program>(stem, switches));
+        for (std::size_t i = 0; i < programs.size(); ++i) {
+            const Status& ready = programs[i]->ready();
+            std::string with;
+            for (const std::string& one : variants[i])
+                with += " " + one;
+            EXPECT_TRUE(ready.ok()) << stem << with << ": " << (ready.ok() ? "" : ready.error().message);
+        }
+        ++shaders;
+        compiled += int(programs.size());
     }
+    EXPECT_GT(shaders, 50);
+    EXPECT_GT(compiled, 1000);
+}
+
+TEST_F(Gl, AVariantThatAShaderDoesNotDeclareIsRefused) {
+    const Program unknown("frame/display", {"LINEAR", "USE_X"}), missing("views/geometry", {});
+    ASSERT_FALSE(unknown.ready().ok());
+    EXPECT_EQ(unknown.ready().error().message,
+              "frame/display: its #pragma variants do not allow LINEAR USE_X");
+    ASSERT_FALSE(missing.ready().ok());
+    EXPECT_EQ(missing.ready().error().message,
+              "views/geometry: its #pragma variants do not allow to leave all switches out");
+}
+
+TEST(Variants, AreAllSetsThatTheLinesAllow) {
+    const std::string_view lines = "- A\nB C\nN=1..4 if A";
+    const std::vector<Switches> expected = {
+        {"B"}, {"C"}, {"A", "B", "N 1"}, {"A", "B", "N 4"}, {"A", "C", "N 1"}, {"A", "C", "N 4"}};
+    EXPECT_EQ(variantsOf(lines), expected);
+    for (const Switches& one : expected)
+        EXPECT_TRUE(isVariant(lines, one));
+    EXPECT_TRUE(isVariant(lines, {"N 3", "C", "A"})); // within the range, in any order
+    EXPECT_FALSE(isVariant(lines, {"A", "B"}));       // N is missing
+    EXPECT_FALSE(isVariant(lines, {"B", "N 1"}));     // N only with A
+    EXPECT_FALSE(isVariant(lines, {"A", "B", "N 5"}));
+    EXPECT_FALSE(isVariant(lines, {"B", "C"}));
+    EXPECT_FALSE(isVariant(lines, {"B", "D"}));
+    EXPECT_EQ(variantsOf(""), std::vector<Switches>{Switches{}});
 }
 
 TEST_F(Gl, AProgramIsCompiledOnceForEachSetOfSwitches) {
@@ -35,9 +71,14 @@ TEST_F(Gl, AProgramIsCompiledOnceForEachSetOfSwitches) {
     EXPECT_NE(first, context->program("frame/display", {}));
 }
 
+// A switch that breaks a line of an include: the message must name the include, not the joined source.
+Program brokenProgram() {
+    return Program("frame/display", *shaders::find("lib/screen.vert"), *shaders::find("frame/display.frag"),
+                   {"srgbFromLinear 1bad"});
+}
+
 TEST_F(Gl, ShaderErrorsNameOurFileAndLine) {
-    // A switch that breaks a line of an include: the message must name the include, not the joined source.
-    const Program broken("frame/display", {"srgbFromLinear 1bad"});
+    const Program broken = brokenProgram();
     const Status& status = broken.ready();
     ASSERT_FALSE(status.ok());
     EXPECT_NE(status.error().message.find("lib/shading.glsl:"), std::string::npos) << status.error().message;
@@ -45,7 +86,7 @@ TEST_F(Gl, ShaderErrorsNameOurFileAndLine) {
 }
 
 TEST_F(Gl, AProgramThatDoesNotCompileSaysSoWhenItDraws) {
-    const Program broken("frame/display", {"srgbFromLinear 1bad"});
+    const Program broken = brokenProgram();
     const graph::Texture target(context->device(), {.size = {1, 1}, .format = graph::Format::RGBA8}, "test");
     EXPECT_EQ(context->takeError(), "") << "before it draws";
     context->device().runPass({.label = "test", .colors = {{.texture = target.handle()}}},
