@@ -17,6 +17,7 @@ struct Slab {
     double scattering = 0, absorption = 0; ///< as Medium's, 1/m
     double ior = 1.5;                      ///< over that of the outside
     double thickness = 0;                  ///< m; 0: not there
+    bool operator==(const Slab&) const = default;
 };
 
 /// One colour of light in a medium; 1/m.
@@ -33,6 +34,7 @@ struct Medium {
     double transport() const;
     /// Whether something lies on it.
     bool isLayered() const;
+    bool operator==(const Medium&) const = default;
 };
 
 /// The medium inside an object of this material, red, green and blue, and its layers.

@@ -26,6 +26,7 @@ struct LampPoint {
     bool isEnvironment = false;
     float extent =
         0; ///< sine of the angle by which the directions spread that it stands for; of an environment
+    bool operator==(const LampPoint&) const = default;
 };
 
 /// Lamps with a size (a point light's ball, a distant light's disc of directions, an area) are so many points

@@ -15,6 +15,7 @@ struct ShadowSource {
     vec4 place{0, 1, 0, 0}; ///< world: the point, and 1; or the unit direction to the light, and 0
     vec3 axis{0};           ///< unit: the middle of the cone into which a point shines
     float tangent = std::numeric_limits<float>::infinity(); ///< of half the cone; infinite: all around
+    bool operator==(const ShadowSource&) const = default;
 };
 
 /// Square views from a light side by side in one image, three to a row.

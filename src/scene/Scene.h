@@ -62,26 +62,31 @@ struct MeshShape {
 /// A rectangle in its object's xz plane, centred, facing +y.
 struct Plane {
     vec2 size{1}; ///< m along x and z, > 0
+    bool operator==(const Plane&) const = default;
 };
 
 /// A block, centred.
 struct Box {
     vec3 size{1}; ///< m, > 0
+    bool operator==(const Box&) const = default;
 };
 
 struct Sphere {
     float radius = 1; ///< m, > 0
+    bool operator==(const Sphere&) const = default;
 };
 
 /// All points at distance `minor` from a circle of radius `major` around the y axis.
 struct Torus {
     float major = 1, minor = 0.25f; ///< m, 0 < minor <= major
+    bool operator==(const Torus&) const = default;
 };
 
 /// Around the y axis, centred.
 struct Cylinder {
     float radius = 0.5f, height = 1; ///< m, > 0
     bool open = false;               ///< a band without lids: a ring
+    bool operator==(const Cylinder&) const = default;
 };
 
 /// A surface of water: a rectangle in its object's xz plane, centred, facing +y, whose height obeys the wave
@@ -95,6 +100,7 @@ struct Water {
     float wavelength = 0.25f; ///< m, > 0
     vec2 direction{1, 0};     ///< in which it travels, in x and z; any length > 0
     float dropInterval = 0;   ///< s between drops at random places; 0: none but the pointer's
+    bool operator==(const Water&) const = default;
 };
 
 using Shape = std::variant<HeightField, MeshShape, Plane, Box, Sphere, Torus, Cylinder, Water>;
@@ -106,6 +112,7 @@ struct Wave {
     vec3 direction{1, 0, 0}; ///< any length > 0
     float wavelength = 0.5f; ///< m, > 0
     float period = 1;        ///< s, > 0
+    bool operator==(const Wave&) const = default;
 };
 
 /// Of what scatters: beyond, the fit of what its boundary reflects inside (Egan and Hilgeman's) is no share.

@@ -5,23 +5,17 @@
 namespace lucent::views {
 
 ObjectKey objectKey(const scene::Object& object, float time) {
-    ObjectKey key{nullptr, nullptr, {}, object.transform.worldFromObject(), object.visible};
+    ObjectKey key{{}, object.transform.worldFromObject(), object.visible};
     if (object.isField()) {
         const scene::HeightField& field = object.field();
-        key.shape = field.heights;
-        key.mask = field.alpha;
-        key.numbers = {field.width, field.heightScale};
+        key.own = {.shape = field.heights, .mask = field.alpha, .field = {field.width, field.heightScale}};
         return key;
     }
     const std::shared_ptr<const scene::Mesh> mesh = scene::meshOf(object);
-    const scene::Wave& wave = object.wave;
-    const bool waved = wave.amplitude != vec3(0);
-    key.shape = mesh;
-    key.numbers = {float(object.material.isRefractive()), waved || mesh->moves() ? time : 0};
-    if (waved)
-        for (float value : {wave.amplitude.x, wave.amplitude.y, wave.amplitude.z, wave.direction.x,
-                            wave.direction.y, wave.direction.z, wave.wavelength, wave.period})
-            key.numbers.push_back(value);
+    const bool waved = object.wave.amplitude != vec3(0);
+    key.own = {.shape = mesh, .mask = nullptr, .isRefractive = object.material.isRefractive()};
+    if (waved) key.own.wave = object.wave;
+    if (waved || mesh->moves()) key.own.time = time;
     return key;
 }
 

@@ -4,15 +4,22 @@
 #include "scene/Scene.h"
 
 #include <memory>
-#include <vector>
 
 namespace lucent::views {
 
 struct ObjectKey {
-    std::shared_ptr<const void> shape, mask;
-    std::vector<float> numbers;
-    mat4 worldFromObject;
-    bool visible;
+    /// In the object's own space.
+    struct Own {
+        std::shared_ptr<const void> shape, mask;
+        vec2 field{0}; ///< of a height field: width and height scale
+        bool isRefractive = false;
+        scene::Wave wave{}; ///< where it acts
+        float time = 0;     ///< s, where the object moves by itself
+        bool operator==(const Own&) const = default;
+    };
+    Own own;
+    mat4 worldFromObject{1};
+    bool visible = true;
     bool operator==(const ObjectKey&) const = default;
 };
 

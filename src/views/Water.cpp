@@ -33,11 +33,6 @@ vec4 sineOf(const scene::Water& water) {
     return {k * glm::normalize(water.direction), water.amplitude, frequency};
 }
 
-std::vector<float> numbersOf(const scene::Water& water) {
-    return {water.size.x,    water.size.y,     float(water.cells), water.speed,       water.damping,
-            water.amplitude, water.wavelength, water.direction.x,  water.direction.y, water.dropInterval};
-}
-
 // Of the drops that fall by themselves; chosen by eye.
 float rainRadius(const scene::Water& water) { return 0.04f * std::min(water.size.x, water.size.y); }
 float rainDepth(const scene::Water& water) { return 0.3f * rainRadius(water); }
@@ -76,7 +71,7 @@ WaterSheet::WaterSheet(gl::Context& context, const scene::Water& water)
     next_ = graph::Texture(context.device(), desc, "views.waterNext");
 }
 
-bool WaterSheet::shows(const scene::Water& water) const { return numbersOf(water) == numbersOf(water_); }
+bool WaterSheet::shows(const scene::Water& water) const { return water == water_; }
 
 graph::TextureDesc WaterSheet::imageDesc() const {
     return {.size = now_.desc().size, .format = Format::RGBA32F};

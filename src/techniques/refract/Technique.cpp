@@ -114,7 +114,7 @@ public:
         return {"refract: no object that is seen lets light through"};
     }
     void clear() override {
-        voxelsChecked_ = 0;
+        voxelsChecked_.reset();
         counter_.reset();
         counted_.clear();
         layers_ = {};
@@ -179,7 +179,7 @@ private:
     // Says when surfaces lie too close for the slices. It reads a picture back, so it looks again only when
     // the number of layers has changed, or the slices.
     Status checkVoxels(const Picture& picture, const views::Eye& eye, const Settings& settings) {
-        const int key = count_ + 64 * int(settings.slices) + 128 * int(settings.bounds);
+        const Checked key{count_, settings.slices, settings.bounds};
         if (voxelsChecked_ == key) return Done{};
         Result<views::VoxelCount> count =
             views::countVoxels(store_.pool, store_.context, eye, picture.drawn.meshes.glass,
@@ -193,6 +193,13 @@ private:
         return Done{};
     }
 
+    /// With what checkVoxels() looked last.
+    struct Checked {
+        int count;
+        Slices slices;
+        Extent bounds;
+        bool operator==(const Checked&) const = default;
+    };
     technique::Store store_;
     Refract refract_;
     views::KeptLayers layers_;                        ///< of what the eye sees through,
@@ -201,8 +208,8 @@ private:
     std::vector<const views::MeshTextures*> counted_; ///< for which it knows
     bool isUnsure_ = false;                           ///< nothing was asked about the picture
     int unanswered_ = 0;                              ///< times that settle() found no answer
-    int count_ = 0;         ///< surfaces of refractive objects behind each other; 0: not known
-    int voxelsChecked_ = 0; ///< with what checkVoxels() looked last; 0: it did not
+    int count_ = 0; ///< surfaces of refractive objects behind each other; 0: not known
+    std::optional<Checked> voxelsChecked_;
 };
 
 constexpr Aov kAovs[] = {Aov::Direction,  Aov::Layers,      Aov::Lost,

@@ -24,6 +24,7 @@ struct KernelWish {
     bool split = false;      ///< into bands
     bool shares =
         false; ///< tables of each band's share of the profile, for those who compute the profile themselves
+    bool operator==(const KernelWish&) const = default;
 };
 
 /// A part of the profile that points of one density carry to places of one density.

@@ -18,34 +18,17 @@ constexpr float kTurn = 0.17f;
 constexpr double kSquare = 8;                 // distances of points, a square over which light changes evenly
 constexpr int kLeastSide = 4, kMostSide = 64; // pixels, of a square
 
-std::vector<float> numbersOf(const Settings& settings) {
-    return {float(settings.method),    float(settings.profile), float(settings.dipoleGeometry),
-            settings.epsilon,          float(settings.splats),  float(settings.mostSplats),
-            float(settings.blurEnergy)};
-}
-
-void addNumbers(std::vector<float>& numbers, const scene::Material& material) {
-    for (const diffusion::Medium& medium : diffusion::mediaOf(material)) {
-        numbers.insert(numbers.end(),
-                       {float(medium.scattering), float(medium.absorption), float(medium.ior)});
-        for (const diffusion::Slab& slab : medium.above)
-            numbers.insert(numbers.end(), {float(slab.scattering), float(slab.absorption), float(slab.ior),
-                                           float(slab.thickness)});
-    }
-    numbers.push_back(material.thickness);
-}
-
 Moment momentOf(const Inputs& in, const Plan::State& plan, const Settings& settings) {
     Moment moment{.size = in.size,
                   .eye = in.eye,
-                  .numbers = numbersOf(settings),
+                  .settings = settings,
                   .bodies = {},
                   .lamps = views::lampPoints(in.scene, views::samplingOf(in.scene).lamp),
                   .map = nullptr};
     for (const Plan::State::Object& object : plan.objects) {
         const scene::Object& body = in.scene.objects[std::size_t(object.index)];
-        moment.bodies.push_back({object.index, views::objectKey(body, in.scene.view.time), body.painting});
-        addNumbers(moment.numbers, body.material);
+        moment.bodies.push_back({object.index, views::objectKey(body, in.scene.view.time), body.painting,
+                                 diffusion::mediaOf(body.material), body.material.thickness});
     }
     if (in.environment != graph::TextureHandle::None) {
         moment.map = in.scene.environment->map;
@@ -76,7 +59,7 @@ bool isSame(const Moment& a, const Moment& b) {
 
 // What carries the light of an object over; nothing where it bends, which no matrix does.
 std::optional<mat4> thenFromNow(const views::ObjectKey& now, const views::ObjectKey& then) {
-    if (now.shape != then.shape || now.numbers != then.numbers) return std::nullopt;
+    if (now.own != then.own) return std::nullopt;
     return then.worldFromObject * glm::inverse(now.worldFromObject);
 }
 
@@ -206,12 +189,13 @@ Result<Radiosity> Steady::record(Moment moment) {
 
 bool follows(const Moment& now, const Moment& then) {
     const auto isOne = [](const Moment::Body& a, const Moment::Body& b) {
-        return a.index == b.index && a.painting == b.painting;
+        return a.index == b.index && a.painting == b.painting && a.media == b.media &&
+               a.thickness == b.thickness;
     };
     const auto isNearOne = [&](const views::LampPoint& a, const views::LampPoint& b) {
         return isNear(a, b, now.bodies);
     };
-    return now.size == then.size && now.numbers == then.numbers &&
+    return now.size == then.size && now.settings == then.settings &&
            now.eye.perspective == then.eye.perspective && now.map == then.map && now.sky.w == then.sky.w &&
            glm::distance(vec3(now.sky), vec3(then.sky)) <= glm::degrees(kTurn) &&
            std::equal(now.bodies.begin(), now.bodies.end(), then.bodies.begin(), then.bodies.end(), isOne) &&

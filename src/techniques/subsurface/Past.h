@@ -15,11 +15,13 @@ struct Moment {
         int index = 0; ///< in the scene
         views::ObjectKey key;
         std::shared_ptr<const void> painting;
+        std::array<diffusion::Medium, 3> media;
+        float thickness = 0; ///< m, of a slab
         bool operator==(const Body&) const = default;
     };
     ivec2 size{0};
     views::Eye eye;
-    std::vector<float> numbers; ///< settings, and of the bodies' media
+    Settings settings;
     std::vector<Body> bodies;
     std::vector<views::LampPoint> lamps;
     std::shared_ptr<const void> map; ///< of the environment

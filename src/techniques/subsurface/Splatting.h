@@ -11,9 +11,19 @@ namespace lucent::subsurface {
 /// it, over that on these.
 inline constexpr float kTilt = 0.70710678f;
 
+/// What a kernel is made of.
+struct Wanted {
+    std::array<diffusion::Medium, 3> media;
+    KernelWish wish;
+    double width = 0; ///< m, of a light's view at most
+    std::optional<int> paper =
+        {}; ///< as many splats a side as the dissertation asks for, but no more than this
+    bool operator==(const Wanted&) const = default;
+};
+
 /// A kernel on the GPU.
 struct Profiled {
-    std::vector<float> key; ///< what it was made of
+    Wanted of;
     Kernel kernel;
     std::vector<graph::Texture> tables; ///< one a band
     std::array<std::vector<diffusion::Pole>, 3> poles;

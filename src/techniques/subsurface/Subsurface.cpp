@@ -176,29 +176,6 @@ Status recordLayer(graph::FrameGraph& graph, gl::Context& context, const Inputs&
 
 // --- plan
 
-// What a kernel is made of.
-struct Wanted {
-    std::array<diffusion::Medium, 3> media;
-    KernelWish wish;
-    Settings settings;
-    double width = 0; // m, of a light's view at most
-
-    std::vector<float> key() const {
-        std::vector<float> list;
-        for (const diffusion::Medium& medium : media)
-            for (const diffusion::Slab& slab : medium.above)
-                list.insert(list.end(), {float(slab.scattering), float(slab.absorption), float(slab.ior),
-                                         float(slab.thickness)});
-        for (const diffusion::Medium& medium : media)
-            list.insert(list.end(), {float(medium.scattering), float(medium.absorption), float(medium.ior)});
-        list.insert(list.end(),
-                    {float(wish.thickness), float(wish.size), float(width), float(wish.sharpest),
-                     float(settings.method), float(settings.profile), float(settings.dipoleGeometry),
-                     settings.epsilon, float(settings.splats), float(settings.mostSplats)});
-        return list;
-    }
-};
-
 // Over a light's view of an object that is not turned; by steps of a fifth, so that tables stay while it
 // turns.
 double widerTurned(const scene::Object& object) {
@@ -208,7 +185,7 @@ double widerTurned(const scene::Object& object) {
 
 Wanted wantedOf(const views::DrawnMesh& mesh, const Settings& settings) {
     const scene::Object& object = *mesh.object;
-    Wanted wanted{.media = diffusion::mediaOf(object.material), .wish = {}, .settings = settings};
+    Wanted wanted{.media = diffusion::mediaOf(object.material), .wish = {}};
     KernelWish& wish = wanted.wish;
     wish.shape = settings.profile;
     wish.thickness = object.material.thickness;
@@ -217,6 +194,7 @@ Wanted wantedOf(const views::DrawnMesh& mesh, const Settings& settings) {
     // In octaves, so that tables stay while someone paints.
     if (mesh.paint) wish.sharpest = std::exp2(std::max(0.0f, std::ceil(std::log2(mesh.paint->sharpest))));
     const bool bound = settings.splats == Splats::Bound;
+    if (!bound) wanted.paper = settings.mostSplats;
     wanted.width = wish.size * widerTurned(object);
     wish.leastSpacing = bound ? wanted.width / (kTilt * settings.mostSplats) : 0;
     wish.split = bound && settings.method == Method::Multires;
@@ -229,10 +207,10 @@ Wanted wantedOf(const views::DrawnMesh& mesh, const Settings& settings) {
 // The dissertation's number of splats, as many of them as there may be.
 void usePapersSplats(Kernel& kernel, const Wanted& wanted, const std::string& name) {
     const double wish = papersSplats(wanted.media, wanted.wish, wanted.width);
-    const double splats = std::min(wish, double(wanted.settings.mostSplats));
+    const double splats = std::min(wish, double(*wanted.paper));
     if (splats < wish)
         warnOnce("subsurface: eq. 6.17 and 6.18 ask for " + std::to_string(std::llround(wish)) +
-                 " splats a side of object \"" + name + "\"; " + std::to_string(wanted.settings.mostSplats) +
+                 " splats a side of object \"" + name + "\"; " + std::to_string(*wanted.paper) +
                  " are drawn");
     kernel.bands.front().spacing = wanted.width / splats;
 }
@@ -240,9 +218,9 @@ void usePapersSplats(Kernel& kernel, const Wanted& wanted, const std::string& na
 std::shared_ptr<const Profiled> profileOf(gl::Context& context, const Wanted& wanted,
                                           const std::string& name) {
     auto profiled = std::make_shared<Profiled>();
-    profiled->key = wanted.key();
+    profiled->of = wanted;
     profiled->kernel = kernelOf(wanted.media, wanted.wish);
-    if (wanted.settings.splats == Splats::Paper) usePapersSplats(profiled->kernel, wanted, name);
+    if (wanted.paper) usePapersSplats(profiled->kernel, wanted, name);
     if (profiled->kernel.blur > 0)
         warnOnce("subsurface: object \"" + name + "\" is " + std::to_string(wanted.wish.size) +
                  " m wide and its light reaches less far than mostSplats can tell apart; it is blurred by " +
@@ -397,9 +375,8 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
         if (!scatters(*mesh.object) || settings.method == Method::Lambert) continue;
         Plan::State::Object object{.index = mesh.index, .profile = nullptr, .layers = {}};
         const Wanted wanted = wantedOf(mesh, settings);
-        const auto known =
-            std::find_if(profiles_.begin(), profiles_.end(),
-                         [key = wanted.key()](const auto& profile) { return profile->key == key; });
+        const auto known = std::find_if(profiles_.begin(), profiles_.end(),
+                                        [&](const auto& profile) { return profile->of == wanted; });
         object.profile = known != profiles_.end() ? *known : profileOf(context_, wanted, mesh.object->name);
         if (known == profiles_.end()) profiles_.push_back(object.profile);
         used.push_back(object.profile);

@@ -38,6 +38,7 @@ struct Settings {
     BlurEnergy blurEnergy = BlurEnergy::Kept; ///< of light where M_d is painted
     int cells = 48;                           ///< along the longest side of a body, of diffusion
     bool temporal = false;                    ///< light is mixed with that of the picture before
+    bool operator==(const Settings&) const = default;
 };
 
 /// Whether a parameter changes anything beside these choices.

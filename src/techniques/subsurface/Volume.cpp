@@ -116,31 +116,16 @@ std::optional<Volumes::Key> Body::key() const {
     }
     for (const views::DrawnObject& field : in_.fields)
         key.objects.push_back(views::objectKey(*field.object, time));
-    std::vector<float>& numbers = key.numbers;
-    const auto add = [&numbers](const auto& vector) {
-        for (int i = 0; i < vector.length(); ++i)
-            numbers.push_back(vector[i]);
-    };
-    for (const views::LampPoint& lamp : views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp)) {
-        add(lamp.place);
-        add(lamp.color);
-        add(lamp.axis);
-        add(lamp.cone);
-        numbers.insert(numbers.end(), {lamp.exponent, float(lamp.fades)});
-    }
+    key.lamps = views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp);
     if (in_.environment != graph::TextureHandle::None) {
         const scene::Environment& environment = *in_.scene.environment;
         key.map = environment.map;
-        add(environment.rotation);
-        numbers.push_back(environment.intensity);
+        key.sky = vec4(environment.rotation, environment.intensity);
     }
-    for (const diffusion::Medium& medium : diffusion::mediaOf(mesh_.drawn.object->material))
-        numbers.insert(numbers.end(),
-                       {float(medium.scattering), float(medium.absorption), float(medium.ior)});
-    numbers.push_back(mesh_.drawn.object->material.surfaceIor()); // by which light enters
-    for (const int layers : plan_.layers)
-        numbers.push_back(float(layers));
-    add(ivec2(settings_.cells, views::samplingOf(in_.scene).lamp));
+    key.media =
+        diffusion::mediaOf(mesh_.drawn.object->material); // the top layer's ior is that by which light enters
+    key.layers = plan_.layers;
+    key.cells = settings_.cells;
     return key;
 }
 

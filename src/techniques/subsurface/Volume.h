@@ -16,9 +16,13 @@ public:
     /// What a solution depends on.
     struct Key {
         std::vector<views::ObjectKey> objects; ///< the body first, then all that stands in the light's way
-        std::vector<float> numbers;            ///< lamps, environment, medium, cells
-        std::shared_ptr<const void> map;       ///< of the environment
-        std::shared_ptr<const void> painting;  ///< of the body
+        std::vector<views::LampPoint> lamps;
+        std::shared_ptr<const void> map;        ///< of the environment
+        vec4 sky{0};                            ///< its rotation [degrees] and intensity
+        std::array<diffusion::Medium, 3> media; ///< of the body
+        std::array<int, 3> layers{};            ///< as Plan's
+        int cells = 0;                          ///< along its longest side
+        std::shared_ptr<const void> painting;   ///< on it
         bool operator==(const Key&) const = default;
     };
     struct Solution {
