@@ -53,14 +53,7 @@ void addPixel(Sums& sums, const Rings& rings, int row, double left, double right
 
 namespace {
 
-// The cells of a map, before it is turned: radiance and area of each. The last few are kept, because a map is
-// turned more often than changed, and asked for in a few numbers of cells by turns.
-struct MapCells {
-    std::weak_ptr<const Image> map;
-    int count = 0;
-    std::vector<EnvironmentLight> cells;
-};
-
+// The cells of a map, before it is turned: radiance and area of each.
 std::vector<EnvironmentLight> cellsOf(const Image& map, int count) {
     const Rings rings(count);
     Sums sums(rings.total);
@@ -144,17 +137,10 @@ EnvironmentLight lightOf(const Part& part) {
 } // namespace
 
 std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count) {
-    constexpr std::size_t kKept = 4;
-    static std::vector<MapCells> known;
-    auto found = std::find_if(known.begin(), known.end(), [&](const MapCells& cells) {
-        return cells.map.lock() == environment.map && cells.count == count;
-    });
-    if (found == known.end()) {
-        if (known.size() == kKept) known.erase(known.begin());
-        found = known.insert(known.end(), {environment.map, count, cellsOf(*environment.map, count)});
-    }
+    // A map is turned more often than changed, and asked for in a few numbers of cells by turns.
+    auto lights = environment.kept.of<std::vector<EnvironmentLight>>(
+        std::pair(environment.map, count), [&] { return cellsOf(*environment.map, count); });
     const mat3 rotation = rotationFromDegrees(environment.rotation);
-    std::vector<EnvironmentLight> lights = found->cells;
     for (EnvironmentLight& light : lights) {
         light.direction = rotation * light.direction;
         light.radiance *= environment.intensity;

@@ -420,21 +420,18 @@ Atlas atlasFrom(const Mesh& source, const Layout& layout, int side) {
 
 } // namespace
 
-Result<std::shared_ptr<const Atlas>> atlasOf(const std::shared_ptr<const Mesh>& mesh, int side) {
-    struct Made {
-        std::weak_ptr<const Mesh> from;
-        std::shared_ptr<const Atlas> atlas;
-    };
-    constexpr std::size_t kKept = 8;
-    static std::vector<Made> made;
-    std::erase_if(made, [](const Made& one) { return one.from.expired(); });
-    for (const Made& one : made)
-        if (one.atlas->side == side && one.from.lock() == mesh) return one.atlas;
-    Layout layout(*mesh, side);
+Result<std::shared_ptr<const Atlas>> atlasOf(const Mesh& mesh, int side) {
+    Layout layout(mesh, side);
     if (Status laid = layout.run(); !laid) return laid.error();
-    if (made.size() == kKept) made.erase(made.begin());
-    made.push_back({mesh, std::make_shared<const Atlas>(atlasFrom(*mesh, layout, side))});
-    return made.back().atlas;
+    return std::make_shared<const Atlas>(atlasFrom(mesh, layout, side));
+}
+
+Result<std::shared_ptr<const Atlas>> atlasOf(const Object& object, int side) {
+    using Made = std::shared_ptr<const Atlas>;
+    const std::pair source(meshOf(object), side);
+    if (const Made* made = object.kept.find<Made>(source)) return *made;
+    Result<Made> made = atlasOf(*source.first, side);
+    return made ? object.kept.keep(source, *made) : made;
 }
 
 } // namespace lucent::scene

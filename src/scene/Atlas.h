@@ -19,10 +19,12 @@ struct Atlas {
 
 /// Parts the mesh into charts on which no two places meet, at one scale, with a texel between them that
 /// belongs to neither's inside, so that bilinear reading never crosses. Depends on the mesh as it is bound
-/// and on `side` alone; made once for the last few meshes.
+/// and on `side` alone.
 ///
 /// @param side  texels, [16, 4096]
 /// @return      Error for meshes with more charts than the picture holds
-Result<std::shared_ptr<const Atlas>> atlasOf(const std::shared_ptr<const Mesh>& mesh, int side);
+Result<std::shared_ptr<const Atlas>> atlasOf(const Mesh& mesh, int side);
+/// That of an object's mesh, made once and kept with the object.
+Result<std::shared_ptr<const Atlas>> atlasOf(const Object& object, int side);
 
 } // namespace lucent::scene

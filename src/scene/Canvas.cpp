@@ -206,20 +206,10 @@ void PaintSurface::sort() {
 }
 
 Result<std::shared_ptr<const PaintSurface>> paintSurfaceOf(const Object& object, int side) {
-    const auto atlas = atlasOf(meshOf(object), side);
+    const auto atlas = atlasOf(object, side);
     if (!atlas) return atlas.error();
-    struct Made {
-        std::weak_ptr<const Atlas> from;
-        std::shared_ptr<const PaintSurface> surface;
-    };
-    constexpr std::size_t kKept = 8;
-    static std::vector<Made> made;
-    std::erase_if(made, [](const Made& one) { return one.from.expired(); });
-    for (const Made& one : made)
-        if (one.from.lock() == *atlas) return one.surface;
-    if (made.size() == kKept) made.erase(made.begin());
-    made.push_back({*atlas, std::make_shared<const PaintSurface>(**atlas)});
-    return made.back().surface;
+    return object.kept.of<std::shared_ptr<const PaintSurface>>(
+        *atlas, [&] { return std::make_shared<const PaintSurface>(**atlas); });
 }
 
 Canvas::Canvas(std::shared_ptr<const PaintSurface> surface, float scale,

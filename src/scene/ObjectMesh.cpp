@@ -51,20 +51,6 @@ Mesh generated(const Object& object) {
     return meshOf(std::get<Cylinder>(shape));
 }
 
-// The numbers that a generated mesh depends on.
-std::vector<float> numbersOf(const Object& object) {
-    const Shape& shape = object.shape;
-    std::vector<float> list{float(shape.index()), float(isWaved(object)), float(isClear(object))};
-    const auto add = [&](auto... values) { (list.push_back(float(values)), ...); };
-    if (const auto* plane = std::get_if<Plane>(&shape)) add(plane->size.x, plane->size.y);
-    if (const auto* box = std::get_if<Box>(&shape)) add(box->size.x, box->size.y, box->size.z);
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) add(sphere->radius);
-    if (const auto* torus = std::get_if<Torus>(&shape)) add(torus->major, torus->minor);
-    if (const auto* c = std::get_if<Cylinder>(&shape)) add(c->radius, c->height, c->open);
-    if (const auto* water = std::get_if<Water>(&shape)) add(water->size.x, water->size.y, water->cells);
-    return list;
-}
-
 template <class Value>
 std::vector<Value> perCorner(const std::vector<Value>& values, const std::vector<std::uint32_t>& corners) {
     std::vector<Value> list;
@@ -88,40 +74,21 @@ Mesh flattened(const Mesh& mesh) {
     return flat;
 }
 
-// Made once for each of the last few meshes.
-std::shared_ptr<const Mesh> flatMeshOf(const std::shared_ptr<const Mesh>& mesh) {
-    struct Made {
-        std::weak_ptr<const Mesh> from;
-        std::shared_ptr<const Mesh> flat;
-    };
-    constexpr std::size_t kKept = 8;
-    static std::vector<Made> made;
-    std::erase_if(made, [](const Made& one) { return one.from.expired(); });
-    for (const Made& one : made)
-        if (one.from.lock() == mesh) return one.flat;
-    if (made.size() == kKept) made.erase(made.begin());
-    made.push_back({mesh, std::make_shared<const Mesh>(flattened(*mesh))});
-    return made.back().flat;
-}
+// What a mesh of an object depends on.
+struct Source {
+    Shape shape;
+    bool isWaved, isClear;
+    bool operator==(const Source&) const = default;
+};
 
 } // namespace
 
 std::shared_ptr<const Mesh> meshOf(const Object& object) {
-    if (const auto* file = std::get_if<MeshShape>(&object.shape))
-        return file->flatNormals ? flatMeshOf(file->mesh) : file->mesh;
-    struct Made {
-        std::vector<float> numbers;
-        std::shared_ptr<const Mesh> mesh;
-    };
-    constexpr std::size_t kKept = 32;
-    static std::vector<Made> made;
-    std::vector<float> numbers = numbersOf(object);
-    const auto found =
-        std::find_if(made.begin(), made.end(), [&](const Made& one) { return one.numbers == numbers; });
-    if (found != made.end()) return found->mesh;
-    if (made.size() == kKept) made.erase(made.begin());
-    made.push_back({std::move(numbers), std::make_shared<const Mesh>(generated(object))});
-    return made.back().mesh;
+    const auto* file = std::get_if<MeshShape>(&object.shape);
+    if (file && !file->flatNormals) return file->mesh;
+    return object.kept.of<std::shared_ptr<const Mesh>>(
+        Source{object.shape, isWaved(object), isClear(object)},
+        [&] { return std::make_shared<const Mesh>(file ? flattened(*file->mesh) : generated(object)); });
 }
 
 } // namespace lucent::scene

@@ -2,6 +2,7 @@
 /// What a scene is: objects, lights, an environment, a camera. Plain values; loading is in Load.h.
 
 #include "base/Image.h"
+#include "base/Kept.h"
 #include "base/Math.h"
 #include "base/Param.h"
 
@@ -23,6 +24,7 @@ struct HeightSource {
     vec3 meshRotate{0};         ///< degrees about the fixed x, y, z axes
     float margin = 0.04f;       ///< of the larger side
     float floorGap = 0.12f;     ///< height of the farthest visible point
+    bool operator==(const HeightSource&) const = default;
 };
 
 /// Heights over a rectangle that lies in its object's xy plane, centred, facing +z, image row 0 at +y.
@@ -47,6 +49,7 @@ struct HeightField {
     float texelSize() const { return width / float(heights->width); }
     /// Width and height of the footprint in metres.
     vec2 footprint() const { return vec2(heights->size()) * texelSize(); }
+    bool operator==(const HeightField&) const = default;
 };
 
 struct Mesh;
@@ -57,6 +60,7 @@ struct MeshShape {
     std::string part;                 ///< only triangles of this material of the file; "": all
     bool flatNormals = false;         ///< light meets the triangles themselves, not interpolated normals
     std::shared_ptr<const Mesh> mesh; ///< never null once loaded
+    bool operator==(const MeshShape&) const = default;
 };
 
 /// A rectangle in its object's xz plane, centred, facing +y.
@@ -197,6 +201,7 @@ struct Object {
     bool visible = true; ///< false: hidden from the camera only
     /// What an artist painted on it; null: nothing. Acts where the material scatters.
     std::shared_ptr<const Painting> painting;
+    Kept kept{}; ///< what was worked out from it: its mesh, its bounds
 
     bool isField() const { return std::holds_alternative<HeightField>(shape); }
     /// The shape, which must be a height field.
@@ -251,6 +256,7 @@ struct Environment {
     float intensity = 1;
     bool enabled = true;              ///< off: only the lights shine
     std::shared_ptr<const Image> map; ///< 3 channels, linear; always there once loaded
+    Kept kept{};                      ///< what was worked out from it: its lights
 };
 
 struct Camera {

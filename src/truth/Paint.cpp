@@ -28,7 +28,7 @@ PaintedSurface::PaintedSurface(std::shared_ptr<const scene::Painting> painting, 
     : painting_(std::move(painting)), mesh_(std::move(mesh)), places_(std::move(places)) {}
 
 Result<PaintedSurface> PaintedSurface::create(const scene::Object& object, double time) {
-    const auto atlas = scene::atlasOf(scene::meshOf(object), object.painting->side());
+    const auto atlas = scene::atlasOf(object, object.painting->side());
     if (!atlas) return atlas.error();
     scene::Object parted = object;
     scene::MeshShape shape;

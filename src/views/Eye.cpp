@@ -17,8 +17,8 @@ vec4 Eye::inObject(const mat4& worldFromObject) const {
 
 namespace {
 
-Bounds fieldBounds(const scene::HeightField& field) {
-    const HeightRange range = heightRange(field.heights);
+Bounds fieldBounds(const scene::HeightField& field, const Kept& kept) {
+    const auto range = kept.of<HeightRange>(field.heights, [&] { return heightRange(*field.heights); });
     const vec2 half = 0.5f * field.footprint();
     Bounds bounds;
     bounds.add({-half, std::min(range.lowest, 0.0f) * field.heightScale});
@@ -35,9 +35,11 @@ Bounds waterBounds(const scene::Water& water) {
 }
 
 Bounds localBounds(const scene::Object& object) {
-    if (const auto* field = std::get_if<scene::HeightField>(&object.shape)) return fieldBounds(*field);
+    if (const auto* field = std::get_if<scene::HeightField>(&object.shape))
+        return fieldBounds(*field, object.kept);
     if (const auto* water = std::get_if<scene::Water>(&object.shape)) return waterBounds(*water);
-    Bounds bounds = meshBounds(meshOf(object));
+    const std::shared_ptr<const scene::Mesh> mesh = meshOf(object);
+    Bounds bounds = object.kept.of<Bounds>(mesh, [&] { return meshBounds(*mesh); });
     bounds.low -= glm::abs(object.wave.amplitude);
     bounds.high += glm::abs(object.wave.amplitude);
     return bounds;

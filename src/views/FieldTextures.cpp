@@ -9,31 +9,9 @@ namespace lucent::views {
 
 using graph::Format;
 
-namespace {
-
-HeightRange rangeOf(const Image& heights) {
+HeightRange heightRange(const Image& heights) {
     const auto [lowest, highest] = std::minmax_element(heights.pixels.begin(), heights.pixels.end());
     return {*lowest, *highest};
-}
-
-} // namespace
-
-HeightRange heightRange(const std::shared_ptr<const Image>& heights) {
-    // Asked for several times a frame for the same few maps. A weak pointer tells maps apart by their owners:
-    // an address may be reused.
-    struct Known {
-        std::weak_ptr<const Image> map;
-        HeightRange range;
-    };
-    constexpr std::size_t kKept = 8;
-    static std::vector<Known> known;
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&](const Known& one) { return one.map.lock() == heights; });
-    if (found != known.end()) return found->range;
-    const HeightRange range = rangeOf(*heights);
-    if (known.size() == kKept) known.erase(known.begin());
-    known.push_back({heights, range});
-    return range;
 }
 
 namespace {
@@ -49,7 +27,7 @@ int levelCount(ivec2 cells) {
 
 // The finest level: blocks of 2 x 2 cells, that is 3 x 3 samples, clamped at the border.
 PyramidLevel finestLevel(const Image& heights, int levels) {
-    const HeightRange range = rangeOf(heights);
+    const HeightRange range = heightRange(heights);
     const double unit = (double(range.highest) - range.lowest) / 65535.0;
     const auto quantised = [&](float height, bool up) -> std::uint16_t {
         if (unit == 0) return 0;
@@ -136,7 +114,7 @@ Atlas packPyramid(const std::vector<PyramidLevel>& levels) {
 } // namespace
 
 FieldTextures::FieldTextures(gl::Context& context, std::shared_ptr<const Image> heights)
-    : source_(std::move(heights)), range_(heightRange(source_)) {
+    : source_(std::move(heights)), range_(heightRange(*source_)) {
     gl::Device& device = context.device();
     heights_ = graph::Texture(device, {.size = source_->size(), .format = Format::R32F}, "views.heights");
     device.upload(heights_.handle(), 0, source_->pixels);

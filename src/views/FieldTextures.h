@@ -17,8 +17,7 @@ namespace lucent::views {
 struct HeightRange {
     float lowest, highest; ///< stored heights
 };
-/// Range of a height map; remembered for the last few maps.
-HeightRange heightRange(const std::shared_ptr<const Image>& heights);
+HeightRange heightRange(const Image& heights);
 
 /// One level of a min-max pyramid: pairs of 16-bit numbers, row by row, rounded outwards over the map's
 /// range.

@@ -30,22 +30,13 @@ bool isFlat(const scene::Object& object) {
 
 } // namespace
 
-Bounds meshBounds(const std::shared_ptr<const scene::Mesh>& mesh) {
-    struct Known {
-        std::weak_ptr<const scene::Mesh> mesh;
-        Bounds bounds;
-    };
-    constexpr std::size_t kKept = 32;
+Bounds meshBounds(const scene::Mesh& mesh) {
     constexpr int kTimes = 16;
-    static std::vector<Known> known;
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&](const Known& one) { return one.mesh.lock() == mesh; });
-    if (found != known.end()) return found->bounds;
     Bounds bounds;
-    const int times = mesh->moves() ? kTimes : 1;
+    const int times = mesh.moves() ? kTimes : 1;
     for (int i = 0; i < times; ++i) {
-        const scene::Pose pose = scene::poseAt(mesh->rig, mesh->rig.duration * float(i) / float(times));
-        const Bounds at = boundsOfPoints(scene::posed(*mesh, pose).positions);
+        const scene::Pose pose = scene::poseAt(mesh.rig, mesh.rig.duration * float(i) / float(times));
+        const Bounds at = boundsOfPoints(scene::posed(mesh, pose).positions);
         bounds.add(at.low);
         bounds.add(at.high);
     }
@@ -53,8 +44,6 @@ Bounds meshBounds(const std::shared_ptr<const scene::Mesh>& mesh) {
         const vec3 margin = 0.1f * (bounds.high - bounds.low);
         bounds = {bounds.low - margin, bounds.high + margin};
     }
-    if (known.size() == kKept) known.erase(known.begin());
-    known.push_back({mesh, bounds});
     return bounds;
 }
 
@@ -91,7 +80,7 @@ Result<DrawnMeshes> drawnMeshes(const scene::Scene& scene, ImageCache& images, b
         std::shared_ptr<const scene::Mesh> source = meshOf(object);
         std::optional<Paint> paint;
         if (isPainted(object)) {
-            auto atlas = scene::atlasOf(source, object.painting->side());
+            auto atlas = scene::atlasOf(object, object.painting->side());
             if (!atlas) return atlas.error();
             Result<Paint> maps = images.paint(*object.painting, *atlas);
             if (!maps) return maps.error();

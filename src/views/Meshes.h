@@ -20,7 +20,7 @@ namespace lucent::views {
 class ImageCache;
 
 /// The box around a mesh in its own space; remembered for the last few meshes.
-Bounds meshBounds(const std::shared_ptr<const scene::Mesh>& mesh);
+Bounds meshBounds(const scene::Mesh& mesh);
 
 /// A mesh as textures: as it is bound to what moves it, or, where nothing does, as its rig holds it.
 class MeshTextures {

@@ -70,7 +70,7 @@ void forEachPlace(const Atlas& atlas, const Image& map, Check check) {
     }
 }
 
-const Atlas& atlasFor(const Object& object, int side) { return **atlasOf(meshOf(object), side); }
+const Atlas& atlasFor(const Object& object, int side) { return **atlasOf(object, side); }
 
 TEST(Canvas, ADabHasItsShapeOnBothSidesOfEverySeam) {
     const Object object = ball();

@@ -39,7 +39,7 @@ constexpr int kSide = 256;
 // Paints every texel that lies in a triangle of the atlas or within two texels of one, as its plane goes on.
 std::shared_ptr<const scene::Painting> painted(const scene::Object& object, const PaintAt& paintAt,
                                                int side = kSide) {
-    const auto atlas = scene::atlasOf(scene::meshOf(object), side);
+    const auto atlas = scene::atlasOf(object, side);
     EXPECT_TRUE(atlas.ok()) << atlas.error().message;
     auto entering = std::make_shared<Image>(side, side, 4), leaving = std::make_shared<Image>(side, side, 4);
     std::fill(entering->pixels.begin(), entering->pixels.end(), 1.0f);

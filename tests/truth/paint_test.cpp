@@ -212,7 +212,7 @@ TEST(Paint, CheckerboardOnAPlaneIsItsIntegral) {
     plane.painting = painting;
 
     // The atlas of a rectangle is one chart: texels by the corners of a triangle.
-    const auto atlas = scene::atlasOf(scene::meshOf(plane), kSide);
+    const auto atlas = scene::atlasOf(plane, kSide);
     ASSERT_TRUE(atlas);
     const scene::Mesh& mesh = *(*atlas)->mesh;
     const auto corner = [&](int i) { return mesh.indices[std::size_t(i)]; };

@@ -18,7 +18,7 @@ INSTANTIATE_TEST_SUITE_P(Pyramid, Sizes,
 
 TEST_P(Sizes, EveryBlockBoundsTheHeightsOfItsCells) {
     const auto map = support::noise(GetParam());
-    const HeightRange range = heightRange(map);
+    const HeightRange range = heightRange(*map);
     const double unit = (double(range.highest) - range.lowest) / 65535;
     const auto levels = buildPyramid(*map);
     for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -43,11 +43,16 @@ TEST_P(Sizes, EveryBlockBoundsTheHeightsOfItsCells) {
 TEST(HeightRange, IsThatOfTheMapThatNowHoldsItsMemory) {
     const auto first = std::make_shared<Image>(3, 3, 1);
     *first->at(1, 1) = 1;
-    EXPECT_EQ(heightRange(first).highest, 1);
+    scene::Object object;
+    object.shape = scene::HeightField();
+    object.field().heightScale = 1;
+    object.field().heights = first;
+    EXPECT_EQ(boundsOf(object).high.z, 1);
     const auto second = std::make_shared<Image>();
     std::swap(*first, *second);
     *second->at(1, 1) = 5;
-    EXPECT_EQ(heightRange(second).highest, 5);
+    object.field().heights = second;
+    EXPECT_EQ(boundsOf(object).high.z, 5);
 }
 
 TEST_P(Sizes, LevelsHalveExactlyAsTexturesDo) {
