@@ -11,12 +11,11 @@
 //       the first one that the eye meets (dissertation 2007, 5); absorption along the geometric way, or
 //       (USE_OPTICAL_LENGTH) that times the index of refraction (thesis 2008, 3.8)
 // not   reflections inside, light from what the view does not show
-#pragma variants - SHOW_DIRECTION SHOW_LAYERS SHOW_LOST
+#pragma variants - SHOW_DIRECTION SHOW_LAYERS SHOW_LOST USE_DISPERSION
 #pragma variants USE_SOLID USE_BOX
-#pragma variants - USE_DISPERSION
-#pragma variants - USE_OPTICAL_LENGTH
 #pragma variants - BESIDE
-#pragma variants - USE_BISECTION
+#pragma variants - USE_OPTICAL_LENGTH unless BESIDE
+#pragma variants - USE_BISECTION unless BESIDE
 #pragma variants FROM_PEEL FROM_VOXELS FROM_BITS FROM_BOUNDS if USE_BISECTION
 #pragma variants SLICES=256 SLICES=512 if FROM_BITS
 #pragma variants - GLOBAL_BOUNDS if FROM_BITS
@@ -181,7 +180,7 @@ void main() {
         oColor = beside(eye, environmentAt(eye));
         return;
     }
-#if defined(SHOW_DIRECTION) || defined(SHOW_LOST) || !defined(USE_DISPERSION)
+#ifndef USE_DISPERSION
     oColor = throughGlass(pixel, seen, eye, 1);
 #else
     vec4 color = vec4(0.0, 0.0, 0.0, 1.0); // WebGL lets no output be indexed

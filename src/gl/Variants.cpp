@@ -30,13 +30,14 @@ struct Choice {
 struct Group {
     bool isOptional = false;
     std::vector<Choice> choices;
-    std::vector<std::string> conditions; // one of these is on; none: always
+    std::vector<std::string> conditions; // one of these is on; empty: always
+    bool isUnless = false;               // or rather none of them
 
     bool applies(const Switches& on) const {
-        return conditions.empty() ||
-               std::any_of(conditions.begin(), conditions.end(), [&](const std::string& condition) {
-                   return std::find(on.begin(), on.end(), condition) != on.end();
-               });
+        const auto isOn = [&](const std::string& one) {
+            return std::find(on.begin(), on.end(), one) != on.end();
+        };
+        return conditions.empty() || std::any_of(conditions.begin(), conditions.end(), isOn) != isUnless;
     }
     bool has(const std::string& one) const {
         return std::any_of(choices.begin(), choices.end(),
@@ -69,13 +70,13 @@ std::vector<Group> groupsOf(std::string_view lines) {
     std::vector<Group> groups;
     for (const std::string& line : split(lines, '\n')) {
         Group& group = groups.emplace_back();
-        bool behindIf = false;
+        bool isCondition = false;
         for (const std::string& word : split(line, ' ')) {
             if (word == "-")
                 group.isOptional = true;
-            else if (word == "if")
-                behindIf = true;
-            else if (behindIf)
+            else if (word == "if" || word == "unless")
+                isCondition = true, group.isUnless = word == "unless";
+            else if (isCondition)
                 group.conditions.push_back(word);
             else
                 group.choices.push_back(choiceOf(word));

@@ -7,6 +7,7 @@
 ///     #pragma variants - GLOBAL_BOUNDS if FROM_BITS   only where one of the switches behind `if`, which
 ///     stand
 ///                                                     in lines above, is on
+///     #pragma variants - USE_BISECTION unless BESIDE  or none is
 
 #include <string>
 #include <string_view>

@@ -62,6 +62,8 @@ TEST(Variants, AreAllSetsThatTheLinesAllow) {
     EXPECT_FALSE(isVariant(lines, {"A", "B", "N 5"}));
     EXPECT_FALSE(isVariant(lines, {"B", "C"}));
     EXPECT_FALSE(isVariant(lines, {"B", "D"}));
+    EXPECT_EQ(variantsOf("- A\n- B unless A"), (std::vector<Switches>{{}, {"B"}, {"A"}}));
+    EXPECT_FALSE(isVariant("- A\n- B unless A", {"A", "B"}));
     EXPECT_EQ(variantsOf(""), std::vector<Switches>{Switches{}});
 }
 

@@ -61,13 +61,20 @@ void warnOfLimits(const Inputs& in, const Settings& settings) {
                  " tell objects not apart; light goes on in the one that it meets first");
 }
 
-std::vector<std::string> definesOf(const Inputs& in, const Settings& settings) {
+// What is shown, of rays through glass or beside it.
+std::vector<std::string> shownDefines(const Inputs& in) {
     std::vector<std::string> defines;
     if (in.show == scene::Aov::Direction) defines.push_back("SHOW_DIRECTION");
     if (in.show == scene::Aov::Layers) defines.push_back("SHOW_LAYERS");
     if (in.show == scene::Aov::Lost) defines.push_back("SHOW_LOST");
-    if (views::disperses(in.glass)) defines.push_back("USE_DISPERSION");
     defines.push_back(in.opaque ? "USE_SOLID" : "USE_BOX");
+    return defines;
+}
+
+std::vector<std::string> definesOf(const Inputs& in, const Settings& settings) {
+    std::vector<std::string> defines = shownDefines(in);
+    const bool showsLight = defines.size() == 1; // by no switch
+    if (showsLight && views::disperses(in.glass)) defines.push_back("USE_DISPERSION");
     if (settings.pathLength == PathLength::Optical) defines.push_back("USE_OPTICAL_LENGTH");
     return defines;
 }
@@ -221,8 +228,9 @@ Status Refract::record(graph::FrameGraph& graph, const Inputs& in, ivec2 size,
             defines.push_back(std::move(define));
     }
     const gl::Program* program = context_.program("refract/refract", defines);
-    defines.push_back("BESIDE");
-    const gl::Program* beside = context_.program("refract/refract", defines);
+    std::vector<std::string> besideDefines = shownDefines(in);
+    besideDefines.push_back("BESIDE");
+    const gl::Program* beside = context_.program("refract/refract", besideDefines);
     const views::Layers layers = in.layers;
     const graph::TextureId opaque = in.opaque, solid = in.solid, target = in.target;
     const bool counts = bisects && in.show == scene::Aov::Layers; // and looks at nothing else
