@@ -138,7 +138,6 @@ class Writer:
 
     def place(self, struct: Struct, member: Member) -> tuple[str, int, int]:
         """C++ type, bytes and alignment of a member."""
-        count = self.count(struct, member)
         matrix = re.fullmatch(r"mat([234])", member.type)
         found = self.shaders.find(self.shaders.structs, struct.file, member.type)
         if matrix:
@@ -152,19 +151,14 @@ class Writer:
         else:
             raise ShaderError(f"{struct.file}: {struct.name}.{member.name} is a {member.type}; expected a number, "
                               "vector, matrix or struct")
-        if not count:
+        if not member.count:
             return cpp, size, align
         if size % ROW:  # each element begins a row
-            kind = {"i": "ivec4", "u": "glm::uvec4"}.get(member.type[0], "vec4")
-            cpp, size = kind, ROW
-        number = int(count) if count.isdigit() else self.constant(struct, count)[1]
-        shown = count if count.isdigit() else self.constant(struct, count)[0]
-        return f"std::array<{cpp}, {shown}>", number * size, ROW
-
-    def count(self, struct: Struct, member: Member) -> str:
-        if member.count and not member.count.isdigit():
-            self.constant(struct, member.count)
-        return member.count
+            cpp, size = {"i": "ivec4", "u": "glm::uvec4"}.get(member.type[0], "vec4"), ROW
+        if member.count.isdigit():
+            return f"std::array<{cpp}, {member.count}>", int(member.count) * size, ROW
+        name, number = self.constant(struct, member.count)
+        return f"std::array<{cpp}, {name}>", number * size, ROW
 
     def constant(self, struct: Struct, name: str) -> tuple[str, int]:
         """A constant as the struct's folder calls it, and its value."""
