@@ -1,11 +1,13 @@
 /**
  * Makes the page from its sources and the compiled modules.
  *
- *   node scripts/build_web.mjs --wasm build/web --out build/web/site [--program build/native/lucent]
+ *   node scripts/build_web.mjs --wasm build/web --out build/web/site [--program build/native/lucent | --first]
  *
  * --wasm  folder with the modules lucent, lucent-readers, lucent-truth, lucent-check and lucent-bench, .mjs and .wasm each
  * --out   folder of the finished page; the gallery is copied from assets/generated/gallery when it is there, the
  *         documentation from web/docs to docs/, with the pictures that it shows
+ * --first  takes the modules that a page needs to open, others where they are there, and copies no gallery: it is served
+ *         from where it is made
  * --program  makes the page of parameters anew of what this program lists; else it is the repository's
  */
 import { build, transform } from 'esbuild';
@@ -21,7 +23,12 @@ const kGallery = join(kRoot, 'assets/generated/gallery');
 const web = (name) => join(kRoot, 'web', name);
 
 const { values: options } = parseArgs({
-  options: { wasm: { type: 'string' }, out: { type: 'string' }, program: { type: 'string' } },
+  options: {
+    wasm: { type: 'string' },
+    out: { type: 'string' },
+    program: { type: 'string' },
+    first: { type: 'boolean' },
+  },
 });
 if (!options.wasm || !options.out) fail('--wasm and --out are missing; both must name a folder');
 const wasm = (name) => resolve(options.wasm, name);
@@ -51,9 +58,14 @@ const cssAsText = {
 
 const common = { minify: true, format: 'esm', target: 'es2022', legalComments: 'none', logLevel: 'warning' };
 
-const kModules = ['lucent', 'lucent-readers', 'lucent-truth', 'lucent-check', 'lucent-bench'];
-for (const name of kModules.flatMap((module) => [`${module}.mjs`, `${module}.wasm`]))
-  if (!existsSync(wasm(name))) fail(`${wasm(name)}: is not there; the preset "web" builds it`);
+const kFirst = ['lucent', 'lucent-readers'];
+const kLater = ['lucent-truth', 'lucent-check', 'lucent-bench'];
+const isThere = (module) => existsSync(wasm(`${module}.mjs`)) && existsSync(wasm(`${module}.wasm`));
+const modules = [...kFirst, ...kLater.filter((module) => !options.first || isThere(module))];
+for (const module of modules)
+  if (!isThere(module)) fail(`${wasm(module)}: .mjs or .wasm is not there; the preset "web" builds both`);
+/** Bundles what a module belongs to. */
+const bundleOf = (module, bundle) => modules.includes(module) && build({ ...common, ...bundle });
 mkdirSync(options.out, { recursive: true });
 
 await build({
@@ -65,8 +77,7 @@ await build({
   external: ['./selfcheck.js'], // fetched when asked for
   plugins: [cssAsText],
 });
-await build({
-  ...common,
+await bundleOf('lucent-check', {
   bundle: true,
   entryPoints: [web('selfcheck.js')],
   outfile: out('selfcheck.js'),
@@ -74,7 +85,7 @@ await build({
   plugins: [cssAsText],
 });
 await build({ ...common, entryPoints: [wasm('lucent-readers.mjs')], outfile: out('lucent-readers.js') });
-await build({ ...common, entryPoints: [wasm('lucent-bench.mjs')], outfile: out('lucent-bench.js') });
+await bundleOf('lucent-bench', { entryPoints: [wasm('lucent-bench.mjs')], outfile: out('lucent-bench.js') });
 await build({
   ...common,
   bundle: true,
@@ -83,8 +94,7 @@ await build({
   external: ['./lucent-bench.js'],
   define: { LUCENT_COMMIT: JSON.stringify(commit()) },
 });
-await build({
-  ...common,
+await bundleOf('lucent-truth', {
   bundle: true,
   entryPoints: [web('truth_job.js')],
   outfile: out('lucent-truth.js'),
@@ -115,8 +125,8 @@ if (options.program) {
   const command = [join(kRoot, 'scripts/parameters.mjs'), '--program', options.program, '--out', out('docs/parameters.html')];
   if (spawnSync(process.execPath, command, { stdio: 'inherit' }).status !== 0) fail('the page of parameters cannot be made');
 }
-for (const module of kModules) copyFileSync(wasm(`${module}.wasm`), out(`${module}.wasm`));
-if (existsSync(kGallery)) {
+for (const module of modules) copyFileSync(wasm(`${module}.wasm`), out(`${module}.wasm`));
+if (!options.first && existsSync(kGallery)) {
   rmSync(out('gallery'), { recursive: true, force: true });
   cpSync(kGallery, out('gallery'), { recursive: true });
 }

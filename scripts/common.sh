@@ -43,9 +43,11 @@ build() {
   say "$preset: built in $((SECONDS - start)) s"
 }
 
-make_assets() { /usr/bin/python3 scripts/make_assets.py || fail "assets: cannot be made; see the lines above"; }
+# make_assets [--first]
+make_assets() { /usr/bin/python3 scripts/make_assets.py "$@" || fail "assets: cannot be made; see the lines above"; }
 
-# The page with its module, wasm, gallery and documentation, in build/web/site.
+# The page with its modules, gallery and documentation, in build/web/site.
+# bundle_page [--first]: what is needed to open it, with what else is there already
 bundle_page() {
-  step page node scripts/build_web.mjs --wasm build/web --out build/web/site --program build/native/lucent
+  step page node scripts/build_web.mjs --wasm build/web --out build/web/site "${@:---program=build/native/lucent}"
 }

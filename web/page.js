@@ -3,6 +3,7 @@ import './lucent-viewer.js';
 
 const kLinkDelay = 300; // ms of rest before the address follows
 const kNoteTime = 2500; // ms
+const kMakingTime = 5000; // ms between looks at a gallery that is still being made
 
 const find = (id) => document.getElementById(id);
 const viewer = find('viewer');
@@ -38,9 +39,11 @@ function writeLinkSoon() {
 
 function followLink() {
   const { scene, changes } = readLink();
-  const wanted = gallery.find(({ id }) => id === scene) ?? gallery[0];
+  const named = gallery.find(({ id }) => id === scene);
+  const wanted = [named, ...gallery].find((entry) => entry && !isMaking(entry, 'scene'));
+  if (!wanted) return;
   if (scene && wanted.id !== scene) {
-    note(`There is no scene "${scene}" here`);
+    note(named ? `${named.title} is still being made` : `There is no scene "${scene}" here`);
     history.replaceState(null, '', '#' + new URLSearchParams({ scene: wanted.id, ...changes }));
   }
   if (wanted.id === current && viewer.loaded) {
@@ -54,6 +57,9 @@ function applyChanges(changes) {
 }
 
 // ---- scenes
+
+/** Whether the "scene", its "picture" or its "truth" is still being made. */
+const isMaking = ({ making = [] }, what) => making.includes(what);
 
 function showScene({ id, title, scene, poster, truth }, changes = {}) {
   current = id;
@@ -71,7 +77,12 @@ function galleryCard(entry) {
   const card = document.createElement('a');
   card.href = '#scene=' + encodeURIComponent(id);
   card.dataset.id = id;
-  const image = Object.assign(new Image(), { src: 'gallery/' + thumbnail, alt: '', loading: 'lazy' });
+  const waits = isMaking(entry, 'scene');
+  const image = thumbnail
+    ? Object.assign(new Image(), { src: 'gallery/' + thumbnail, alt: '', loading: 'lazy' })
+    : Object.assign(document.createElement('span'), { textContent: `${waits ? 'Scene' : 'Picture'} being made` });
+  if (waits) card.setAttribute('aria-disabled', 'true');
+  card.toggleAttribute('aria-current', id === current);
   const name = Object.assign(document.createElement('b'), { textContent: title });
   const text = Object.assign(document.createElement('small'), { textContent: caption });
   card.append(image, name, text);
@@ -80,6 +91,42 @@ function galleryCard(entry) {
     viewer.scrollIntoView({ block: 'nearest' });
   });
   return card;
+}
+
+// What is made while the page stands comes into it: pictures of cards, scenes, exact solutions.
+async function takeWhatIsMade() {
+  const before = new Map(gallery.map((entry) => [entry.id, JSON.stringify(entry)]));
+  gallery = await fetchGallery();
+  for (const entry of gallery) {
+    if (before.get(entry.id) === JSON.stringify(entry)) continue;
+    const card = [...find('gallery').children].find(({ dataset }) => dataset.id === entry.id);
+    const isFocused = card === document.activeElement;
+    const newer = galleryCard(entry);
+    card?.replaceWith(newer);
+    if (isFocused) newer.focus();
+    if (entry.id === current && entry.truth && !viewer.truth) {
+      viewer.truthNoise = entry.truth.noise;
+      viewer.truth = 'gallery/' + entry.truth.file;
+    }
+  }
+  if (!current) followLink();
+  showMaking();
+}
+
+/** Says what is being made, and asks again as long as something is. */
+function showMaking() {
+  const count = (what) => gallery.filter((entry) => isMaking(entry, what)).length;
+  const names = { scene: 'scene', picture: 'picture', truth: 'exact solution' };
+  const parts = Object.keys(names)
+    .filter(count)
+    .map((what) => `${count(what)} ${names[what]}${count(what) > 1 ? 's' : ''}`);
+  const entry = gallery.find(({ id }) => id === current);
+  const asked = entry && isMaking(entry, 'truth') && viewer.loaded && viewer.get('compare') !== 'off';
+  find('making').textContent =
+    (asked ? 'The exact solution of this scene is being made. ' : '') +
+    (parts.length ? `Being made: ${parts.join(', ')}; each comes into the page when it is ready.` : '');
+  clearTimeout(showMaking.timer);
+  if (parts.length) showMaking.timer = setTimeout(() => takeWhatIsMade().catch(showMaking), kMakingTime);
 }
 
 /** All cards, under the headings of what light does in their scenes. */
@@ -139,6 +186,7 @@ viewer.addEventListener('frame', showCost);
 
 function showCompare() {
   find('compare').value = viewer.get('compare');
+  showMaking();
 }
 
 function showCost() {
@@ -181,18 +229,26 @@ find('save').addEventListener('click', () => savePicture().catch((error) => note
 find('copy').addEventListener('click', copyLink);
 find('compare').addEventListener('change', ({ target }) => viewer.set('compare', target.value));
 find('time').addEventListener('change', showCost);
-find('check').addEventListener('click', async () => (await import('./selfcheck.js')).openSelfCheck(viewer));
+find('check').addEventListener('click', async () => {
+  const check = await import('./selfcheck.js').catch(({ message }) => note(`Self-check: ${message}`));
+  check?.openSelfCheck(viewer);
+});
 openWith('open-height', 'height-file', 'height');
 openWith('open-environment', 'environment-file', 'environment');
 openWith('open-mesh', 'mesh-file');
 
-async function start() {
+async function fetchGallery() {
   const response = await fetch('gallery/index.json');
-  if (!response.ok) return note(`gallery/index.json: the server answers ${response.status}; scripts/run makes it`);
-  gallery = await response.json();
+  if (!response.ok) throw new Error(`gallery/index.json: the server answers ${response.status}; scripts/run makes it`);
+  return response.json();
+}
+
+async function start() {
+  gallery = await fetchGallery();
   find('gallery').replaceChildren(...galleryCards());
   find('modes').replaceChildren(...modeButtons());
   addEventListener('hashchange', followLink);
   followLink();
+  showMaking();
 }
-start();
+start().catch(({ message }) => note(message));

@@ -20,9 +20,12 @@ TRUTH_WITH_LIGHT_RAYS = 128, 4_000_000, 16
 # Of truths with light inside: pixels of the longer side, lines for each of them on which light may enter.
 TRUTH_OF_DIPOLES = 128, 512
 
+# How the names of files end in scenes.
+ENDINGS = ".png", ".hdr", ".exr", ".glb", ".json"
+
 
 def files_of(scene: Path) -> list[Path]:
-    """Files that a scene names: every text in it that is the name of a file beside it."""
+    """Files that a scene names, beside it: every text in it that ends like the name of one."""
     def texts(value) -> list[str]:
         if isinstance(value, dict):
             value = list(value.values())
@@ -30,8 +33,11 @@ def files_of(scene: Path) -> list[Path]:
             return [text for item in value for text in texts(item)]
         return [value] if isinstance(value, str) else []
 
-    beside = {path.name: path for path in scene.parent.iterdir()}
-    return [beside[text] for text in texts(json.loads(scene.read_text())) if text in beside]
+    return [scene.with_name(text) for text in texts(json.loads(scene.read_text())) if text.endswith(ENDINGS)]
+
+
+def picture_names(scene: Path) -> dict[str, str]:
+    return {"thumbnail": f"{scene.stem}-{THUMBNAIL}.jpg", "poster": f"{scene.stem}-{POSTER}.jpg"}
 
 
 def is_relief(content: dict) -> bool:
@@ -88,12 +94,15 @@ def truth_of(program: Path, scene: Path, truth: Path, _facts: Path) -> None:
                    check=True, stdout=subprocess.DEVNULL)
 
 
-def index_of_truth(scene: Path) -> dict:
-    """What the page must know of a truth."""
+def index_of_truth(scene: Path) -> dict | None:
+    """What the page must know of a truth; None where there is none yet."""
     truth = scene.with_name(truth_name(scene))
-    facts = json.loads(truth.with_name(truth.name + ".json").read_text())
-    return {"file": truth.name, "size": [facts["width"], facts["height"]], "noise": facts["standardError"],
-            "directions": facts["directions"]}
+    facts = truth.with_name(truth.name + ".json")
+    if not truth.exists() or not facts.exists():
+        return None
+    known = json.loads(facts.read_text())
+    return {"file": truth.name, "size": [known["width"], known["height"]], "noise": known["standardError"],
+            "directions": known["directions"]}
 
 
 def kind_of(scene: dict) -> str:
@@ -110,13 +119,24 @@ def kind_of(scene: dict) -> str:
     return "Refraction" if any(material.get("transmission") for material in materials) else "Relief"
 
 
-def write_index(*paths: Path) -> None:
-    """The list that the page shows: of the scenes in the order given, written to the last path."""
-    *scenes, out = paths
+def index_of(scenes: list[Path]) -> str:
+    """The list that the page shows, of the scenes in the order given. Under "making" stands what is not there yet: the
+    "scene" itself where a file that it names is missing, its "picture", its "truth"."""
     entries = []
     for scene in scenes:
         content = json.loads(scene.read_text())
-        entries.append({"id": scene.stem, "title": content["title"], "caption": content["caption"], "kind": kind_of(content),
-                        "scene": scene.name, "thumbnail": f"{scene.stem}-256.jpg", "poster": f"{scene.stem}-512.jpg",
-                        "truth": index_of_truth(scene)})
-    out.write_text(json.dumps(entries, indent=2, ensure_ascii=False) + "\n")
+        entry = {"id": scene.stem, "title": content["title"], "caption": content["caption"], "kind": kind_of(content),
+                 "scene": scene.name}
+        names, truth, making = picture_names(scene), index_of_truth(scene), []
+        if not all(path.exists() for path in files_of(scene)):
+            making.append("scene")
+        if all(scene.with_name(name).exists() for name in names.values()):
+            entry |= names
+        else:
+            making.append("picture")
+        if truth:
+            entry["truth"] = truth
+        else:
+            making.append("truth")
+        entries.append(entry | ({"making": making} if making else {}))
+    return json.dumps(entries, indent=2, ensure_ascii=False) + "\n"

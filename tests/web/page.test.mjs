@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
+import { kScenes } from './scenes.mjs';
 import {
   boxOf,
   brightness,
@@ -155,5 +156,27 @@ test('every scene of the gallery comes to a finished picture', async () => {
     assert.ok(range > 40, `${scene}: values spread over ${range} of 255`);
   }
   assert.deepEqual(page.problems, []);
+  await page.leave();
+});
+
+test('what is still being made says so, and comes into the page when it is there', async () => {
+  const [dome, ridge] = JSON.parse(kScenes['index.json']);
+  const { poster, thumbnail, ...bare } = dome;
+  const early = [{ ...ridge, making: ['scene', 'truth'] }, { ...bare, making: ['picture', 'truth'] }];
+  let list = early;
+  const page = await openPage(stage, 'blank.html');
+  await page.route('**/gallery/index.json', (route) => route.fulfill({ body: JSON.stringify(list) }));
+  await page.goto(new URL('index.html#scene=ridge', stage.address).href);
+  // The first scene that can be shown stands in for the one that cannot yet.
+  await page.waitForFunction(() => document.querySelector('#title').textContent === 'A dome');
+  assert.equal(await page.textContent('#gallery [data-id=dome] span'), 'Picture being made');
+  assert.equal(await page.getAttribute('#gallery [data-id=ridge]', 'aria-disabled'), 'true');
+  assert.match(await page.textContent('#making'), /^Being made: 1 scene, 1 picture, 2 exact solutions;/);
+  await page.selectOption('#compare', 'truth');
+  assert.match(await page.textContent('#making'), /^The exact solution of this scene is being made\. Being made:/);
+  list = [ridge, dome];
+  await page.waitForSelector('#gallery [data-id=dome] img');
+  assert.equal(await page.getAttribute('#gallery [data-id=ridge]', 'aria-disabled'), null);
+  assert.equal(await page.textContent('#making'), '');
   await page.leave();
 });

@@ -13,7 +13,9 @@ before(async () => {
   folder = mkdtempSync(join(tmpdir(), 'lucent-serve-'));
   writeFileSync(join(folder, 'index.html'), 'here');
   mkdirSync(join(folder, 'empty'));
-  server = await serve(folder);
+  mkdirSync(join(folder, 'elsewhere'));
+  writeFileSync(join(folder, 'elsewhere/index.json'), '[]');
+  server = await serve(folder, 0, join(folder, 'elsewhere'));
 });
 after(() => {
   server.close();
@@ -39,4 +41,13 @@ test('addresses that name no file are answered, and the next one as well', async
   for (const path of ['/%00', '/%', '/%ff', '//', '/..%2f..%2fetc/passwd', '/%2e%2e/%2e%2e/etc/passwd', '/empty', long])
     assert.match(await statusOf(path), /^HTTP\/1\.1 404/, path);
   assert.match(await statusOf('/'), /^HTTP\/1\.1 200/);
+});
+
+test('another folder stands in for the gallery, and what comes into it is served at once', async () => {
+  assert.match(await statusOf('/gallery/index.json'), /^HTTP\/1\.1 200/);
+  assert.match(await statusOf('/gallery/new.json'), /^HTTP\/1\.1 404/);
+  writeFileSync(join(folder, 'elsewhere/new.json'), '{}');
+  assert.match(await statusOf('/gallery/new.json'), /^HTTP\/1\.1 200/);
+  for (const path of ['/gallery/..%2findex.html', '/gallery/%2e%2e/index.htm', '/gallery/'])
+    assert.match(await statusOf(path), /^HTTP\/1\.1 404/, path);
 });
