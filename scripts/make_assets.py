@@ -54,8 +54,8 @@ SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-back
           "checkerboards"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
-RENDERING = ["shaders", "src/scene", "src/views", "src/relief", "src/refract", "src/caustics", "src/brdf", "src/diffusion",
-             "src/subsurface", "src/frame"]
+RENDERING = ["shaders", "src/scene", "src/views", "src/light", "src/diffusion", "src/technique", "src/techniques",
+             "src/frame"]
 TRUTH = ["src/scene", "src/truth"]
 
 
