@@ -45,6 +45,7 @@ const kMarkup = `
   <input class="unseen" id="divider" type="range" min="0" max="1" step="0.01" hidden
     aria-label="Divider: share of the picture left of it">
   <button class="play" type="button" hidden></button>
+  <details class="undrawn" part="undrawn" hidden><summary></summary><ul></ul></details>
   <div class="hint"></div>
   <div class="status"></div>
 </div>
@@ -74,6 +75,7 @@ export class LucentViewer extends HTMLElement {
   #near = false; // the element or its surroundings are on the screen
   #seen = false; // the element itself is
   #play; // the button
+  #undrawn; // <details> that list what the scene asks for and the picture lacks
   #size = { width: 0, height: 0, scale: 1 };
   #controls = []; // descriptors with values
   #revision = -1;
@@ -98,6 +100,7 @@ export class LucentViewer extends HTMLElement {
     this.#hint = find('.hint');
     this.#voice = find('[role=status]');
     this.#play = find('.play');
+    this.#undrawn = find('.undrawn');
     this.#play.addEventListener('click', () => (this.paused ? this.play() : this.pause()));
     find('#keys').textContent = kKeys;
     this.#twin = new Controls({
@@ -163,7 +166,10 @@ export class LucentViewer extends HTMLElement {
   attributeChangedCallback(name, _, value) {
     if (name === 'alt') this.#canvas.ariaLabel = value ?? '';
     if (name === 'poster') value === null ? this.#poster.removeAttribute('src') : (this.#poster.src = value);
-    if (name === 'controls') this.#layout();
+    if (name === 'controls') {
+      this.#layout();
+      if (this.loaded) this.#showUndrawn();
+    }
     if (name === 'truth') {
       this.#truthFetched = false;
       this.#compareChanged();
@@ -350,9 +356,9 @@ export class LucentViewer extends HTMLElement {
   }
 
   /**
-   * Milliseconds, passes, draws, lights, bytes, complete, frames, modes that the scene has something for, and where the
-   * panel's controls lie; while the caustic map is shown, energy: W of each colour that met glass and mirrors, and what
-   * became of them.
+   * Milliseconds, passes, draws, lights, bytes, complete, frames, modes that the scene has something for, where the
+   * panel's controls lie, and notDrawn: lines that say what the scene asks for, the picture lacks, and why; while the
+   * caustic map is shown, energy: W of each colour that met glass and mirrors, and what became of them.
    */
   stats() {
     return JSON.parse(this.#ask('viewer_stats') || '{}');
@@ -505,6 +511,7 @@ export class LucentViewer extends HTMLElement {
     this.#revision = this.#runtime.call('viewer_revision', this.#handle);
     this.#twin.build(this.#controls, this.profiles());
     this.#showPlay();
+    this.#showUndrawn();
     if (this.autoplay && !kCalm.matches) this.play();
     this.#layout();
     this.#request();
@@ -605,6 +612,7 @@ export class LucentViewer extends HTMLElement {
     const changed = this.#controls.filter((control) => control.value !== before.get(control.path));
     this.#compareChanged();
     this.#showPlay();
+    this.#showUndrawn();
     for (const control of changed) this.#emit('change', { path: control.path, value: valueOf(control, control.value) });
     if (changed.length && this.#root.activeElement === this.#canvas) this.#sayLater(changed[0]);
   }
@@ -614,6 +622,19 @@ export class LucentViewer extends HTMLElement {
     this.#play.hidden = !this.moves;
     if (this.#play.ariaLabel !== label) Object.assign(this.#play, { ariaLabel: label, title: label });
     this.#play.classList.toggle('playing', !this.paused);
+  }
+
+  // Beside the other controls; stats() says it to whoever shows a picture without them.
+  #showUndrawn() {
+    const { notDrawn } = this.stats();
+    const [title, list] = this.#undrawn.children;
+    this.#undrawn.hidden = this.controls === null || !notDrawn.length;
+    title.textContent = `Not drawn (${notDrawn.length})`;
+    const lines = [...list.children].map((item) => item.textContent);
+    if (lines.join('\n') === notDrawn.join('\n')) return;
+    list.replaceChildren(
+      ...notDrawn.map((textContent) => Object.assign(document.createElement('li'), { textContent })),
+    );
   }
 
   // ---- the truth ----

@@ -6,9 +6,11 @@
 #include "scene/Load.h"
 #include "scene/readers/Readers.h"
 #include "technique/Technique.h"
+#include "views/SurfaceKey.h"
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -156,6 +158,12 @@ Status checkOutputs(const std::vector<std::string>& outputs, const std::vector<s
         if (Status apart = checkNotRead(output, inputs); !apart) return apart;
     }
     return lucent::checkOutputs(outputs);
+}
+
+void tellNotDrawn(const scene::Scene& scene) {
+    if (views::isGeometric(scene.view.show)) return;
+    for (const std::string& line : technique::notDrawn(scene))
+        std::fprintf(stderr, "lucent: not drawn: %s\n", line.c_str());
 }
 
 Result<Bytes> encode(const Image& image, const std::string& path) {

@@ -40,6 +40,9 @@ Status readParam(const std::string& option, const std::string& text, const Param
 /// For integer options: "is TEXT; must be an integer in [LOW, HIGH]", to which CLI11 adds the option's name.
 CLI::Validator integerIn(std::int64_t low, std::int64_t high);
 
+/// Tells on stderr what a scene asks for and no picture of its light shows, one line each.
+void tellNotDrawn(const scene::Scene& scene);
+
 /// "512x256" as pixels. Error "OPTION: is TEXT; must be ..."
 Result<ivec2> parseSize(const std::string& option, const std::string& text, int largest);
 

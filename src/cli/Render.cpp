@@ -167,6 +167,7 @@ Status render(const RenderOptions& options) {
     const Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
     if (!context) return context.error();
 
+    tellNotDrawn(*scene);
     frame::Renderer renderer(**context);
     return renderAll(options, **context, renderer, *scene);
 }

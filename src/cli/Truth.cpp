@@ -220,6 +220,7 @@ Status makeTruth(TruthOptions options) {
     const Result<truth::Tile> tile = tileOf(*scene, options);
     if (!tile) return tile.error();
 
+    tellNotDrawn(*scene);
     std::signal(SIGINT, [](int) { interrupted = true; });
     Result<truth::Picture> picture = [&] {
         ProgressBar bar;

@@ -95,6 +95,9 @@ std::string statsJson(const StatsInput& input) {
     json.key("modes").beginArray();
     for (const Mode mode : input.modes)
         json.value(nameOf(mode));
+    json.end().key("notDrawn").beginArray();
+    for (const std::string& line : input.notDrawn)
+        json.value(line);
     json.end();
     if (!input.balance.empty()) writeBalance(json.key("energy"), input.balance);
     json.key("panel").beginObject();

@@ -25,6 +25,7 @@ struct StatsInput {
     std::uint64_t revision = 0;
     std::optional<vec2> light;           ///< CSS pixels of its dot
     std::vector<Mode> modes;             ///< of the scene
+    std::vector<std::string> notDrawn;   ///< what the scene asks for and its picture lacks
     technique::Balance balance;          ///< of the caustic map that is shown
     std::map<std::string, Rect> widgets; ///< see Panel::widgets()
 };

@@ -300,7 +300,10 @@ std::string Viewer::stats() const {
     input.complete = s.complete();
     input.frames = s.drawCount;
     input.revision = s.revision;
-    if (s.scene) input.modes = modesOf(*s.scene);
+    if (s.scene) {
+        input.modes = modesOf(*s.scene);
+        input.notDrawn = technique::notDrawn(*s.scene);
+    }
     input.balance = s.balance;
     if (s.scene && s.pixels.y > 0) input.light = s.dotOf(s.light);
     input.widgets = s.panel.widgets();

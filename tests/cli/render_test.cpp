@@ -142,6 +142,23 @@ TEST_F(Render, AStoppedSequenceLeavesWholePicturesOnly) {
     }
 }
 
+TEST_F(Render, WhatIsNotDrawnIsToldOnStderrAsExplainSaysIt) {
+    write("mirror.json", R"({ "lucent": 1, "size": [8, 8],
+  "camera": { "type": "orthographic", "eye": [0, 0, 5], "height": 4 },
+  "objects": [ { "name": "mirror", "shape": { "type": "sphere" }, "material": { "reflectance": [1, 1, 1] } },
+               { "name": "ball", "shape": { "type": "sphere" }, "transform": { "translate": [2, 0, 0] } } ] })");
+    std::string lines, explained = run("explain mirror.json").out;
+    explained.erase(0, explained.find("not drawn\n") + 10);
+    for (std::size_t end; (end = explained.find('\n')) != std::string::npos; explained.erase(0, end + 1))
+        lines += "lucent: not drawn: " + explained.substr(2, end - 1);
+    EXPECT_NE(lines.find("mirror"), std::string::npos) << lines;
+    for (const char* command : {"render", "truth"}) {
+        const Outcome outcome = run(command + std::string(" mirror.json -o out.pfm"));
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, lines) << command;
+    }
+}
+
 TEST_F(Render, ExplainNamesThePassesAndWhatWasLeftOut) {
     const Outcome outcome = run("explain scene.json");
     EXPECT_EQ(outcome.code, 0);

@@ -1,4 +1,5 @@
 // A person's hands on the picture: what they move, what is drawn for it, and what can be taken back.
+#include "technique/Technique.h"
 #include "tests/viewer/Page.h"
 
 namespace lucent::viewer {
@@ -263,6 +264,15 @@ TEST_F(Picture, WithoutAReliefShiftAndDragTurnTheEnvironmentAndAltRollsIt) {
     drag({200, 300}, {240, 300}, {.alt = true});
     EXPECT_LT(glm::distance(vector("environment.rotation"), vec3(0, 18, -18)), 0.2f);
     EXPECT_EQ(vector("camera.eye"), vec3(0, 0, 2));
+}
+
+TEST_F(Picture, StatsSayWhatIsNotDrawn) {
+    ASSERT_TRUE(viewer->load("scene.json", files(kLampScene)).ok());
+    EXPECT_TRUE(stats()["notDrawn"].empty());
+    ASSERT_TRUE(viewer->load("scene.json", files(kGlassScene)).ok());
+    const std::vector<std::string> lines = stats()["notDrawn"];
+    EXPECT_FALSE(lines.empty());
+    EXPECT_EQ(lines, technique::notDrawn(*viewer->scene()));
 }
 
 TEST_F(Picture, SpotsAndAreaLightsAreDraggedByTheirDots) {

@@ -1,7 +1,17 @@
 /** The panel's twin in HTML: the same controls for keyboards and screen readers. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { brightness, complete, difference, openStage, openViewers, pictureOf, shownBy, valueOf } from './support.mjs';
+import {
+  brightness,
+  complete,
+  difference,
+  eventOf,
+  openStage,
+  openViewers,
+  pictureOf,
+  shownBy,
+  valueOf,
+} from './support.mjs';
 
 const kShine = 'objects.relief.material.specularity';
 const kLevel = 'lights.0.intensity';
@@ -48,6 +58,26 @@ test('every control of the panel has a labelled twin with a reset, in the order 
   const drawn = await page.evaluate(() => Object.keys(document.querySelector('lucent-viewer').stats().panel));
   const paths = twins.map(({ path }) => path);
   assert.ok(drawn.length > 0 && drawn.every((path) => paths.includes(path)), `drawn ${drawn}`);
+  await page.leave();
+});
+
+test('what is not drawn is listed beside the controls, and only where there is something', async () => {
+  const page = await open();
+  const notice = page.locator('lucent-viewer .undrawn');
+  assert.equal(await notice.isVisible(), false);
+  await eventOf(page, 'load', () =>
+    page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/bead.json')),
+  );
+  const { notDrawn } = await page.evaluate(() => document.querySelector('lucent-viewer').stats());
+  assert.ok(notDrawn.length > 0);
+  assert.equal(await notice.locator('summary').textContent(), `Not drawn (${notDrawn.length})`);
+  assert.equal(await notice.locator('li').first().isVisible(), false);
+  await notice.locator('summary').press('Enter');
+  assert.ok(await notice.locator('li').first().isVisible());
+  assert.deepEqual(await notice.locator('li').allTextContents(), notDrawn);
+  await page.evaluate(() => document.querySelector('lucent-viewer').removeAttribute('controls'));
+  assert.equal(await notice.isVisible(), false);
+  assert.deepEqual(page.problems, []);
   await page.leave();
 });
 
