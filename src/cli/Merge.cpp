@@ -38,9 +38,8 @@ Command addMerge(CLI::App& program) {
     parser->add_option("PARTS", options->parts, "Files of lucent truth --tile, in any order")->required();
     options->output.addTo(*parser);
     parser->footer(
-        "The picture is, bit by bit, the one that lucent truth makes in one piece; one by light rays is\n"
-        "the mean of its parts, weighted by their numbers of rays. Parts of other pictures, parts given\n"
-        "twice and missing parts are refused.\n\n"
+        "The picture is, bit by bit, the one that lucent truth makes in one piece. Parts of other\n"
+        "pictures, parts given twice and missing parts are refused.\n\n"
         "Example:\n"
         "  lucent merge coin-*.tile -o truth.pfm");
     return {parser, [options] { return merge(*options); }};

@@ -281,13 +281,12 @@ Command addTruth(CLI::App& program) {
                                    ->check(CLI::Range(1, 1 << 20))
                                    ->capture_default_str();
     parser
-        ->add_option("--seed", options->seed,
-                     "Other points and directions; threads and tiles of rows change nothing")
+        ->add_option("--seed", options->seed, "Other points and directions; threads and tiles change nothing")
         ->type_name("NUMBER")
         ->capture_default_str();
     parser
         ->add_option("--tile", options->tile,
-                     "Solves part I of N (every N-th row or light ray) for lucent merge; -o takes any name")
+                     "Solves part I of N (every N-th row and light ray) for lucent merge; -o takes any name")
         ->type_name("I/N");
     parser->add_option("--threads", options->threads, "0: as many as the machine has")
         ->check(CLI::Range(0, 1024))

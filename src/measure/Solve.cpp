@@ -20,7 +20,10 @@ Result<truth::Picture> solveWhatIsShown(const scene::Scene& scene, int direction
     case TruthModel::Light: {
         constexpr std::int64_t kRaysOfAPixel = 800; // 0.7 % of noise in cells of 5 x 5 that all of them meet
         const std::int64_t pixels = std::int64_t(scene.size.x) * scene.size.y;
-        return truth::traceLight(scene, scene.size, {.photons = kRaysOfAPixel * pixels}, part, work, never);
+        return truth::traceLight(
+            scene, scene.size,
+            {.photons = part.photons(kRaysOfAPixel * pixels), .seed = std::uint64_t(part.index)}, {}, work,
+            never);
     }
     case TruthModel::Dipole:
         return solveSubsurface(scene, part, threads);

@@ -134,10 +134,12 @@ Result<truth::Picture> solvePhysics(const scene::Scene& scene, const truth::Tile
                                     std::int64_t walksOfAPixel, std::optional<int> scatterings) {
     const std::int64_t pixels = std::int64_t(scene.size.x) * scene.size.y;
     const std::atomic<bool> never{false};
-    Result<truth::Picture> picture = truth::traceWalks(
-        scene, scene.size,
-        {.aov = scene.view.show, .photons = walksOfAPixel * pixels, .scatterings = scatterings}, rows,
-        {.threads = threads}, never);
+    Result<truth::Picture> picture = truth::traceWalks(scene, scene.size,
+                                                       {.aov = scene.view.show,
+                                                        .photons = rows.photons(walksOfAPixel * pixels),
+                                                        .seed = std::uint64_t(rows.index),
+                                                        .scatterings = scatterings},
+                                                       {}, {.threads = threads}, never);
     const std::optional<LitBall> ball = litBallOf(scene);
     if (picture && ball)
         if (Status averaged = averageAround(*picture, scene, *ball); !averaged) return averaged.error();

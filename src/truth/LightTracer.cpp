@@ -196,20 +196,19 @@ Result<Picture> traceLight(const scene::Scene& scene, ivec2 size, const LightOpt
     const Illumination illumination(scene, *optics);
     const Eye eye(scene.camera, size);
 
-    // Every part has samples of its own: seeds of the command line have 32 bits.
-    const std::uint64_t seed = options.seed + (std::uint64_t(part.index) << 32);
     std::unique_ptr<Estimator> straight;
     if (color) {
         auto glass = GlassEstimator::create(scene, size, options.aov,
                                             {.branching = options.branching,
                                              .samples = options.samples,
                                              .antialias = options.antialias,
-                                             .seed = seed,
+                                             .seed = options.seed,
                                              .attenuation = options.attenuation});
         if (!glass) return glass.error();
         straight = std::make_unique<GlassEstimator>(std::move(*glass));
     } else {
-        straight = std::make_unique<DirectLight>(*optics, illumination, eye, size, options.samples, seed);
+        straight =
+            std::make_unique<DirectLight>(*optics, illumination, eye, size, options.samples, options.seed);
     }
     // Straight light is a tenth of the bar: it takes less than the rays.
     constexpr double kStraightShare = 0.1;
@@ -217,22 +216,20 @@ Result<Picture> traceLight(const scene::Scene& scene, ivec2 size, const LightOpt
         return Work{work.threads,
                     [&work, from, to](double share) { work.progress(glm::mix(from, to, share)); }};
     };
-    Result<Picture> picture = render(*straight, size, {}, stretch(0, kStraightShare), cancel);
+    Result<Picture> picture = render(*straight, size, part, stretch(0, kStraightShare), cancel);
     if (!picture) return picture.error();
 
-    const std::int64_t photons = part.photons(options.photons);
     std::optional<SeenPlaces> indirectly;
     if (color) indirectly.emplace(*optics, eye, size, mediaAtEye(*optics, scene.camera));
     const Tracer tracer(*optics, illumination, eye, size, options, indirectly ? &*indirectly : nullptr);
     const auto trace = [&](std::int64_t number, Brought& brought) { tracer.trace(number, brought); };
-    const Brought brought = tracer.hasWork()
-                                ? followAll(trace, size, part, photons, stretch(kStraightShare, 1), cancel)
-                                : Brought(size);
+    Rays rays = tracer.hasWork()
+                    ? followAll(trace, size, part, options.photons, stretch(kStraightShare, 1), cancel)
+                    : Rays(std::size_t(size.x) * std::size_t(size.y));
     if (cancel) return Error{"truth: stopped before the picture was complete", Fault::Machine};
-    addTo(*picture, brought, tracer.worthOfAWatt(), double(photons));
-    picture->energy.emplace().add(brought.energy, 1 / double(photons));
+    rays.worth = tracer.worthOfAWatt();
     work.progress(1);
-    return picture;
+    return withRays(std::move(*picture), std::move(rays), part, options.photons);
 }
 
 } // namespace lucent::truth

@@ -43,9 +43,9 @@ struct LightOptions {
 /// A surface is lit on the side that the camera sees. The standard error is that of independent rays, so
 /// neighbouring pixels are independent too. A place that none of n rays met may still be lit: there the error
 /// is what it receives with a probability of 95 % at most, 3 / n times what the strongest ray would bring
-/// (the rule of three: (1 - 3 / n)^n = 0.05); merged parts keep theirs, which is more than that.
+/// (the rule of three: (1 - 3 / n)^n = 0.05).
 ///
-/// @param part    every part is a whole picture by its own rays; merge() takes their weighted mean
+/// @param part    of several parts each has straight light in its rows, and Picture::rays for merge()
 /// @param cancel  set from elsewhere to stop
 /// @return        the picture and its flux (Picture::energy); Error for another AOV, when cancelled, or when
 ///                Embree cannot hold the scene

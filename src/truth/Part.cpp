@@ -6,6 +6,7 @@
 #include "scene/Json.h"
 #include "scene/Load.h"
 #include "scene/Mesh.h"
+#include "truth/Photons.h"
 
 #include <algorithm>
 #include <bit>
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 namespace lucent::truth {
@@ -63,19 +65,10 @@ void writeFacts(JsonWriter& json, const Facts& facts) {
     json.key("exposure").value(facts.exposure);
 }
 
-/// The entries of a book by their names in files.
-struct Entry {
-    const char* name;
-    dvec3 EnergyBook::*value;
-};
-constexpr Entry kEntries[] = {{"met", &EnergyBook::met},           {"received", &EnergyBook::received},
-                              {"absorbed", &EnergyBook::absorbed}, {"reflected", &EnergyBook::reflected},
-                              {"escaped", &EnergyBook::escaped},   {"lost", &EnergyBook::lost}};
-
 /// Red, green and blue of each entry: "met": { "red": 1, ... }.
 void writeEnergy(JsonWriter& json, const EnergyBook& energy) {
     json.key("energy").beginObject();
-    for (const Entry& entry : kEntries) {
+    for (const EnergyBook::Entry& entry : EnergyBook::kEntries) {
         const dvec3& flux = energy.*entry.value;
         json.key(entry.name).beginObject();
         json.key("red").value(flux.r).key("green").value(flux.g).key("blue").value(flux.b);
@@ -137,7 +130,7 @@ Facts readFacts(Reader& reader) {
 EnergyBook readEnergy(Reader& reader) {
     EnergyBook energy;
     Reader book = reader.object("energy");
-    for (const Entry& entry : kEntries) {
+    for (const EnergyBook::Entry& entry : EnergyBook::kEntries) {
         Reader flux = book.object(entry.name);
         energy.*entry.value = {flux.number("red"), flux.number("green"), flux.number("blue")};
         book.require(flux);
@@ -191,30 +184,20 @@ Picture mergeRows(std::span<const Part* const> parts) {
     return picture;
 }
 
-/// Independent means of different numbers of rays.
-Picture mergeRays(std::span<const Part* const> parts) {
-    Picture picture(parts.front()->facts.size);
-    std::vector<double> values(picture.values.pixels.size()), variances(picture.errors.pixels.size());
-    picture.energy.emplace();
-    for (const Part* part : parts) {
-        const std::int64_t photons = part->facts.photons;
-        const double share = double(part->tile.photons(photons)) / double(photons);
-        for (std::size_t i = 0; i < values.size(); ++i)
-            values[i] += share * double(part->rows.values.pixels[i]);
-        for (std::size_t i = 0; i < variances.size(); ++i) {
-            const double error = share * double(part->rows.errors.pixels[i]);
-            variances[i] += error * error;
-        }
-        picture.energy->add(*part->rows.energy, share);
-    }
-    std::copy(values.begin(), values.end(), picture.values.pixels.begin());
-    std::transform(variances.begin(), variances.end(), picture.errors.pixels.begin(),
-                   [](double variance) { return float(std::sqrt(variance)); });
-    return picture;
-}
-
 void append(Bytes& bytes, std::span<const std::byte> more) {
     bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+/// What a part holds behind its header, as it lies in memory.
+std::vector<std::span<std::byte>> blocksOf(Picture& rows) {
+    std::vector<std::span<std::byte>> blocks{std::as_writable_bytes(std::span(rows.values.pixels)),
+                                             std::as_writable_bytes(std::span(rows.errors.pixels))};
+    if (Rays* rays = rows.rays.get())
+        blocks.insert(blocks.end(), {std::as_writable_bytes(std::span(rays->pixels)),
+                                     std::as_writable_bytes(std::span(rays->energy)),
+                                     std::as_writable_bytes(std::span(&rays->strongest, 1)),
+                                     std::as_writable_bytes(std::span(rays->worth))});
+    return blocks;
 }
 } // namespace
 
@@ -242,9 +225,8 @@ std::string sidecar(const Facts& facts, const Picture& picture) {
     return json.text();
 }
 
-// "lucent part LENGTH CHECKSUM", the checksum of all that follows; LENGTH bytes of JSON; the pixels as they
-// lie in memory.
-Bytes encodePart(const Part& part) {
+// "lucent part LENGTH CHECKSUM", the checksum of all that follows; LENGTH bytes of JSON; the blocks.
+Bytes encodePart(Part part) {
     JsonWriter json;
     json.beginObject();
     writeFacts(json, part.facts);
@@ -254,8 +236,8 @@ Bytes encodePart(const Part& part) {
     const std::string header = json.text();
     Bytes content;
     append(content, std::as_bytes(std::span(header)));
-    append(content, std::as_bytes(std::span(part.rows.values.pixels)));
-    append(content, std::as_bytes(std::span(part.rows.errors.pixels)));
+    for (const std::span<std::byte> block : blocksOf(part.rows))
+        append(content, block);
     Hash checksum;
     checksum.add(content);
     const std::string line =
@@ -285,15 +267,24 @@ Result<Part> decodePart(std::span<const std::byte> bytes, const std::string& nam
     const double most = part.facts.photons > 0 ? double(part.facts.photons) : part.facts.size.y;
     part.tile.count = int(reader.whole("parts", 1, std::min(most, 0x1p31 - 1)));
     part.tile.index = int(reader.whole("part", 1, part.tile.count)) - 1;
+    const bool byRays = part.facts.photons > 0 && part.tile.count > 1;
     std::optional<EnergyBook> energy;
-    if (part.facts.photons > 0) energy = readEnergy(reader);
+    if (part.facts.photons > 0 && !byRays) energy = readEnergy(reader);
     if (!reader.complete()) return damaged;
     if (Status size = checkImageSize(part.facts.size.x, part.facts.size.y, 4, name); !size)
         return size.error();
 
-    const int rows = part.facts.rowsOf(part.tile);
-    const std::size_t pixels = std::size_t(part.facts.size.x) * std::size_t(rows);
-    const std::size_t needed = line + 1 + length + 7 * sizeof(float) * pixels;
+    part.rows = Picture({part.facts.size.x, part.tile.rows(part.facts.size.y)});
+    part.rows.energy = energy;
+    if (byRays) {
+        const std::size_t pixels = std::size_t(part.facts.size.x) * std::size_t(part.facts.size.y);
+        part.rows.rays = std::make_shared<Rays>(pixels);
+        part.rows.rays->worth.resize(pixels);
+    }
+    const std::vector<std::span<std::byte>> blocks = blocksOf(part.rows);
+    const std::size_t needed =
+        std::accumulate(blocks.begin(), blocks.end(), line + 1 + length,
+                        [](std::size_t sum, const auto& block) { return sum + block.size(); });
     if (bytes.size() != needed)
         return Error{name + ": has " + std::to_string(bytes.size()) + " bytes; must have " +
                      std::to_string(needed)};
@@ -304,12 +295,11 @@ Result<Part> decodePart(std::span<const std::byte> bytes, const std::string& nam
         return Error{
             name +
             ": has another checksum than its first line says; must be as lucent truth --tile wrote it"};
-    part.rows = Picture({part.facts.size.x, rows});
-    part.rows.energy = energy;
     const std::byte* data = bytes.data() + line + 1 + length;
-    std::memcpy(part.rows.values.pixels.data(), data, 4 * sizeof(float) * pixels);
-    std::memcpy(part.rows.errors.pixels.data(), data + 4 * sizeof(float) * pixels,
-                3 * sizeof(float) * pixels);
+    for (const std::span<std::byte> block : blocks) {
+        std::copy_n(data, block.size(), block.data());
+        data += block.size();
+    }
     return part;
 }
 
@@ -333,7 +323,15 @@ Result<Picture> merge(std::span<const Part> parts, std::span<const std::string> 
         return Error{names[0] + ": is " + partNumber(first.tile.index, count) +
                      " and these are missing: " + missing + "; must be given all " + std::to_string(count)};
 
-    return first.facts.photons > 0 ? mergeRays(ordered) : mergeRows(ordered);
+    Picture picture = mergeRows(ordered);
+    picture.energy = first.rows.energy;
+    if (!first.rows.rays) return picture;
+    Rays rays(first.rows.rays->pixels.size());
+    rays.worth = first.rows.rays->worth;
+    for (const Part* part : ordered)
+        rays.add(*part->rows.rays);
+    addRays(picture, rays, first.facts.photons);
+    return picture;
 }
 
 } // namespace lucent::truth

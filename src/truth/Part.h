@@ -1,6 +1,6 @@
 #pragma once
 /// Parts of a truth as files that know what they belong to, and putting them together again. A part holds
-/// some of the picture's rows, or, of pictures by light rays, the whole picture by some of its rays.
+/// some of the picture's rows and, of pictures by light rays, what some of the rays bring to the whole.
 
 #include "base/File.h"
 #include "base/Math.h"
@@ -29,9 +29,6 @@ struct Facts {
     std::int64_t photons = 0; ///< light rays of the whole picture; 0: the picture is made pixel by pixel
     bool antialias = false;   ///< samples lie all over each pixel
     float exposure = 0;       ///< ev, for a picture as it is displayed
-
-    /// Rows of the picture that a part holds.
-    int rowsOf(const Tile& part) const { return photons > 0 ? size.y : part.rows(size.y); }
 };
 
 /// 16 hexadecimal digits that change when a parameter or a texel of the scene does.
@@ -48,13 +45,12 @@ struct Part {
     Picture rows;
 };
 
-Bytes encodePart(const Part& part);
+Bytes encodePart(Part part);
 
 /// Error "NAME: what was found; what was expected" when the bytes are no part, or not a whole one.
 Result<Part> decodePart(std::span<const std::byte> bytes, const std::string& name);
 
-/// Puts all parts of one picture together, in any order. By rows: equal, bit by bit, to the picture made in
-/// one piece. By light rays: their mean weighted by numbers of rays, errors and fluxes along with it.
+/// Puts all parts of one picture together, in any order: equal, bit by bit, to the picture made in one piece.
 ///
 /// @param names  of the parts, for messages
 /// @return       Error that names the part which belongs elsewhere or is given twice, or those that are

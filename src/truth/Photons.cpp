@@ -2,103 +2,108 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <mutex>
 #include <thread>
 
 namespace lucent::truth {
 
 namespace {
-/// Rays are worked off in this many rows, each added up in order and then to the others in order, whatever
-/// the number of threads: sums of floating point numbers depend on their order.
-constexpr int kLanes = 16;
-
-/// The lanes' sum. Keeps those that are early until their turn, so that few pictures lie about at a time.
-class Sum {
-public:
-    explicit Sum(ivec2 size) : total_(size) {}
-    void add(int lane, Brought brought) {
-        const std::lock_guard lock(mutex_);
-        early_.emplace(lane, std::move(brought));
-        for (; !early_.empty() && early_.begin()->first == next_; ++next_) {
-            total_.add(early_.begin()->second);
-            early_.erase(early_.begin());
-        }
-    }
-    Brought take() { return std::move(total_); }
-
-private:
-    std::mutex mutex_;
-    std::map<int, Brought> early_;
-    int next_ = 0;
-    Brought total_;
-};
-
-struct Job {
-    const FollowRay& follow;
-    ivec2 size;
-    Tile part;
-    std::int64_t photons; ///< of the part
-    const std::atomic<bool>& cancel;
-    std::atomic<std::int64_t> done = 0;
-    std::atomic<int> nextLane = 0;
-};
-
-Brought followLane(Job& job, int lane, const std::function<void()>& now) {
-    constexpr std::int64_t kChunk = 4096;
-    Brought brought(job.size);
-    for (std::int64_t from = lane * kChunk; from < job.photons && !job.cancel; from += kLanes * kChunk) {
-        const std::int64_t to = std::min(from + kChunk, job.photons);
-        for (std::int64_t i = from; i < to; ++i)
-            job.follow(job.part.index + i * job.part.count, brought);
-        job.done += to - from;
-        now();
-    }
-    return brought;
+void addColor(Rays::Color& sum, const dvec3& color) {
+    for (int channel = 0; channel < 3; ++channel)
+        sum[std::size_t(channel)].add(color[channel]);
+}
+void addColor(Rays::Color& sum, const Rays::Color& other) {
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        sum[channel].add(other[channel]);
 }
 } // namespace
 
-void Brought::add(const Brought& other) {
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        sums[i] += other.sums[i];
-        squares[i] += other.squares[i];
+void Rays::add(std::span<const std::pair<std::size_t, dvec3>> samples) {
+    for (const auto& [pixel, value] : samples) {
+        addColor(pixels[pixel].sum, value);
+        addColor(pixels[pixel].squares, value * value);
     }
-    strongest = glm::max(strongest, other.strongest);
-    energy.add(other.energy, 1);
 }
 
-Brought followAll(const FollowRay& follow, ivec2 size, const Tile& part, std::int64_t photons,
-                  const Work& work, const std::atomic<bool>& cancel) {
-    Sum sum(size);
-    Job job{follow, size, part, photons, cancel};
-    const auto takeLanes = [&](const std::function<void()>& now) {
-        for (int lane; (lane = job.nextLane++) < kLanes;)
-            sum.add(lane, followLane(job, lane, now));
+void Rays::add(const EnergyBook& book) {
+    for (std::size_t i = 0; i < energy.size(); ++i)
+        addColor(energy[i], book.*EnergyBook::kEntries[i].value);
+}
+
+void Rays::add(const Rays& other) {
+    for (std::size_t i = 0; i < other.pixels.size(); ++i) {
+        addColor(pixels[i].sum, other.pixels[i].sum);
+        addColor(pixels[i].squares, other.pixels[i].squares);
+    }
+    for (std::size_t i = 0; i < energy.size(); ++i)
+        addColor(energy[i], other.energy[i]);
+    strongest = glm::max(strongest, other.strongest);
+}
+
+Rays followAll(const FollowRay& follow, ivec2 size, const Tile& part, std::int64_t all, const Work& work,
+               const std::atomic<bool>& cancel) {
+    constexpr std::int64_t kChunk = 4096;
+    const std::int64_t photons = part.photons(all);
+    Rays rays(std::size_t(size.x) * std::size_t(size.y));
+    std::mutex mutex;
+    std::atomic<std::int64_t> next = 0, done = 0;
+    const auto followChunks = [&](const std::function<void()>& now) {
+        Rays own; // but for the pixels
+        Brought brought;
+        for (std::int64_t from; (from = next.fetch_add(kChunk)) < photons && !cancel; now()) {
+            const std::int64_t to = std::min(from + kChunk, photons);
+            for (std::int64_t i = from; i < to; ++i) {
+                follow(part.index + i * part.count, brought);
+                own.add(std::exchange(brought.energy, {}));
+            }
+            const std::lock_guard lock(mutex);
+            rays.add(brought.samples);
+            brought.samples.clear();
+            done += to - from;
+        }
+        own.strongest = brought.strongest;
+        const std::lock_guard lock(mutex);
+        rays.add(own);
     };
     const int threads =
         work.threads > 0 ? work.threads : int(std::max(1u, std::thread::hardware_concurrency()));
     std::vector<std::thread> others; // the calling thread is one of them
-    for (int i = 1; i < std::min(threads, kLanes); ++i)
-        others.emplace_back([&] { takeLanes([] {}); });
-    takeLanes([&] { work.progress(double(job.done) / double(photons)); });
+    for (int i = 1; i < threads; ++i)
+        others.emplace_back([&] { followChunks([] {}); });
+    followChunks([&] { work.progress(double(done) / double(photons)); });
     for (std::thread& other : others)
         other.join();
-    return sum.take();
+    return rays;
 }
 
-void addTo(Picture& picture, const Brought& brought, const std::vector<dvec3>& worth, double photons) {
-    for (std::size_t i = 0; i < brought.sums.size(); ++i)
+void addRays(Picture& picture, const Rays& rays, std::int64_t count) {
+    const auto photons = double(count);
+    for (std::size_t i = 0; i < rays.pixels.size(); ++i)
         for (int channel = 0; channel < 3; ++channel) {
-            const double mean = brought.sums[i][channel] / photons;
-            const double bound = 3 / photons * brought.strongest[channel] * worth[i][channel];
-            const double spread = brought.squares[i][channel] == 0
-                                      ? bound * bound
-                                      : std::max(0.0, brought.squares[i][channel] / photons - mean * mean) /
-                                            std::max(1.0, photons - 1);
-            picture.values.pixels[4 * i + std::size_t(channel)] += float(mean);
-            float& error = picture.errors.pixels[3 * i + std::size_t(channel)];
+            const auto c = std::size_t(channel);
+            const double mean = rays.pixels[i].sum[c].value() / photons;
+            const double squares = rays.pixels[i].squares[c].value();
+            const double bound = 3 / photons * rays.strongest[channel] * rays.worth[i][channel];
+            const double spread =
+                squares == 0 ? bound * bound
+                             : std::max(0.0, squares / photons - mean * mean) / std::max(1.0, photons - 1);
+            picture.values.pixels[4 * i + c] += float(mean);
+            float& error = picture.errors.pixels[3 * i + c];
             error = float(std::sqrt(double(error) * double(error) + spread));
         }
+    EnergyBook& energy = picture.energy.emplace();
+    for (std::size_t i = 0; i < rays.energy.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            (energy.*EnergyBook::kEntries[i].value)[channel] =
+                rays.energy[i][std::size_t(channel)].value() / photons;
+}
+
+Picture withRays(Picture rows, Rays rays, const Tile& part, std::int64_t photons) {
+    if (part.count == 1)
+        addRays(rows, rays, photons);
+    else
+        rows.rays = std::make_shared<Rays>(std::move(rays));
+    return rows;
 }
 
 } // namespace lucent::truth

@@ -17,15 +17,6 @@ void write(const Pixel& pixel, Picture& picture, ivec2 at) {
 }
 } // namespace
 
-void EnergyBook::add(const EnergyBook& other, double share) {
-    met += share * other.met;
-    received += share * other.received;
-    absorbed += share * other.absorbed;
-    reflected += share * other.reflected;
-    escaped += share * other.escaped;
-    lost += share * other.lost;
-}
-
 double Picture::standardError() const {
     double squares = 0;
     for (const float error : errors.pixels)

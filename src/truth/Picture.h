@@ -5,9 +5,11 @@
 #include "base/Math.h"
 #include "base/Result.h"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 
 namespace lucent::truth {
@@ -28,8 +30,8 @@ public:
     virtual Pixel solve(ivec2 pixel) const = 0;
 };
 
-/// A part of a picture: every `count`-th row, or every `count`-th light ray, from number `index` on.
-/// Neighbouring rows cost about the same, so all parts take about as long.
+/// A part of a picture: every `count`-th row, and every `count`-th light ray where there are such, from
+/// number `index` on. Neighbouring rows cost about the same, so all parts take about as long.
 struct Tile {
     int index = 0; ///< [0, count)
     int count = 1;
@@ -48,15 +50,28 @@ struct EnergyBook {
     dvec3 escaped{0};   ///< left the scene
     dvec3 lost{0};      ///< given up inside
 
-    /// Adds a share of another book.
-    void add(const EnergyBook& other, double share);
+    /// An entry and its name in files.
+    struct Entry {
+        const char* name;
+        dvec3 EnergyBook::*value;
+    };
+    static const std::array<Entry, 6> kEntries;
 };
+inline constexpr std::array<EnergyBook::Entry, 6> EnergyBook::kEntries{{{"met", &EnergyBook::met},
+                                                                        {"received", &EnergyBook::received},
+                                                                        {"absorbed", &EnergyBook::absorbed},
+                                                                        {"reflected", &EnergyBook::reflected},
+                                                                        {"escaped", &EnergyBook::escaped},
+                                                                        {"lost", &EnergyBook::lost}}};
+
+struct Rays;
 
 /// A picture, or the rows of one tile.
 struct Picture {
     Image values;                     ///< 4 channels: linear light and coverage
     Image errors;                     ///< 3 channels: the standard error of each value
     std::optional<EnergyBook> energy; ///< of pictures by light rays
+    std::shared_ptr<Rays> rays;       ///< of tiles of such pictures: what is to be added to all rows
 
     Picture() = default;
     explicit Picture(ivec2 size) : values(size.x, size.y, 4), errors(size.x, size.y, 3) {}

@@ -272,9 +272,8 @@ Result<Picture> traceWalks(const scene::Scene& scene, ivec2 size, const WalkOpti
     const Result<Bodies> bodies = Bodies::create(scene);
     if (!bodies) return bodies.error();
     if (Status s = checkNoSlab(scene, *bodies); !s) return s.error();
-    // Every part has samples of its own: seeds of the command line have 32 bits.
-    const std::uint64_t seed = options.seed + (std::uint64_t(part.index) << 32);
-    const auto surroundings = Surroundings::create(scene, *bodies, size, options.aov, options.samples, seed);
+    const auto surroundings =
+        Surroundings::create(scene, *bodies, size, options.aov, options.samples, options.seed);
     if (!surroundings) return surroundings.error();
     // The bar is the rays' but for its beginning.
     constexpr double kSurroundingShare = 0.1;
@@ -282,22 +281,20 @@ Result<Picture> traceWalks(const scene::Scene& scene, ivec2 size, const WalkOpti
         return Work{work.threads,
                     [&work, from, to](double share) { work.progress(glm::mix(from, to, share)); }};
     };
-    Result<Picture> picture = render(*surroundings, size, {}, stretch(0, kSurroundingShare), cancel);
+    Result<Picture> picture = render(*surroundings, size, part, stretch(0, kSurroundingShare), cancel);
     if (!picture) return picture.error();
 
     const Illumination illumination(scene, bodies->optics());
     const Eye eye(scene.camera, size);
     const Walker walker(*bodies, illumination, eye, size, options);
-    const std::int64_t photons = part.photons(options.photons);
     const auto follow = [&](std::int64_t number, Brought& brought) { walker.follow(number, brought); };
-    const Brought brought =
-        walker.hasWork() ? followAll(follow, size, part, photons, stretch(kSurroundingShare, 1), cancel)
-                         : Brought(size);
+    Rays rays = walker.hasWork()
+                    ? followAll(follow, size, part, options.photons, stretch(kSurroundingShare, 1), cancel)
+                    : Rays(std::size_t(size.x) * std::size_t(size.y));
     if (cancel) return Error{"truth: stopped before the picture was complete", Fault::Machine};
-    addTo(*picture, brought, walker.worthOfAWatt(), double(photons));
-    picture->energy.emplace().add(brought.energy, 1 / double(photons));
+    rays.worth = walker.worthOfAWatt();
     work.progress(1);
-    return picture;
+    return withRays(std::move(*picture), std::move(rays), part, options.photons);
 }
 
 } // namespace lucent::truth

@@ -47,7 +47,7 @@ struct WalkOptions {
 /// escaped out of them again, received by what is matt
 /// of them, lost given up.
 ///
-/// @param part    every part is a whole picture by its own rays; merge() takes their weighted mean
+/// @param part    of several parts each has what is not scattered in its rows, and Picture::rays for merge()
 /// @param cancel  set from elsewhere to stop
 /// @return        Error for another AOV, when nothing scatters, for material.thickness above 0, when
 ///                cancelled, or when Embree cannot hold the scene

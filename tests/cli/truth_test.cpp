@@ -190,9 +190,7 @@ TEST_F(Truth, WhatScattersInsideIsSolvedByDipoleOrWalk) {
             expectDone(std::string("truth marble.json -o ") + tile + ".tile --tile " + tile +
                        "/2 --estimator " + estimator);
         expectDone("merge 1.tile 2.tile -o merged.pfm");
-        if (estimator.starts_with("dipole")) {
-            EXPECT_EQ(text("merged.pfm"), whole);
-        }
+        EXPECT_EQ(text("merged.pfm"), whole);
     }
     EXPECT_EQ(fact("photons"), "2000");
     expectRefusal(

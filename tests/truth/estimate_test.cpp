@@ -1,10 +1,14 @@
 #include "truth/Estimate.h"
+#include "truth/Exact.h"
 #include "truth/Random.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
+#include <vector>
 
 namespace lucent::truth {
 namespace {
@@ -70,6 +74,48 @@ TEST(Estimate, TwoHalvesMakeTheWhole) {
         EXPECT_NEAR(first.mean()[channel], whole.mean()[channel], 1e-12);
         EXPECT_NEAR(first.variance()[channel], whole.variance()[channel], 1e-9);
     }
+}
+
+TEST(Exact, AnyOrderAndAnyPartsOfTermsHaveOneSum) {
+    // Signs and powers of two mixed: as doubles their sum depends on the order in every digit.
+    std::vector<double> terms;
+    Random random(1, 2, 3);
+    for (int i = 0; i < 4000; ++i)
+        terms.push_back(std::ldexp(random.next() - 0.5, int(160 * random.next()) - 80));
+    const auto sumOf = [](std::span<const double> list) {
+        Exact sum;
+        for (const double term : list)
+            sum.add(term);
+        return sum;
+    };
+    const double forward = sumOf(terms).value();
+    Exact parts = sumOf(std::span(terms).first(1234));
+    parts.add(sumOf(std::span(terms).subspan(1234)));
+    EXPECT_EQ(parts.value(), forward);
+    std::reverse(terms.begin(), terms.end());
+    EXPECT_EQ(sumOf(terms).value(), forward);
+    // What cancels leaves the rest, whole.
+    for (const double term : std::vector(terms))
+        terms.push_back(-term);
+    terms.push_back(0x1.23456789abcdep-60);
+    EXPECT_EQ(sumOf(terms).value(), 0x1.23456789abcdep-60);
+}
+
+TEST(Exact, CarriesAndBorrowsReachAllWords) {
+    for (const int place : {-100, -64, -1, 0, 1, 63, 64, 100}) {
+        Exact sum;
+        sum.add(std::ldexp(1.0, place));
+        sum.add(-std::ldexp(1.0, -128)); // all words below are ones now
+        sum.add(std::ldexp(1.0, -128));
+        EXPECT_EQ(sum.value(), std::ldexp(1.0, place));
+        sum.add(-std::ldexp(3.0, place));
+        EXPECT_EQ(sum.value(), -std::ldexp(2.0, place));
+    }
+    Exact fine;
+    fine.add(std::ldexp(1.5, -128)); // its half is finer than the sum
+    EXPECT_EQ(fine.value(), std::ldexp(1.0, -128));
+    fine.add(1e-300);
+    EXPECT_EQ(fine.value(), std::ldexp(1.0, -128));
 }
 
 } // namespace
