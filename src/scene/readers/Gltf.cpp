@@ -14,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace lucent::scene {
 namespace {
@@ -315,8 +316,12 @@ private:
                 const auto positions = primitive.attributes.find("POSITION");
                 if (positions == primitive.attributes.end()) continue;
                 const std::size_t count = countOf(positions->second);
-                vertices += count;
-                corners += primitive.indices < 0 ? count : countOf(primitive.indices);
+                const std::size_t around = primitive.indices < 0 ? count : countOf(primitive.indices);
+                // With flat normals every corner of a triangle may be a vertex.
+                const bool flat = !primitive.attributes.contains("NORMAL");
+                const bool strip = primitive.mode > TINYGLTF_MODE_TRIANGLES; // or fan
+                vertices += flat ? std::max(count, (strip ? 3 : 1) * around) : count;
+                corners += around;
                 if (vertices <= kMostVertices && corners <= kMostCorners) continue;
                 return fail("has more than " + std::to_string(kMostVertices) + " vertices or " +
                             std::to_string(kMostCorners) +
@@ -375,9 +380,13 @@ private:
             if (attribute.starts_with("COLOR_")) unread_.insert("colours of vertices");
         Mesh piece;
         if (!(readPositions(primitive, piece) && readTriangles(primitive, mode, piece) &&
-              readNormals(primitive, piece) && readTargets(primitive, piece) &&
-              readJoints(primitive, index, piece)))
+              readTargets(primitive, piece) && readJoints(primitive, index, piece)))
             return false;
+        if (primitive.attributes.contains("NORMAL")) {
+            if (!readNormals(primitive, piece)) return false;
+        } else {
+            makeFlat(piece);
+        }
         const mat4& first = rest_[piece.joints.empty() ? 0 : piece.joints.front()[0]];
         if (glm::determinant(first) < 0) // a mirror turns counter-clockwise round
             for (std::size_t i = 0; i + 2 < piece.indices.size(); i += 3)
@@ -423,13 +432,11 @@ private:
         return true;
     }
 
-    // The file's normals; those of the triangles around where it has none, or one without a direction.
+    // The file's normals; those of the triangles around where one has no direction.
     bool readNormals(const tinygltf::Primitive& primitive, Mesh& piece) {
         piece.normals = areaWeightedNormals(piece.positions, piece.indices);
-        const auto attribute = primitive.attributes.find("NORMAL");
-        if (attribute == primitive.attributes.end()) return true;
         const Result<std::vector<double>> numbers =
-            readNumbers(model_, attribute->second, TINYGLTF_TYPE_VEC3, "normals", name_);
+            readNumbers(model_, primitive.attributes.at("NORMAL"), TINYGLTF_TYPE_VEC3, "normals", name_);
         if (!pass(numbers)) return false;
         const std::vector<vec3> normals = toVectors(*numbers);
         if (normals.size() != piece.positions.size())
@@ -442,9 +449,54 @@ private:
         return true;
     }
 
-    // Displacements of a file; normals that it leaves open follow from the displaced triangles.
+    // Flat normals, which a file without any asks for (glTF 2.0, 3.7.2.1), in every morph target too. Corners
+    // at one vertex of the file share one of ours where their normals are the same, to the bit.
+    static void makeFlat(Mesh& piece) {
+        constexpr std::uint32_t kNone = ~std::uint32_t(0);
+        std::vector<std::uint32_t> last(piece.positions.size(), kNone); // of ours at one of the file
+        std::vector<std::uint32_t> before, from;
+        std::vector<vec3> normals;
+        for (std::size_t i = 0; i + 2 < piece.indices.size(); i += 3) {
+            const auto p = [&](std::size_t c) { return dvec3(piece.positions[piece.indices[i + c]]); };
+            const dvec3 across = glm::cross(p(1) - p(0), p(2) - p(0));
+            const vec3 normal = across == dvec3(0) ? vec3(0, 1, 0) : vec3(glm::normalize(across));
+            for (std::size_t c = 0; c < 3; ++c) {
+                std::uint32_t& corner = piece.indices[i + c];
+                std::uint32_t found = piece.rig.targets.empty() ? last[corner] : kNone;
+                while (found != kNone && normals[found] != normal)
+                    found = before[found];
+                if (found == kNone) {
+                    found = std::uint32_t(from.size());
+                    from.push_back(corner);
+                    normals.push_back(normal);
+                    before.push_back(std::exchange(last[corner], found));
+                }
+                corner = found;
+            }
+        }
+        const auto take = [&from](auto& list) {
+            std::decay_t<decltype(list)> taken;
+            for (const std::uint32_t vertex : from)
+                taken.push_back(list[vertex]);
+            list = std::move(taken);
+        };
+        take(piece.positions);
+        take(piece.joints);
+        take(piece.jointWeights);
+        piece.normals = std::move(normals);
+        for (MorphTarget& target : piece.rig.targets) {
+            take(target.positions);
+            std::vector<vec3> moved = piece.positions;
+            for (std::size_t i = 0; i < moved.size(); ++i)
+                moved[i] += target.positions[i];
+            target.normals = areaWeightedNormals(moved, piece.indices);
+            for (std::size_t i = 0; i < moved.size(); ++i)
+                target.normals[i] -= piece.normals[i];
+        }
+    }
+
+    // Displacements of a file.
     bool readTargets(const tinygltf::Primitive& primitive, Mesh& piece) {
-        const bool ownNormals = primitive.attributes.contains("NORMAL");
         const std::size_t count = piece.positions.size();
         const auto read = [&](const std::map<std::string, int>& target, const char* attribute,
                               std::vector<vec3>& to) {
@@ -466,13 +518,6 @@ private:
             MorphTarget& target = piece.rig.targets.emplace_back();
             if (!read(from, "POSITION", target.positions) || !read(from, "NORMAL", target.normals))
                 return false;
-            if (ownNormals) continue;
-            std::vector<vec3> moved = piece.positions;
-            for (std::size_t i = 0; i < count; ++i)
-                moved[i] += target.positions[i];
-            target.normals = areaWeightedNormals(moved, piece.indices);
-            for (std::size_t i = 0; i < count; ++i)
-                target.normals[i] -= piece.normals[i];
         }
         return true;
     }

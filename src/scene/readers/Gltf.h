@@ -8,8 +8,8 @@ namespace lucent::scene {
 
 bool isGltf(const std::string& name, std::span<const std::byte> bytes);
 
-/// Every triangle of the default scene (of all nodes when there is none) with its normals and materials, and
-/// how it moves.
+/// Every triangle of the default scene (of all nodes when there is none) with its normals, flat ones where the
+/// file has none, its materials, and how it moves.
 ///
 /// - Lists, strips and fans; all index widths; sparse and quantised numbers.
 /// - Where the first animation moves something, every vertex keeps its joints, be it those of a skin or the
