@@ -52,6 +52,7 @@ WaterRaysBlock LightPasses::waterBlock(const Tint& tint, ivec2 rays) const {
                          .tint = vec4(tint.color, 0),
                          .cells = scene::waterCells(water),
                          .grid = rays,
+                         .cell = water.size / vec2(scene::waterCells(water)),
                          .faceCount = int(light_.water->over.faces.size()),
                          .channel = tint.channel,
                          .area = size.x * size.y};
@@ -69,14 +70,12 @@ Status LightPasses::beginOnWater(const Tint& tint, ivec2 rays, TextureId shadow,
         pass.reason(book ? "where their light stays" : "rays of one point of a light from the water on");
         const views::PosedMesh& mesh = in_.glass.front();
         pass.sample(mesh.positions);
-        pass.sample(mesh.normals);
         if (shadow) pass.sample(shadow);
         for (const TextureId target : targets)
             pass.write(target);
-        return [=, program = beginning, block = waterBlock(tint, rays), positions = mesh.positions,
-                normals = mesh.normals](const graph::Resources& resources, graph::Commands& commands) {
-            std::vector<graph::Binding> textures{{"uPositions", resources[positions]},
-                                                 {"uNormals", resources[normals]}};
+        return [=, program = beginning, block = waterBlock(tint, rays),
+                positions = mesh.positions](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uPositions", resources[positions]}};
             if (shadow) textures.push_back({"uShadow", resources[shadow]});
             commands.draw({.program = program, .block = block, .textures = std::move(textures)});
         };
