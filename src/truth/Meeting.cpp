@@ -41,6 +41,17 @@ Box boxOf(const Ripple& ripple) {
     return box;
 }
 
+Box boxOf(const Waves& waves) {
+    Box box;
+    const auto [low, high] = waves.basin->range();
+    const dvec2 half = waves.basin->half();
+    for (const double y : {low, high})
+        for (const double z : {-half.y, half.y})
+            for (const double x : {-half.x, half.x})
+                box.add(waves.placement.pointInWorld({x, y, z}));
+    return box;
+}
+
 /// The nearest hit of a sphere within a stretch. Half the chord is a product, not a difference of squares:
 /// rays that graze keep their digits.
 std::optional<Meeting> meet(const Sphere& sphere, const WorldRay& ray, Stretch stretch) {
@@ -69,28 +80,44 @@ std::optional<Meeting> meet(const Torus& torus, const WorldRay& ray, Stretch str
     return {};
 }
 
+/// Where a ray's height above a sheet changes its sign. Newton's steps that leave the bracket become
+/// bisections.
+double rootBetween(double low, double high, const auto& cut) {
+    const bool rising = cut.above(low) < 0;
+    double at = 0.5 * (low + high);
+    for (int step = 0; step < 200 && low < at && at < high; ++step) {
+        const double value = cut.above(at);
+        if (value == 0) break;
+        ((value < 0) == rising ? low : high) = at;
+        const double next = at - value / cut.slope(at);
+        at = low < next && next < high ? next : 0.5 * (low + high);
+    }
+    return at;
+}
+
 /// The first place of a stretch at which a ray meets a ripple. Along the ray its height over the sheet is a
 /// line less a sine: between two of the places where that turns there is one root or none.
 class RippleCut {
 public:
     RippleCut(const Ripple& ripple, const dvec3& origin, const dvec3& direction)
         : amplitude_(ripple.amplitude), altitude_(origin.y), climb_(direction.y),
-          angle_(glm::dot(ripple.wave, dvec2(origin.x, origin.z)) - ripple.phase),
+          angle_(glm::dot(ripple.wave, dvec2(origin.x, origin.z))),
           turning_(glm::dot(ripple.wave, dvec2(direction.x, direction.z))) {}
 
     std::optional<double> first(Stretch stretch) const {
         for (double from = stretch.from; from < stretch.to;) {
             const double to = std::min(nextTurn(from), stretch.to);
-            if ((above(from) < 0) != (above(to) < 0)) return between(from, to);
+            if ((above(from) < 0) != (above(to) < 0)) return rootBetween(from, to, *this);
             from = to;
         }
         return {};
     }
 
-private:
-    double angle(double at) const { return angle_ + at * turning_; }
     double above(double at) const { return altitude_ + at * climb_ - amplitude_ * std::sin(angle(at)); }
     double slope(double at) const { return climb_ - amplitude_ * turning_ * std::cos(angle(at)); }
+
+private:
+    double angle(double at) const { return angle_ + at * turning_; }
 
     /// The nearest place past `at` where the height over the sheet turns: cos(angle) = climb / (A turning).
     double nextTurn(double at) const {
@@ -106,39 +133,106 @@ private:
             }
         return nearest;
     }
-    /// Newton's steps that leave the bracket become bisections.
-    double between(double low, double high) const {
-        const bool rising = above(low) < 0;
-        double at = 0.5 * (low + high);
-        for (int step = 0; step < 200 && low < at && at < high; ++step) {
-            const double value = above(at);
-            if (value == 0) break;
-            ((value < 0) == rising ? low : high) = at;
-            const double next = at - value / slope(at);
-            at = low < next && next < high ? next : 0.5 * (low + high);
-        }
-        return at;
-    }
     double amplitude_, altitude_, climb_, angle_, turning_;
 };
 
+/// The same for the cubic spline of a basin: in every cell of the grid that the ray passes at the heights of
+/// its surface, the ray is cut into short pieces, of which one shows where the sign changes.
+class BasinCut {
+public:
+    BasinCut(const Basin& basin, const dvec3& origin, const dvec3& direction)
+        : basin_(basin), origin_(origin), direction_(direction), start_(basin.inCells({origin.x, origin.z})),
+          way_(dvec2(direction.x, direction.z) / basin.cell()) {}
+
+    std::optional<double> first(Stretch stretch) const {
+        bool below = above(stretch.from) < 0;
+        for (double from = stretch.from; from < stretch.to;) {
+            const double to = std::min(nextLine(from), stretch.to);
+            const int pieces = passes(from, to) ? kPieces : 1;
+            for (int i = 0; i < pieces; ++i) {
+                const double low = glm::mix(from, to, double(i) / pieces),
+                             high = i + 1 == pieces ? to : glm::mix(from, to, double(i + 1) / pieces);
+                if ((above(high) < 0) != below) return rootBetween(low, high, *this);
+            }
+            from = to;
+        }
+        return {};
+    }
+    double above(double at) const { return height(at) - basin_.at(place(at)).height; }
+    double slope(double at) const {
+        return direction_.y - glm::dot(basin_.at(place(at)).slope, dvec2(direction_.x, direction_.z));
+    }
+
+private:
+    static constexpr int kPieces = 16;
+    double height(double at) const { return origin_.y + at * direction_.y; }
+    dvec2 place(double at) const {
+        return dvec2(origin_.x, origin_.z) + at * dvec2(direction_.x, direction_.z);
+    }
+    /// Where the ray crosses the next line of the grid past `at`.
+    double nextLine(double at) const {
+        double nearest = kInfinity;
+        for (int axis = 0; axis < 2; ++axis) {
+            if (way_[axis] == 0) continue;
+            const double side = way_[axis] > 0 ? 1 : -1;
+            double line = std::floor(side * (start_[axis] + at * way_[axis]));
+            double crossing;
+            do
+                crossing = (side * ++line - start_[axis]) / way_[axis];
+            while (crossing <= at); // what rounding has put before it
+            nearest = std::min(nearest, crossing);
+        }
+        return nearest;
+    }
+    bool passes(double from, double to) const {
+        const auto [low, high] = basin_.range(ivec2(glm::floor(start_ + 0.5 * (from + to) * way_)));
+        return std::max(height(from), height(to)) >= low && std::min(height(from), height(to)) <= high;
+    }
+    const Basin& basin_;
+    dvec3 origin_, direction_;
+    dvec2 start_, way_; ///< in cells
+};
+
+/// A ray in the space of a sheet, from the place that is nearest to the sheet's middle: a whole line has no
+/// other beginning.
+struct SheetRay {
+    double scale, foot;
+    dvec3 origin, direction;
+    SheetRay(const Placement& placement, const WorldRay& world)
+        : scale(placement.scale), direction(placement.directionFromWorld(world.direction)) {
+        const dvec3 start = placement.pointFromWorld(world.origin);
+        foot = -glm::dot(start, direction);
+        origin = start + foot * direction;
+    }
+    /// Of the world's stretch, what lies over the sheet's rectangle between two heights.
+    Stretch over(Stretch stretch, const dvec2& half, double low, double high) const {
+        const double room = 1e-9 * (half.x + half.y);
+        const WorldRay local{origin, direction, stretch.to / scale - foot, stretch.from / scale - foot};
+        return within({{-half.x, low - room, -half.y}, {half.x, high + room, half.y}}, local);
+    }
+    dvec2 below(double at) const { return {origin.x + at * direction.x, origin.z + at * direction.z}; }
+    Meeting meeting(const Placement& placement, double at, const dvec2& slope) const {
+        const dvec3 normal = glm::normalize(dvec3(-slope.x, 1, -slope.y));
+        return {(at + foot) * scale, placement.directionInWorld(normal)};
+    }
+};
+
 std::optional<Meeting> meet(const Ripple& ripple, const WorldRay& world, Stretch stretch) {
-    const double scale = ripple.placement.scale;
-    // From the place that is nearest to the sheet's middle: a whole line has no other beginning.
-    const dvec3 direction = ripple.placement.directionFromWorld(world.direction);
-    const dvec3 start = ripple.placement.pointFromWorld(world.origin);
-    const double foot = -glm::dot(start, direction);
-    const WorldRay local{start + foot * direction, direction, stretch.to / scale - foot,
-                         stretch.from / scale - foot};
-    const double room = ripple.amplitude + 1e-9 * (ripple.half.x + ripple.half.y);
-    const Box box{{-ripple.half.x, -room, -ripple.half.y}, {ripple.half.x, room, ripple.half.y}};
-    const auto at = RippleCut(ripple, local.origin, direction).first(within(box, local));
+    const SheetRay ray(ripple.placement, world);
+    const auto at = RippleCut(ripple, ray.origin, ray.direction)
+                        .first(ray.over(stretch, ripple.half, -ripple.amplitude, ripple.amplitude));
     if (!at) return {};
-    const dvec3 place = local.origin + *at * direction;
-    const dvec2 slope = ripple.amplitude * ripple.wave *
-                        std::cos(glm::dot(ripple.wave, dvec2(place.x, place.z)) - ripple.phase);
-    const dvec3 normal = glm::normalize(dvec3(-slope.x, 1, -slope.y));
-    return Meeting((*at + foot) * scale, ripple.placement.directionInWorld(normal));
+    const dvec2 slope = ripple.amplitude * ripple.wave * std::cos(glm::dot(ripple.wave, ray.below(*at)));
+    return ray.meeting(ripple.placement, *at, slope);
+}
+
+std::optional<Meeting> meet(const Waves& waves, const WorldRay& world, Stretch stretch) {
+    const SheetRay ray(waves.placement, world);
+    const auto [low, high] = waves.basin->range();
+    const auto at = BasinCut(*waves.basin, ray.origin, ray.direction)
+                        .first(ray.over(stretch, waves.basin->half(), low, high));
+    if (!at) return {};
+    return ray.meeting(waves.placement, *at, waves.basin->at(ray.below(*at)).slope);
 }
 
 /// A ray in a field's object space, and a stretch of it there.

@@ -1,6 +1,7 @@
 #include "truth/Optics.h"
 
 #include "scene/Mesh.h"
+#include "scene/Water.h"
 #include "truth/Torus.h"
 
 #include <algorithm>
@@ -99,16 +100,15 @@ Triangles moved(const scene::MeshShape& shape, double time) {
     return triangles;
 }
 
-Ripple rippleOf(const scene::Water& water, const Placement& placement, double time) {
+/// What it begins as is known everywhere, and where nothing stirs it stays so.
+Shape waterOf(const scene::Water& water, const Placement& placement, double time) {
+    const bool stirred = water.amplitude > 0 || water.dropInterval > 0;
+    if (time > 0 && stirred) return Waves{placement, std::make_shared<Basin>(water, time)};
     const dvec2 along = glm::normalize(dvec2(water.direction));
-    const double k = kTwoPi / double(water.wavelength), damping = double(water.damping);
-    const double fastest = double(water.speed) * k;
-    const double frequency = std::sqrt(std::max(0.0, fastest * fastest - damping * damping / 4));
-    return {.placement = placement,
-            .half = 0.5 * dvec2(water.size),
-            .wave = k * along,
-            .amplitude = double(water.amplitude) * std::exp(-damping * time / 2),
-            .phase = frequency * time};
+    return Ripple{.placement = placement,
+                  .half = 0.5 * dvec2(water.size),
+                  .wave = kTwoPi / double(water.wavelength) * along,
+                  .amplitude = double(water.amplitude)};
 }
 
 bool isFlat(const scene::Object& object) {
@@ -161,7 +161,12 @@ bool contains(const Ripple& ripple, const dvec3& place) {
     const dvec3 local = ripple.placement.pointFromWorld(place);
     const dvec2 at(local.x, local.z);
     return std::abs(at.x) < ripple.half.x && std::abs(at.y) < ripple.half.y &&
-           local.y < ripple.amplitude * std::sin(glm::dot(ripple.wave, at) - ripple.phase);
+           local.y < ripple.amplitude * std::sin(glm::dot(ripple.wave, at));
+}
+bool contains(const Waves& waves, const dvec3& place) {
+    const dvec3 local = waves.placement.pointFromWorld(place);
+    const dvec2 at(local.x, local.z);
+    return glm::all(glm::lessThan(glm::abs(at), waves.basin->half())) && local.y < waves.basin->at(at).height;
 }
 bool contains(const Triangles& triangles, const dvec3& place) {
     double sum = 0;
@@ -195,8 +200,7 @@ double iorOf(const scene::Material& material, int channel) {
 Shape surfaceOf(const scene::Object& object, double time) {
     const Placement placement(object.transform);
     const bool waved = object.wave.amplitude != vec3(0);
-    if (const auto* water = std::get_if<scene::Water>(&object.shape))
-        return rippleOf(*water, placement, time);
+    if (const auto* water = std::get_if<scene::Water>(&object.shape)) return waterOf(*water, placement, time);
     if (const auto* sphere = std::get_if<scene::Sphere>(&object.shape); sphere && !waved)
         return Sphere{placement.translate, double(sphere->radius) * placement.scale};
     if (const auto* torus = std::get_if<scene::Torus>(&object.shape); torus && !waved)
@@ -212,6 +216,10 @@ Result<Optics> Optics::create(const scene::Scene& scene) {
     std::vector<Shape> shapes;
     std::vector<bool> hidden;
     for (const scene::Object& object : scene.objects) {
+        const auto* water = std::get_if<scene::Water>(&object.shape);
+        if (const double work = water ? Basin::work(*water, double(scene.view.time)) : 0;
+            work > scene::kMostWaterWork)
+            return scene::waterTooFarAhead(object.name, scene.view.time, work);
         hidden.push_back(!object.visible);
         if (object.isField())
             shapes.push_back(

@@ -28,15 +28,13 @@ private:
 
 /// The objects of a scene in world space; an object's number is that of its shape.
 ///
-/// Spheres and tori are exact, water is its travelling wave as a formula, height fields are exact blocks, all
-/// else is triangles. Meshes are morphed, skinned (glTF 2.0, 3.7.3) and waved here in double precision,
-/// normals by the inverse transpose of each motion's derivative; what a wave bends are the vertices of
-/// scene::meshOf(), flat sides in kWavedCells squares along each edge.
+/// Spheres and tori are exact, water is the formula of its sine as it begins and a Basin afterwards, height
+/// fields are exact blocks, all else is triangles. Meshes are morphed, skinned (glTF 2.0, 3.7.3) and waved
+/// here in double precision, normals by the inverse transpose of each motion's derivative; what a wave bends
+/// are the vertices of scene::meshOf(), flat sides in kWavedCells squares along each edge.
 ///
-/// Water is the solution of h_tt + damping h_t = speed² (h_xx + h_zz) on an endless surface that begins as
-/// amplitude sin(k x) and travels: amplitude e^(-damping t / 2) sin(k x - w t), k = 2 pi / wavelength,
-/// w² = (speed k)² - damping² / 4 (nothing travels where that is negative). The rectangle's edge sends
-/// nothing back, and drops are no part of it.
+/// Water begins as the travelling sine a e^(-damping t / 2) sin(k x - w t) at t = 0, a its amplitude, k = 2
+/// pi / wavelength, w² = (speed k)² - damping² / 4 (nothing travels where that is negative).
 class Optics {
 public:
     static constexpr int kWavedCells = 128;

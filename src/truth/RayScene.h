@@ -3,12 +3,13 @@
 ///
 /// Embree (3.13) finds the candidates where there is one, a tree of boxes elsewhere. Embree's numbers are
 /// floats. Every hit is therefore solved again in double precision: height fields by their exact cut, spheres
-/// and tori in closed form, waves between the places where they turn, triangles by their plane. Rays start
-/// where they enter the scene's box, so that a distant eye or lamp costs no digits, and Embree's begin a
-/// little earlier, so that it misses no layer close by.
+/// and tori in closed form, ripples between the places where they turn, water cell by cell of its grid,
+/// triangles by their plane. Rays start where they enter the scene's box, so that a distant eye or lamp costs
+/// no digits, and Embree's begin a little earlier, so that it misses no layer close by.
 
 #include "base/Math.h"
 #include "base/Result.h"
+#include "truth/Basin.h"
 #include "truth/Field.h"
 #include "truth/Sight.h"
 
@@ -48,17 +49,22 @@ struct Triangles {
     std::vector<std::uint32_t> indices;
 };
 
-/// A sheet over a rectangle of its placement's xz plane with the height amplitude sin(wave . (x, z) - phase).
+/// A sheet over a rectangle of its placement's xz plane with the height amplitude sin(wave . (x, z)).
 struct Ripple {
     Placement placement;
     dvec2 half{0.5};      ///< m, of the rectangle along x and z
     dvec2 wave{0};        ///< radians per metre along x and z
     double amplitude = 0; ///< m
-    double phase = 0;     ///< radians
+};
+
+/// A sheet over its placement's xz plane with the heights of a basin of water.
+struct Waves {
+    Placement placement;
+    std::shared_ptr<const Basin> basin;
 };
 
 /// A shape's number is its place in the list that the scene was made of.
-using Shape = std::variant<Triangles, FieldBlock, Sphere, Torus, Ripple>;
+using Shape = std::variant<Triangles, FieldBlock, Sphere, Torus, Ripple, Waves>;
 
 /// A ray in world space.
 struct WorldRay {

@@ -1,6 +1,5 @@
 #include "views/Water.h"
 
-#include "base/Text.h"
 #include "shaders/views/Blocks.h"
 
 #include <algorithm>
@@ -15,16 +14,6 @@ namespace {
 
 vec2 cellOf(const scene::Water& water) { return water.size / vec2(waterCells(water)); }
 
-// Steps a second: waves of the shortest length that the grid holds must turn by less than half a turn a step.
-// The nine points of shaders/views/water_step.frag bend them by at most speed^2 times the larger of these.
-int stepsPerSecond(const scene::Water& water) {
-    const dvec2 perCell = 1.0 / (dvec2(cellOf(water)) * dvec2(cellOf(water)));
-    const double most = std::max(8.0 / 3 * (perCell.x + perCell.y), 4 * std::max(perCell.x, perCell.y));
-    constexpr double kSafety = 1.05; // damping and rounding take none of it
-    const double needed = kSafety * double(water.speed) * std::sqrt(most) / 2;
-    return WaterSheet::kStepsPerSecond * std::max(1, int(std::ceil(needed / WaterSheet::kStepsPerSecond)));
-}
-
 // (wave vector, amplitude, angular frequency) as Optics.h has them; too much damping lets nothing travel.
 vec4 sineOf(const scene::Water& water) {
     const float k = 2 * kPi / water.wavelength;
@@ -33,20 +22,10 @@ vec4 sineOf(const scene::Water& water) {
     return {k * glm::normalize(water.direction), water.amplitude, frequency};
 }
 
-// Of the drops that fall by themselves; chosen by eye.
-float rainRadius(const scene::Water& water) { return 0.04f * std::min(water.size.x, water.size.y); }
-float rainDepth(const scene::Water& water) { return 0.3f * rainRadius(water); }
-
-// The n-th of a sequence of places that fill a rectangle evenly (Roberts 2018: the plastic number's powers).
-WaterDrop rain(const scene::Water& water, double n) {
-    const dvec2 turns = n * dvec2(0.7548776662466927, 0.5698402909980532);
-    return {water.size * vec2(turns - glm::floor(turns) - 0.5), rainRadius(water), rainDepth(water)};
-}
-
 } // namespace
 
 float waterReach(const scene::Water& water) {
-    return 4 * water.amplitude + (water.dropInterval > 0 ? 2 * rainDepth(water) : 0);
+    return 4 * water.amplitude + (water.dropInterval > 0 ? 2 * scene::fallingDrop(water, 1).depth : 0);
 }
 
 Result<std::unique_ptr<WaterSheet>> WaterSheet::create(gl::Context& context, const scene::Water& water) {
@@ -65,7 +44,8 @@ Result<std::unique_ptr<WaterSheet>> WaterSheet::create(gl::Context& context, con
 }
 
 WaterSheet::WaterSheet(gl::Context& context, const scene::Water& water)
-    : context_(context), water_(water), cells_(waterCells(water)), seconds_(1.0 / stepsPerSecond(water)) {
+    : context_(context), water_(water), cells_(waterCells(water)),
+      seconds_(1.0 / scene::waterStepsPerSecond(water)) {
     const graph::TextureDesc desc{.size = cells_ + 1, .format = Format::RG32F};
     now_ = graph::Texture(context.device(), desc, "views.water");
     next_ = graph::Texture(context.device(), desc, "views.waterNext");
@@ -119,7 +99,7 @@ void WaterSheet::step() {
             return std::floor(double(steps) * seconds_ / double(water_.dropInterval));
         };
         const double fallen = fallenAfter(done_);
-        if (fallen > fallenAfter(done_ - 1)) draw(*drop_, rain(water_, fallen));
+        if (fallen > fallenAfter(done_ - 1)) draw(*drop_, scene::fallingDrop(water_, fallen));
     }
     for (const Fallen& one : fallen_)
         if (one.step == done_) draw(*drop_, one.drop);
@@ -178,10 +158,8 @@ Result<bool> Waters::advance(const scene::Scene& scene) {
             }
             sheet = std::move(*made);
         }
-        if (const double work = sheet->workUntil(scene.view.time); work > kMostWork)
-            return Error{"view.time: is " + shortest(scene.view.time) + ", to which the waves of objects." +
-                         scene.objects[std::size_t(i)].name + " take " + shortest(work) +
-                         " steps of cells; must take at most " + shortest(kMostWork)};
+        if (const double work = sheet->workUntil(scene.view.time); work > scene::kMostWaterWork)
+            return scene::waterTooFarAhead(scene.objects[std::size_t(i)].name, scene.view.time, work);
         there &= sheet->advance(scene.view.time, kStepsAtOnce);
     }
     return there;

@@ -3,7 +3,7 @@
 
 #include "gl/Context.h"
 #include "scene/Mesh.h"
-#include "scene/Scene.h"
+#include "scene/Water.h"
 #include "views/Pose.h"
 
 #include <cstdint>
@@ -17,21 +17,13 @@ namespace lucent::views {
 /// as high. Drops of the pointer are no part of it.
 float waterReach(const scene::Water& water);
 
-/// Hollows the surface by `depth` in the middle; a rim around holds what was there, so that the mean stays.
-struct WaterDrop {
-    vec2 place{0};       ///< along x and z from the middle, m
-    float radius = 0.1f; ///< m, > 0; below two cells of the grid the hollow is two cells wide
-    float depth = 0.05f; ///< m
-};
+using scene::WaterDrop;
 
 /// One sheet of water. Its state at a time follows from the scene and the drops alone, to the bit: steps have
-/// equal lengths, at least kStepsPerSecond each second and as many as keep the scheme stable. Borders are
-/// walls that mirror waves. With Water::dropInterval a drop falls after each interval, at most one a step, at
-/// places that look random.
+/// equal lengths (scene::waterStepsPerSecond). Borders are walls that mirror waves. With Water::dropInterval
+/// a drop falls after each interval, at most one a step (scene::fallingDrop).
 class WaterSheet {
 public:
-    static constexpr int kStepsPerSecond = 120;
-
     /// Error (Fault::Machine) when the grid is larger than this GPU's textures.
     static Result<std::unique_ptr<WaterSheet>> create(gl::Context& context, const scene::Water& water);
 
@@ -83,17 +75,13 @@ public:
     /// 1/120 s.
     static constexpr int kStepsAtOnce = 240;
 
-    /// Steps times cells that may lie between what a sheet shows and the time that is asked for: half a
-    /// minute for llvmpipe, an hour and a half of the time of 128 x 128 cells. Time that runs goes on without
-    /// end.
-    static constexpr double kMostWork = 1e10;
-
     explicit Waters(gl::Context& context) : context_(context) {}
 
     /// Brings every sheet nearer to scene.view.time. A sheet whose shape has changed begins anew.
     ///
-    /// Error where the time lies too far ahead. @return whether all of them are there; if not, what is drawn
-    /// shows an earlier time, and another call goes
+    /// Error where the time lies more than scene::kMostWaterWork ahead of what a sheet shows; time that runs
+    /// goes on without end. @return whether all of them are there; if not, what is drawn shows an earlier
+    /// time, and another call goes
     ///         on
     Result<bool> advance(const scene::Scene& scene);
     /// A drop falls into an object, which advance() has met as water, at the time that it shows.

@@ -127,6 +127,22 @@ TEST_F(Caustics, RaysThatBeginOnWaterAgreeWithRaysThroughItsLayers) {
     }
 }
 
+TEST_F(Caustics, WaterThatMovesBetweenWallsAndUnderDropsAgreesWithTruth) {
+    // After 1.2 s the sine has met the walls of a narrow basin all over, and one drop has fallen.
+    const scene::Water water{
+        .size = {0.5f, 0.5f}, .amplitude = 0.006f, .wavelength = 0.25f, .dropInterval = 1};
+    scene::Scene scene = floorUnder(glass(water, 1.33f, {0, 0.4f, 0}), 0.6f);
+    scene.view.time = 1.2f;
+    const Shown shown = show(scene, {60, 60}, {.grid = 256});
+    const Image truth = truthOf(scene, {60, 60}, 1000000);
+    EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.01);
+    EXPECT_LT(misplaced(shown.light, truth), 0.02);
+    // What it began as, travelling on without walls, is another picture.
+    scene.view.time = 0;
+    EXPECT_GT(misplaced(lightOf(scene, {60, 60}, {.grid = 256}), truth), 0.05);
+    expectClosed(shown.energy);
+}
+
 TEST_F(Caustics, FlatWaterLightsTheFloorEvenlyUpToTheEdgeOfThePicture) {
     // Of what enters, e^(-absorption * depth) is left.
     scene::Scene scene = floorUnder(glass(scene::Water{.size = {3, 3}}, 1.33f, {0, 0.5f, 0}), 1);
