@@ -80,7 +80,7 @@ export class LucentViewer extends HTMLElement {
   #controls = []; // descriptors with values
   #revision = -1;
   #properties = []; // names that the scene's parameters have here
-  #settled = []; // resolve functions that wait for the complete picture
+  #settled = []; // resolve functions that wait for the finished picture
   #complete = false; // the picture shown is
   #capturing = false; // the picture is drawn without the panel and for nobody to see
   #timers = {};
@@ -356,9 +356,10 @@ export class LucentViewer extends HTMLElement {
   }
 
   /**
-   * Milliseconds, passes, draws, lights, bytes, complete, frames, modes that the scene has something for, where the
-   * panel's controls lie, and notDrawn: lines that say what the scene asks for, the picture lacks, and why; while the
-   * caustic map is shown, energy: W of each colour that met glass and mirrors, and what became of them.
+   * Milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its pixels), frames,
+   * modes that the scene has something for, where the panel's controls lie, and notDrawn: lines that say what the scene
+   * asks for, the picture lacks, and why; while the caustic map is shown, energy: W of each colour that met glass and
+   * mirrors, and what became of them.
    */
   stats() {
     return JSON.parse(this.#ask('viewer_stats') || '{}');
@@ -394,7 +395,7 @@ export class LucentViewer extends HTMLElement {
     this.#capturing = true;
     this.#apply('viewer_panel', 0);
     this.#apply('viewer_message', '');
-    await this.#whenComplete();
+    await this.#whenFinished();
     const copy = document.createElement('canvas');
     copy.width = this.#canvas.width;
     copy.height = this.#canvas.height;
@@ -433,7 +434,7 @@ export class LucentViewer extends HTMLElement {
     const { more, drawn } = this.#runtime.draw(this.#handle, width, height, seconds);
     this.#sync();
     this.#takePicture(drawn);
-    return more && (this.#seen || !this.#complete); // nothing plays where nobody sees it
+    return more && (this.#seen || !this.#complete || this.#capturing); // nothing plays where nobody sees it
   }
   contextLost() {
     this.#poster.hidden = false;
@@ -669,19 +670,19 @@ export class LucentViewer extends HTMLElement {
   // ---- drawing ----
 
   #takePicture(drawn) {
-    const { complete } = this.stats();
+    const { complete, finished } = this.stats();
     if (drawn && (complete || !this.#capturing)) this.#runtime.show(this.#display);
     this.#complete = complete;
     if (complete) {
       this.#poster.hidden = true;
       this.#status.textContent = '';
       this.#sayNumbers();
-      this.#settled.splice(0).forEach((resolve) => resolve());
     }
+    if (finished) this.#settled.splice(0).forEach((resolve) => resolve());
     if (drawn) this.#emit('frame', { complete });
   }
 
-  #whenComplete() {
+  #whenFinished() {
     return new Promise((resolve) => {
       this.#settled.push(resolve);
       this.#request();

@@ -25,7 +25,7 @@ float depthAt(ivec2 pixel, int layer) {
 #ifndef NORMALS_STORED
 // A pixel's place along right, up and forward, in metres.
 vec3 placeAcross(ivec2 pixel, float depth) {
-    vec2 p = (vec2(pixel) + 0.5 - 0.5 * layers.view.size) *
+    vec2 p = (vec2(pixel) + 0.5 - layers.view.middle) *
              vec2(length(layers.view.right.xyz), length(layers.view.up.xyz));
     return vec3(p * (layers.view.eye.w > 0.5 ? depth : 1.0), depth);
 }

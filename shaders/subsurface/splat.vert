@@ -35,7 +35,7 @@ vec4 pixelsOf(vec3 place, float radius) {
         acrossX = tangentsOf(x, depth, radius);
         acrossY = tangentsOf(y, depth, radius);
     }
-    vec2 middle = 0.5 * splat.view.size;
+    vec2 middle = splat.view.middle;
     return vec4(acrossX.x / pixelX + middle.x, acrossY.x / pixelY + middle.y, acrossX.y / pixelX + middle.x,
                 acrossY.y / pixelY + middle.y);
 }

@@ -63,7 +63,7 @@ vec2 movement(View view, Ray ray) {
 
 // Where the ray leaves a rectangle of pixels that it is in.
 float exitOf(View view, Ray ray, vec2 moves, vec2 low, vec2 high) {
-    vec2 border = mix(low, high, step(0.0, moves)) - 0.5 * view.size;
+    vec2 border = mix(low, high, step(0.0, moves)) - view.middle;
     float depth0 = view.eye.w > 0.5 ? ray.from.z : 1.0;
     float depth1 = view.eye.w > 0.5 ? ray.along.z : 0.0;
     vec2 t = (border * depth0 - ray.from.xy) / (ray.along.xy - border * depth1);

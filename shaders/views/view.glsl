@@ -7,18 +7,19 @@ struct View {
     vec4 right;   // world way of one pixel: in metres, or of a perspective view a metre deep; w: near depth
     vec4 up;
     vec2 size;    // pixels
+    vec2 middle;  // pixel coordinates that `forward` goes through
 };
 
 // From the eye to a place.
 vec3 placeFrom(View view, vec2 pixel, float depth) {
-    vec2 p = pixel - 0.5 * view.size;
+    vec2 p = pixel - view.middle;
     return (p.x * view.right.xyz + p.y * view.up.xyz) * (view.eye.w > 0.5 ? depth : 1.0) + depth * view.forward.xyz;
 }
 
 // The eye ray through a pixel, unit.
 vec3 eyeRay(View view, vec2 pixel) {
     if (view.eye.w < 0.5) return view.forward.xyz;
-    vec2 p = pixel - 0.5 * view.size;
+    vec2 p = pixel - view.middle;
     return normalize(p.x * view.right.xyz + p.y * view.up.xyz + view.forward.xyz);
 }
 
@@ -30,7 +31,7 @@ vec3 inView(View view, vec3 v) {
 }
 
 // Pixel coordinates of what inView() gave.
-vec2 pixelOf(View view, vec3 v) { return v.xy / (view.eye.w > 0.5 ? v.z : 1.0) + 0.5 * view.size; }
+vec2 pixelOf(View view, vec3 v) { return v.xy / (view.eye.w > 0.5 ? v.z : 1.0) + view.middle; }
 
 // Depth as a depth buffer holds it, evenly spaced.
 float bufferDepth(View view, float depth) {

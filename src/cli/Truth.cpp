@@ -31,7 +31,6 @@ struct TruthOptions {
     std::string tile;      ///< "I/N"; empty: the whole picture
     std::int64_t photons = truth::LightOptions{}.photons;
     const CLI::Option* photonsGiven = nullptr;
-    bool antialias = false;
     int samples = truth::ReliefOptions{}.discSamples;
     int directions = truth::ReliefOptions{}.environmentLights;
     const CLI::Option* directionsGiven = nullptr;
@@ -58,15 +57,11 @@ truth::Branching branchingOf(const TruthOptions& options) {
     return tree ? truth::Branching::Tree : truth::Branching::Chain;
 }
 
-/// The name of what a scene is solved by unless it is said. Of colours of height fields glass takes the mean
-/// over each pixel; relief knows its middle only.
-std::string chosenEstimator(const scene::Scene& scene, bool antialias) {
+/// The name of what a scene is solved by unless it is said.
+std::string chosenEstimator(const scene::Scene& scene) {
     constexpr std::string_view kNames[] = {truth::kReliefName, "glass", "light",
                                            "dipole"}; // as measure::TruthModel
-    const measure::TruthModel usual = measure::usualTruth(scene);
-    const bool spread =
-        antialias && scene.view.show == scene::Aov::Color && usual == measure::TruthModel::Relief;
-    return std::string(spread ? "glass" : kNames[std::size_t(usual)]);
+    return std::string(kNames[std::size_t(measure::usualTruth(scene))]);
 }
 
 /// Irradiance is of light alone, radiosity of what scatters inside; the estimators of height fields leave out
@@ -91,47 +86,60 @@ Status checkEstimator(const scene::Scene& scene, const TruthOptions& options) {
     return Done{};
 }
 
-Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scene,
-                                                        const TruthOptions& options) {
+/// @param size     of the picture whose pixels are solved; the scene's, or PixelMean::sizeOf() it
+/// @param samples  of each of them
+Result<std::unique_ptr<truth::Estimator>>
+makeEstimator(const scene::Scene& scene, const TruthOptions& options, ivec2 size, int samples) {
     const truth::Model drawn = technique::modelOf(scene);
-    if (isGlass(options)) {
-        auto glass = truth::GlassEstimator::create(scene, scene.size, scene.view.show,
-                                                   {.branching = branchingOf(options),
-                                                    .samples = options.samples,
-                                                    .antialias = options.antialias,
-                                                    .seed = options.seed,
-                                                    .attenuation = drawn.attenuation});
-        if (!glass) return glass.error();
-        return std::unique_ptr<truth::Estimator>(new truth::GlassEstimator(std::move(*glass)));
-    }
+    const auto own = [](auto estimator) -> Result<std::unique_ptr<truth::Estimator>> {
+        if (!estimator) return estimator.error();
+        using Made = std::decay_t<decltype(*estimator)>;
+        return std::unique_ptr<truth::Estimator>(new Made(std::move(*estimator)));
+    };
+    if (isGlass(options))
+        return own(truth::GlassEstimator::create(scene, size, scene.view.show,
+                                                 {.branching = branchingOf(options),
+                                                  .samples = samples,
+                                                  .seed = options.seed,
+                                                  .attenuation = drawn.attenuation}));
     if (options.estimator == "dipole") {
         truth::DipoleOptions model = drawn.dipole;
         model.aov = scene.view.show;
-        model.samples = options.samples;
+        model.samples = std::max(samples, truth::DipoleOptions::kFewest);
         model.seed = options.seed;
-        auto dipole = truth::DipoleEstimator::create(scene, scene.size, model);
-        if (!dipole) return dipole.error();
-        return std::unique_ptr<truth::Estimator>(new truth::DipoleEstimator(std::move(*dipole)));
+        return own(truth::DipoleEstimator::create(scene, size, model));
     }
-    if (options.estimator == "lambert") {
-        auto lambert = truth::LambertEstimator::create(
-            scene, scene.size, scene.view.show,
-            {.samples = options.samples, .normalise = drawn.normalise, .seed = options.seed});
-        if (!lambert) return lambert.error();
-        return std::unique_ptr<truth::Estimator>(new truth::LambertEstimator(std::move(*lambert)));
-    }
+    if (options.estimator == "lambert")
+        return own(truth::LambertEstimator::create(
+            scene, size, scene.view.show,
+            {.samples = samples, .normalise = drawn.normalise, .seed = options.seed}));
     if (Status known = truth::checkAov(scene.view.show); !known) return known.error();
-    const truth::ReliefOptions model{.attenuation = drawn.attenuation,
-                                     .environmentLights = options.directions,
-                                     .normalise = drawn.normalise,
-                                     .discSamples = options.samples,
-                                     .seed = options.seed};
-    return std::unique_ptr<truth::Estimator>(
-        new truth::ReliefEstimator(scene, scene.size, scene.view.show, model));
+    truth::ReliefOptions model{.attenuation = drawn.attenuation,
+                               .environmentLights = options.directions,
+                               .normalise = drawn.normalise,
+                               .discSamples = samples,
+                               .seed = options.seed};
+    if (drawn.overPixels) {
+        model.environmentLights = truth::PixelMean::samplesOf(options.directions);
+        model.environmentSets = truth::PixelMean::kPlaces; // each place of a pixel has others
+    }
+    return std::unique_ptr<truth::Estimator>(new truth::ReliefEstimator(scene, size, scene.view.show, model));
+}
+
+/// Of the middles of pixels, or of their means, as the scene is drawn.
+Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scene,
+                                                        const TruthOptions& options) {
+    if (!technique::modelOf(scene).overPixels)
+        return makeEstimator(scene, options, scene.size, options.samples);
+    auto places = makeEstimator(scene, options, truth::PixelMean::sizeOf(scene.size),
+                                truth::PixelMean::samplesOf(options.samples));
+    if (!places) return places;
+    return std::unique_ptr<truth::Estimator>(new truth::PixelMean(std::move(*places), options.seed));
 }
 
 Result<truth::Picture> solve(const scene::Scene& scene, const TruthOptions& options, const truth::Tile& tile,
                              const truth::Work& work) {
+    const truth::Model drawn = technique::modelOf(scene);
     if (isLight(options))
         return truth::traceLight(scene, scene.size,
                                  {.aov = scene.view.show,
@@ -139,14 +147,15 @@ Result<truth::Picture> solve(const scene::Scene& scene, const TruthOptions& opti
                                   .photons = options.photons,
                                   .samples = options.samples,
                                   .seed = options.seed,
-                                  .attenuation = technique::modelOf(scene).attenuation,
-                                  .antialias = options.antialias},
+                                  .attenuation = drawn.attenuation,
+                                  .overPixels = drawn.overPixels},
                                  tile, work, interrupted);
     if (options.estimator == "walk")
         return truth::traceWalks(scene, scene.size,
                                  {.aov = scene.view.show,
                                   .photons = options.photons,
                                   .samples = options.samples,
+                                  .overPixels = drawn.overPixels,
                                   .seed = options.seed},
                                  tile, work, interrupted);
     const auto estimator = makeEstimator(scene, options);
@@ -164,7 +173,7 @@ truth::Facts factsOf(const scene::Scene& scene, const TruthOptions& options) {
             .samples = options.samples,
             .directions = options.estimator == truth::kReliefName ? options.directions : 0,
             .photons = isByRays(options) ? options.photons : 0,
-            .antialias = options.antialias,
+            .antialias = technique::modelOf(scene).overPixels,
             .exposure = scene.view.exposure};
 }
 
@@ -195,9 +204,6 @@ Status checkOptions(const TruthOptions& options) {
     if (!isByRays(options) && options.photonsGiven->count() > 0)
         return Error{"--photons: is of light, light-tree and walk; must be --samples for " +
                      options.estimator};
-    if (!isGlass(options) && !isLight(options) && options.antialias)
-        return Error{"--antialias: is of glass, glass-tree, light and light-tree; must be left out for " +
-                     options.estimator};
     return Done{};
 }
 
@@ -214,7 +220,7 @@ Status makeTruth(TruthOptions options) {
     if (Status possible = checkOutput(options, *read); !possible) return possible;
     const Result<scene::Scene> scene = options.scene.load();
     if (!scene) return scene.error();
-    if (options.estimator.empty()) options.estimator = chosenEstimator(*scene, options.antialias);
+    if (options.estimator.empty()) options.estimator = chosenEstimator(*scene);
     if (Status possible = checkOptions(options); !possible) return possible;
     if (Status possible = checkEstimator(*scene, options); !possible) return possible;
     const Result<truth::Tile> tile = tileOf(*scene, options);
@@ -271,10 +277,6 @@ Command addTruth(CLI::App& program) {
         parser->add_option("--photons", options->photons, "Light rays of light, light-tree and walk")
             ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 40))
             ->capture_default_str();
-    parser->add_flag(
-        "--antialias", options->antialias,
-        "With glass, glass-tree, light and light-tree: colours as the mean over each pixel, not in its "
-        "middle");
     options->directionsGiven = parser
                                    ->add_option("--directions", options->directions,
                                                 "Directions that stand for the environment in relief")

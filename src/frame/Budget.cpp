@@ -2,6 +2,7 @@
 
 #include "base/Text.h"
 #include "frame/Renderer.h"
+#include "light/Samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -138,6 +139,7 @@ scene::Scene Budget::trialOf(const scene::Scene& scene) const {
     scene::Scene trial = scene;
     apply(trial);
     trial.quality.maxError = 0;
+    views::samplingOf(trial).pixelSamples = 1;
     return trial;
 }
 

@@ -80,7 +80,7 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
                                       graph::TextureId target, bool linear) {
     std::vector<std::string> defines;
     if (linear) defines.push_back("LINEAR");
-    if (composed) defines.push_back("COMPOSED");
+    if (composed || averaged) defines.push_back("COMPOSED");
     const gl::Program* program = context.program("frame/display", defines);
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
     DisplayBlock block = displayOf(scene, eye);
@@ -89,9 +89,8 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
         block.shift = vec4(0);
         block.isHeat = 0;
     }
-    const graph::TextureId surfaceId =
-        graph.import(shownSurface.handle(), shownSurface.desc(), shownSurface.label());
-    const graph::TextureId shownId = graph.import(picture().handle(), picture().desc(), picture().label());
+    const graph::TextureId surfaceId = import(graph, shownSurface);
+    const graph::TextureId shownId = import(graph, finished());
     graph.addPass("frame.display", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(linear ? "linear values for a file" : "exposure, clamp and sRGB curve for the display");
         pass.sample(surfaceId);

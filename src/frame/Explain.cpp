@@ -77,6 +77,9 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     s.composed = s.replaces(picture);
     if (!geometric)
         if (Status r = s.recordRest(graph, picture); !r) return r.error();
+    const graph::Texture mean(s.context.device(), {.size = size, .format = Format::RGBA32F}, "frame.mean");
+    if (s.pixelSamples(scene) > 1)
+        if (Status r = s.recordMean(graph, State::import(graph, mean)); !r) return r.error();
     if (Status r = s.recordDisplay(graph, scene, graph.import(graph::TextureHandle::Screen, screen, "screen"),
                                    false);
         !r)

@@ -28,8 +28,18 @@ Renderer::State::State(gl::Context& gl) : context(gl), pool(gl.device()), images
     choosers.push_back(&budget);
 }
 
+// Quantities of a place, such as normals and counts, are those of the pixel's middle.
+int Renderer::State::pixelSamples(const scene::Scene& scene) const {
+    return scene.view.show == scene::Aov::Color ? views::samplingOf(scene).pixelSamples : 1;
+}
+
+views::Eye Renderer::State::eyeOf(const scene::Scene& scene) const {
+    const vec2 offset = views::pixelOffset(sample, pixelSamples(scene));
+    return views::makeEye(scene, float(size.x) / float(size.y), 1e-3f, 2.0f * offset / vec2(size));
+}
+
 Result<Renderer::State::Moment> Renderer::State::momentOf(const scene::Scene& scene) {
-    Moment moment{chosen(scene), views::makeEye(scene, float(size.x) / float(size.y)), {}, {}};
+    Moment moment{chosen(scene), eyeOf(scene), {}, {}};
     // Objects are the scene's own: those of a copy would be gone before the passes run.
     Result<views::Drawn> drawn = views::drawnOf(scene, images, waters);
     if (!drawn) return drawn.error();
@@ -219,6 +229,34 @@ Status Renderer::State::addRest(const Picture& picture) {
     const Status added = runGraph([&](graph::FrameGraph& graph) { return recordRest(graph, picture); });
     context.device().wait(this->picture().handle());
     return added;
+}
+
+// The mean of the samples so far, with the picture of the last one.
+Status Renderer::State::recordMean(graph::FrameGraph& graph, TextureId target) {
+    std::vector<std::string> defines;
+    if (composed) defines.push_back("COMPOSED");
+    if (sample == 0) defines.push_back("FIRST");
+    const gl::Program* program = context.program("frame/mean", defines);
+    const TextureId surfaceId = import(graph, shownSurface), shownId = import(graph, picture());
+    const TextureId meanId = sample > 0 ? import(graph, mean) : TextureId{};
+    graph.addPass("frame.mean", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("a pixel is the mean over its samples");
+        for (const TextureId id : {surfaceId, shownId})
+            pass.sample(id);
+        if (meanId) pass.sample(meanId);
+        pass.write(target);
+        return [=, block = MeanBlock{.share = 1 / float(sample + 1)}](const graph::Resources& resources,
+                                                                      graph::Commands& commands) {
+            graph::Draw draw{
+                .program = program,
+                .block = block,
+                .textures = {{"uSurface", resources[surfaceId]}, {"uShown", resources[shownId]}}};
+            if (meanId) draw.textures.push_back({"uMean", resources[meanId]});
+            commands.draw(draw);
+        };
+    });
+    graph.keep(target);
+    return Done{};
 }
 
 } // namespace lucent::frame

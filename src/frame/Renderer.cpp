@@ -52,7 +52,7 @@ bool Renderer::drop(int object, const views::WaterDrop& drop) {
     return true;
 }
 
-void Renderer::wait() { state_->context.device().wait(state_->picture().handle()); }
+void Renderer::wait() { state_->context.device().wait(state_->finished().handle()); }
 
 Result<Image> Renderer::read(const scene::Scene& scene, Aov aov) {
     State& s = *state_;
@@ -100,8 +100,8 @@ Stats Renderer::stats() const {
 
 void Renderer::release() {
     State& s = *state_;
-    for (graph::Texture* texture :
-         {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable, &s.through, &s.truth})
+    for (graph::Texture* texture : {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable,
+                                    &s.through, &s.mean, &s.truth})
         *texture = graph::Texture();
     s.shownKey.reset();
     s.triangles = {};

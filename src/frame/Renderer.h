@@ -18,9 +18,11 @@
 
 namespace lucent::frame {
 
-/// How far the picture is: many lights are summed over several slices of work.
+/// How far the picture is: many lights are summed over several slices of work, then the samples of the pixels
+/// one after the other.
 struct Progress {
     bool complete = false;
+    int samples = 0;    ///< of the pixels, whose mean is shown; 0: no more than a look
     float fraction = 0; ///< of the light that the picture will have, [0,1]
 };
 
@@ -85,8 +87,9 @@ public:
     /// Returns when the GPU has finished the picture.
     void wait();
 
-    /// Linear values of an AOV, 4 channels; the fourth is coverage. Color without tone mapping. Draws the
-    /// picture again when it does not show that AOV.
+    /// Linear values of an AOV, 4 channels; the fourth is coverage. Color without tone mapping, the mean over
+    /// each pixel where technique.sampling.pixelSamples is above 1; every other AOV is what the pixel's
+    /// middle shows. Draws the picture again when it does not show that AOV.
     Result<Image> read(const scene::Scene& scene, scene::Aov aov);
     /// The tone-mapped picture (exposure, sRGB), 4 channels in [0,1], straight alpha: what PNG files hold.
     Result<Image> readDisplay(const scene::Scene& scene);

@@ -19,9 +19,9 @@
 
 namespace lucent::frame {
 
-// A picture is made in stages: a first look, more directions of the environment, then all that its settings
-// ask for. A stage is summed in slices that take about kSliceMs each; the last complete stage is what is
-// shown.
+// A picture is made in stages: a first look, more directions of the environment, all that its settings ask
+// for, and then the same once for each further sample of the pixels. A stage is summed in slices that take
+// about kSliceMs each; what is shown is the last complete stage, or the mean of the samples that are there.
 struct Renderer::State {
     static constexpr double kSliceMs = 40;
     static constexpr int kFirstStage = 20; // directions
@@ -31,6 +31,7 @@ struct Renderer::State {
         int directions; // of the environment
         bool baked;     // they only add to what a guest has worked out once
         bool coarse;    // all knobs are turned down
+        int sample = 0; // of the pixels; 0: their middles
     };
 
     enum class Effort { Coarse, Progressive, Final }; // one first look; looks, then all; all at once
@@ -57,6 +58,7 @@ struct Renderer::State {
     Budget budget;
     std::vector<technique::Chooser*> choosers; // the guests', then the budget
     graph::Texture surface, shownSurface, shown, sum, scratch, lightTable, through;
+    graph::Texture mean;  // over the pixels' samples; none where each has one
     graph::Texture truth; // beside the picture
     std::uint64_t truthNumber = 0;
     views::KeptTriangles triangles;          // of refractive objects,
@@ -71,6 +73,10 @@ struct Renderer::State {
     bool atOnce = false;                             // nobody waits for a look before the picture is complete
     bool planning = false;                           // the settings are still to be chosen
     bool composed = false;                           // the picture stands in `through`
+    bool averaged = false;                           // what is shown stands in `mean`
+    bool whole = false;                              // a sample is complete, and not yet in the mean
+    int sample = 0;                                  // of the pixels, that is being drawn
+    int samples = 0;                                 // of this picture, that are shown
     bool surfaceDrawn = false, surfaceShown = false; // of this picture
     std::optional<views::SurfaceKey> shownKey;       // what shownSurface was drawn for
     std::vector<Stage> stages;
@@ -87,6 +93,7 @@ struct Renderer::State {
     void start(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize, Effort effort);
     void startChoosing(const scene::Scene& scene);
     void addStages(const scene::Scene& scene, Effort effort, bool looked);
+    void addSamples(const scene::Scene& scene);
     Status plan(const scene::Scene& scene);
     Result<Progress> advance(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
                              Effort effort);
@@ -96,6 +103,7 @@ struct Renderer::State {
     Result<bool> ready(const Moment& moment);
     Status finishStage(const Moment& moment);
     Status settle(const scene::Scene& scene);
+    Status takeSample(const scene::Scene& scene);
     scene::Scene chosen(const scene::Scene& scene) const;
     bool isCoarse() const { return coarse || dragged || (stage < stages.size() && stages[stage].coarse); }
     technique::Guest* baker(const scene::Scene& scene) const;
@@ -108,6 +116,11 @@ struct Renderer::State {
     std::string choiceText() const;
 
     // Phases.cpp
+    int pixelSamples(const scene::Scene& scene) const;
+    views::Eye eyeOf(const scene::Scene& scene) const;
+    views::SurfaceKey surfaceKeyOf(const scene::Scene& scene) const {
+        return views::surfaceKey(scene, eyeOf(scene), size, waters.changes());
+    }
     Result<Moment> momentOf(const scene::Scene& scene);
     Result<Moment> readyMoment(const scene::Scene& scene);
     technique::Picture pictureOf(const Moment& moment) const {
@@ -124,6 +137,7 @@ struct Renderer::State {
                             graph::TextureId target);
     Result<views::Posed> poseKeeping(graph::FrameGraph& graph, const technique::Picture& picture);
     Status addRest(const technique::Picture& picture);
+    Status recordMean(graph::FrameGraph& graph, graph::TextureId target);
 
     std::vector<std::string> leftOut(const technique::Picture& picture) const;
     Status runGraph(const std::function<Status(graph::FrameGraph&)>& record);
@@ -134,6 +148,7 @@ struct Renderer::State {
                         const graph::Texture& linear);
     void takeTruth(const Beside& beside);
     const graph::Texture& picture() const { return composed ? through : shown; }
+    const graph::Texture& finished() const { return averaged ? mean : picture(); }
     static graph::TextureId import(graph::FrameGraph& graph, const graph::Texture& texture) {
         return graph.import(texture.handle(), texture.desc(), texture.label());
     }

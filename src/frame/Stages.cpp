@@ -82,8 +82,9 @@ void Renderer::State::start(const scene::Scene& scene, std::uint64_t newRevision
     revision = newRevision;
     size = newSize;
     makeTargets();
-    surfaceDrawn = surfaceShown =
-        shownKey == views::surfaceKey(scene, newSize, waters.changes()); // light alone may have changed
+    sample = samples = 0;
+    whole = false;
+    surfaceDrawn = surfaceShown = shownKey == surfaceKeyOf(scene); // light alone may have changed
     stage = 0;
     workMs = planMs = 0;
     drawsBefore = context.device().drawCount();
@@ -129,6 +130,16 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool l
     for (int count = kFirstStage * kStageFactor; grows && count * 2 < summed; count *= kStageFactor)
         stages.push_back({count, false, true});
     stages.push_back({bakes ? bakes->directionsBesideBake(used) : directions, bakes != nullptr, false});
+    if (!dragged) addSamples(scene);
+}
+
+// The last stage again for each further sample of the pixels.
+void Renderer::State::addSamples(const scene::Scene& scene) {
+    const Stage whole = stages.back();
+    for (int i = 1; i < pixelSamples(scene); ++i) {
+        stages.push_back(whole);
+        stages.back().sample = i;
+    }
 }
 
 // How long a stage takes, in directions.
@@ -169,7 +180,9 @@ void Renderer::State::makeTargets() {
     shownSurface = graph::Texture(device, desc, "frame.shownSurface");
     shown = graph::Texture(device, desc, "frame.shown");
     sum = graph::Texture(device, desc, "frame.sum");
-    scratch = graph::Texture(); // made when a sum takes more than one slice
+    scratch = graph::Texture(); // made when a sum takes more than one slice,
+    mean = graph::Texture();    // or a pixel several samples
+    averaged = false;
 }
 
 int Renderer::State::sliceEnd() const {
@@ -194,7 +207,7 @@ Status Renderer::State::runGraph(const std::function<Status(graph::FrameGraph&)>
 // Works for one slice of time on what must be there before a stage begins. @return whether it is
 Result<bool> Renderer::State::ready(const Moment& moment) {
     Guest* const guest = stages[stage].baked ? baker(moment.scene) : nullptr;
-    if (!guest) return true;
+    if (!guest || sample > 0) return true; // the first sample has waited for it
     const double before = now();
     const Result<Bake> bake = guest->bake(pictureOf(moment), kSliceMs);
     workMs += now() - before;
@@ -207,13 +220,14 @@ Result<bool> Renderer::State::ready(const Moment& moment) {
 }
 
 Status Renderer::State::slice(const scene::Scene& scene) {
+    if (next == 0) sample = stages[stage].sample;
     const double beforeWater = now();
     const Result<bool> still = waters.advance(scene);
     workMs += now() - beforeWater;
     if (!still) return still.error();
     if (!*still) return Done{};
-    if (surfaceShown && shownKey != views::surfaceKey(scene, size, waters.changes()))
-        surfaceShown = surfaceDrawn = false; // water has moved
+    if (surfaceShown && shownKey != surfaceKeyOf(scene))
+        surfaceShown = surfaceDrawn = false; // water has moved, or the samples of the pixels
     Result<Moment> moment = momentOf(scene);
     if (!moment) return moment.error();
     const technique::Picture picture = pictureOf(*moment);
@@ -247,21 +261,24 @@ Status Renderer::State::finishStage(const Moment& moment) {
     std::swap(sum, shown);
     if (!surfaceShown) {
         std::swap(surface, shownSurface);
-        shownKey = views::surfaceKey(moment.scene, size, waters.changes());
+        shownKey = surfaceKeyOf(moment.scene);
     }
     surfaceShown = true;
     const double before = now();
     if (Status added = addRest(pictureOf(moment)); !added) return added;
     workMs += now() - before;
     stats.lights = int(lights.size());
+    whole = !stages[stage].coarse;
+    if (sample == 0) averaged = false;
     ++stage;
     startStage(moment.scene);
-    if (stage < stages.size()) return Done{};
+    if (stage < stages.size() && !whole) return Done{};
     stats.milliseconds = workMs;
     stats.technique = moment.scene.technique;
     stats.planMilliseconds = planMs;
     stats.draws = context.device().drawCount() - drawsBefore;
     stats.passes = passes;
+    if (stage < stages.size()) return Done{};
     images.trim();
     pool.trim();
     return Done{};
@@ -288,12 +305,44 @@ Status Renderer::State::settle(const scene::Scene& scene) {
     return again ? addRest(picture) : Status(Done{});
 }
 
+// The picture of one sample of the pixels joins the mean of those before.
+Status Renderer::State::takeSample(const scene::Scene& scene) {
+    whole = false;
+    samples = sample + 1;
+    if (pixelSamples(scene) == 1) {
+        mean = graph::Texture();
+        return Done{};
+    }
+    if (!scratch) scratch = graph::Texture(context.device(), sum.desc(), "frame.scratch");
+    if (!mean) mean = graph::Texture(context.device(), sum.desc(), "frame.mean");
+    const double before = now();
+    if (Status s =
+            runGraph([&](graph::FrameGraph& graph) { return recordMean(graph, import(graph, scratch)); });
+        !s)
+        return s;
+    workMs += now() - before;
+    std::swap(mean, scratch);
+    averaged = true;
+    return Done{};
+}
+
 Result<Progress> Renderer::State::advance(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
                                           Effort effort) {
     if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
         start(scene, newRevision, newSize, effort);
-    if (!complete() || !settled(effort)) {
-        const Status status = complete() ? settle(scene) : stage < stages.size() ? slice(scene) : plan(scene);
+    if (dragged && effort != Effort::Coarse) { // the look was the picture already
+        const bool over = complete();
+        dragged = false;
+        addSamples(scene);
+        if (over) startStage(scene);
+    }
+    if (!complete() || whole || !settled(effort)) {
+        Status status = Done{};
+        if ((complete() || whole) && !settled(effort))
+            status = settle(scene);
+        else if (!whole)
+            status = stage < stages.size() ? slice(scene) : plan(scene);
+        if (status && whole && settled(effort)) status = takeSample(scene);
         if (!status) {
             started = false;
             return status.error();
@@ -301,6 +350,7 @@ Result<Progress> Renderer::State::advance(const scene::Scene& scene, std::uint64
     }
     Progress progress;
     progress.complete = complete() && settled(effort);
+    progress.samples = samples;
     float total = planning ? float(views::samplingOf(scene).directions) : 0, done = 0;
     for (std::size_t i = 0; i < stages.size(); ++i) {
         total += work(stages[i]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace lucent::views {
 
@@ -99,6 +100,14 @@ void add(std::vector<LampPoint>& points, const scene::AreaLight& light, int samp
     }
 }
 
+// Of a lattice of so many points, near the golden ratio of them and without a common divisor.
+int generatorOf(int count) {
+    int generator = int(std::lround(float(count) * 0.5f * (std::sqrt(5.0f) - 1)));
+    while (std::gcd(generator, count) > 1)
+        ++generator;
+    return generator;
+}
+
 constexpr std::string_view kEnvironmentSamplings[] = {"equal", "importance"};
 
 } // namespace
@@ -144,6 +153,17 @@ const ParamTable& samplingParams() {
                  .doc = "Where those directions are: evenly all around, or more of them where the map is "
                         "bright.",
                  .choices = kEnvironmentSamplings}),
+        declare(&Sampling::pixelSamples,
+                {.id = "pixelSamples",
+                 .label = "Samples of a pixel",
+                 .min = 1,
+                 .max = 256,
+                 .low = 1,
+                 .high = 16,
+                 .group = Group::View,
+                 .doc =
+                     "Places over which the colour of a pixel is the mean, drawn one after the other while "
+                     "the picture is still; 1: its middle alone."}),
     };
     static const ParamTable table = tableOf<Sampling>("sampling", list, "Light samples");
     return table;
@@ -162,7 +182,14 @@ Sampling& samplingOf(scene::Scene& scene) {
 bool samplingActs(const scene::Scene& scene, std::string_view id) {
     if (id == "lampSamples") return hasLargeLamp(scene);
     if (id == "shadowSize") return !scene.lights.empty();
+    if (id == "pixelSamples") return scene.view.show == scene::Aov::Color;
     return hasEnvironment(scene);
+}
+
+vec2 pixelOffset(int sample, int count) {
+    const auto wrapped = [](float at) { return at - std::floor(at + 0.5f); };
+    const float step = 1 / float(count);
+    return {wrapped(float(sample) * step), wrapped(float(sample * generatorOf(count) % count) * step)};
 }
 
 std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples) {

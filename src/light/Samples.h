@@ -50,7 +50,14 @@ struct Sampling {
     int directions = 256; ///< of the environment, about; 0: leaves it out
     EnvironmentSampling environment = EnvironmentSampling::Equal;
     int shadowSize = 1024; ///< texels a side of a shadow view; of lamps with a size half as many
+    int pixelSamples = 5;  ///< places over whose colours a pixel is the mean, > 0; 1: its middle alone
 };
+
+/// Where a sample of a pixel lies, in pixels from the middle: the first one there, all of them a rank-1
+/// lattice whose rows and columns are even, so that a straight edge errs by 1 / count at most.
+///
+/// @return  [-0.5, 0.5)²
+vec2 pixelOffset(int sample, int count);
 
 /// The table "sampling", which scenes carry beside those of the techniques.
 const ParamTable& samplingParams();

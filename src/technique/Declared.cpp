@@ -20,10 +20,12 @@ std::span<const ParamTable* const> tables() {
 void addSettings(scene::Scene& scene) {
     for (const ParamTable* table : tables())
         scene.technique.emplace(std::string(table->name), Settings(*table));
+    views::samplingOf(scene).pixelSamples = 1;
 }
 
 truth::Model modelOf(const scene::Scene& scene) {
     truth::Model model;
+    model.overPixels = scene.view.show == scene::Aov::Color && views::samplingOf(scene).pixelSamples > 1;
     for (const Declared* technique : declared()) {
         const auto settings = scene.technique.find(std::string(technique->name));
         if (technique->describe && settings != scene.technique.end())
@@ -33,6 +35,7 @@ truth::Model modelOf(const scene::Scene& scene) {
 }
 
 scene::Scene withDefaults(scene::Scene scene) {
+    const bool ofMiddles = views::samplingOf(scene).pixelSamples == 1;
     for (auto& entry : scene.technique) {
         const std::string& name = entry.first;
         Settings& settings = entry.second;
@@ -49,6 +52,7 @@ scene::Scene withDefaults(scene::Scene scene) {
             }
         settings = std::move(fresh);
     }
+    if (ofMiddles) views::samplingOf(scene).pixelSamples = 1;
     return scene;
 }
 

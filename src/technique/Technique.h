@@ -92,7 +92,8 @@ std::optional<std::string> need(const scene::Scene& scene, std::string_view tech
 /// Tables of parameters of all techniques and of light samples, for the loader, `lucent list` and the
 /// documentation.
 std::span<const ParamTable* const> tables();
-/// Gives a scene that is made in code every setting as it is by default.
+/// Gives a scene that is made in code every setting as it is by default, but one sample a pixel: what is
+/// measured is what the middles of pixels show.
 void addSettings(scene::Scene& scene);
 /// Whether a parameter of a technique's table, or of light samples, changes anything in a scene.
 bool acts(const scene::Scene& scene, std::string_view table, std::string_view id);

@@ -33,8 +33,10 @@ struct DipoleOptions {
     Diffusion profile = Diffusion::Dipole;
     DipoleGeometry geometry = DipoleGeometry::Planar;
     bool normalisedExit = true; ///< false: L = B F_t(w) / pi, as the papers have it, which loses light
-    int samples = 256;          ///< lines on which light may enter, of each pixel; 48 at least
+    int samples = 256;          ///< lines on which light may enter, of each pixel; kFewest at least
     std::uint64_t seed = 0;
+
+    static constexpr int kFewest = 48;
 };
 
 /// The integral over an object's surface of R_d times the light that enters, without anything precomputed:

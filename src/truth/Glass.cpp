@@ -74,7 +74,7 @@ dvec3 GlassEstimator::radiance(const Beam& beam, int channel, Random& random, Se
 }
 
 GlassEstimator::Seen GlassEstimator::seen(const Beam& beam, Random& random) const {
-    Seen seen{dvec3(0), false, options_.antialias || options_.branching == Branching::Tree};
+    Seen seen{dvec3(0), false, options_.branching == Branching::Tree};
     if (!optics_->disperses()) {
         seen.radiance = radiance(beam, 1, random, seen);
         return seen;
@@ -91,8 +91,7 @@ Pixel GlassEstimator::color(ivec2 pixel) const {
     bool byChance = true;
     for (int i = 0; i < options_.samples && byChance; ++i) {
         Random random(options_.seed, index, std::uint64_t(i));
-        const dvec2 within = options_.antialias ? random.nextPair() : dvec2(0.5);
-        const Seen one = seen(beamFrom(eye_, dvec2(pixel) + within, atEye_), random);
+        const Seen one = seen(beamFrom(eye_, dvec2(pixel) + 0.5, atEye_), random);
         estimate.add(one.radiance);
         covered += one.anything ? 1 : 0;
         byChance = one.byChance;

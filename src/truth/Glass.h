@@ -17,8 +17,7 @@ namespace lucent::truth {
 
 struct GlassOptions {
     Branching branching = Branching::Chain;
-    int samples = 256;      ///< of each pixel in which something is left to chance; > 0
-    bool antialias = false; ///< samples lie all over the pixel, else all in its middle
+    int samples = 256; ///< of each pixel in which something is left to chance; > 0
     std::uint64_t seed = 0;
     Attenuation attenuation = Attenuation::Ratio; ///< of light inside height fields
 };

@@ -20,7 +20,7 @@ struct LightOptions {
     int samples = 256;                ///< of each pixel, for light straight from what has a size; > 0
     std::uint64_t seed = 0;
     Attenuation attenuation = Attenuation::Ratio; ///< of light inside height fields
-    bool antialias = false; ///< of the color: straight light, too, as the mean over each pixel
+    bool overPixels = false; ///< of the color: straight light, too, as the mean over each pixel
 };
 
 /// Irradiance, W/m², of the opaque surfaces that the camera sees with nothing before them; coverage is 1
@@ -28,8 +28,8 @@ struct LightOptions {
 /// GlassEstimator, with the caustics that are seen through glass or in a mirror, spread over discs as wide as
 /// two pixels (SeenPlaces). Two parts, added:
 ///
-/// - Light straight from the lamps and the environment (Illumination), in the pixel's middle or, antialiased,
-///   all over it.
+/// - Light straight from the lamps and the environment (Illumination), in the pixel's middle or as the
+///   mean over it (PixelMean).
 /// - Light that refractive and mirroring objects turned aside, as the mean over the pixel. Each ray is aimed
 /// at a ball
 ///   around one of these objects, chosen by chance; where it meets something else first it is not counted.

@@ -78,7 +78,9 @@ Rays followAll(const FollowRay& follow, ivec2 size, const Tile& part, std::int64
 
 void addRays(Picture& picture, const Rays& rays, std::int64_t count) {
     const auto photons = double(count);
-    for (std::size_t i = 0; i < rays.pixels.size(); ++i)
+    for (std::size_t i = 0; i < rays.pixels.size(); ++i) {
+        const double coverage = double(picture.values.pixels[4 * i + 3]);
+        const double ofCovered = coverage > 0 ? 1 / coverage : 1;
         for (int channel = 0; channel < 3; ++channel) {
             const auto c = std::size_t(channel);
             const double mean = rays.pixels[i].sum[c].value() / photons;
@@ -87,10 +89,11 @@ void addRays(Picture& picture, const Rays& rays, std::int64_t count) {
             const double spread =
                 squares == 0 ? bound * bound
                              : std::max(0.0, squares / photons - mean * mean) / std::max(1.0, photons - 1);
-            picture.values.pixels[4 * i + c] += float(mean);
+            picture.values.pixels[4 * i + c] += float(ofCovered * mean);
             float& error = picture.errors.pixels[3 * i + c];
-            error = float(std::sqrt(double(error) * double(error) + spread));
+            error = float(std::sqrt(double(error) * double(error) + ofCovered * ofCovered * spread));
         }
+    }
     EnergyBook& energy = picture.energy.emplace();
     for (std::size_t i = 0; i < rays.energy.size(); ++i)
         for (int channel = 0; channel < 3; ++channel)

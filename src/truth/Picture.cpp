@@ -1,7 +1,11 @@
 #include "truth/Picture.h"
 
+#include "truth/Random.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <thread>
 #include <vector>
 
@@ -16,6 +20,30 @@ void write(const Pixel& pixel, Picture& picture, ivec2 at) {
     picture.values.at(at.x, at.y)[3] = float(pixel.coverage);
 }
 } // namespace
+
+Pixel PixelMean::solve(ivec2 pixel) const {
+    Random random(seed_, std::uint64_t(pixel.y) << 32 | std::uint64_t(pixel.x), ~std::uint64_t(0));
+    std::array<int, kPlaces> rows;
+    std::iota(rows.begin(), rows.end(), 0);
+    for (int left = kPlaces; left > 1; --left)
+        std::swap(rows[std::size_t(left - 1)], rows[std::size_t(random.next() * left)]);
+    std::array<Pixel, kPlaces> places;
+    Pixel mean;
+    for (int i = 0; i < kPlaces; ++i) {
+        Pixel& place = places[std::size_t(i)];
+        place = places_->solve(kPlaces * pixel + ivec2(i, rows[std::size_t(i)]));
+        mean.value += place.coverage * place.value;
+        mean.coverage += place.coverage;
+    }
+    if (mean.coverage == 0) return {};
+    mean.value /= mean.coverage;
+    for (const Pixel& place : places) {
+        const dvec3 away = place.coverage / mean.coverage * (place.value - mean.value);
+        mean.variance += away * away * (double(kPlaces) / (kPlaces - 1));
+    }
+    mean.coverage /= kPlaces;
+    return mean;
+}
 
 double Picture::standardError() const {
     double squares = 0;

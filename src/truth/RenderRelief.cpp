@@ -25,15 +25,18 @@ ReliefEstimator::ReliefEstimator(const scene::Scene& scene, ivec2 size, scene::A
                                  const ReliefOptions& options)
     : eye_(scene.camera, size), size_(size), aov_(aov), options_(options), objects_(placeAll(scene)) {
     Lighting world{worldLamps(scene, options.normalise), {}};
-    if (const auto environment = shiningEnvironment(scene, options.normalise)) {
-        const Choice choice = aov == scene::Aov::Color ? Choice::ByLight : Choice::Evenly;
-        world.environment = environmentLights(*environment, options.environmentLights, choice, options.seed);
-        for (LightSource& light : world.environment)
-            light.color *= kMeanToLambert;
+    for (int set = 0; set < options.environmentSets; ++set) {
+        if (const auto environment = shiningEnvironment(scene, options.normalise)) {
+            const Choice choice = aov == scene::Aov::Color ? Choice::ByLight : Choice::Evenly;
+            world.environment = environmentLights(*environment, options.environmentLights, choice,
+                                                  options.seed + (std::uint64_t(set) << 32));
+            for (LightSource& light : world.environment)
+                light.color *= kMeanToLambert;
+        }
+        for (const PlacedField& placed : objects_)
+            lighting_.push_back(
+                {inObject(world.lamps, placed.placement), inObject(world.environment, placed.placement)});
     }
-    for (const PlacedField& placed : objects_)
-        lighting_.push_back(
-            {inObject(world.lamps, placed.placement), inObject(world.environment, placed.placement)});
 }
 
 Pixel ReliefEstimator::solve(ivec2 pixel) const {
@@ -42,10 +45,11 @@ Pixel ReliefEstimator::solve(ivec2 pixel) const {
     if (!sight.object) return {};
     const PlacedField& placed = *sight.object;
     const dvec3 below = sight.point.position - depthInObject(*placed.object) * sight.point.normal;
+    const auto set = std::size_t(pixel.x % options_.environmentSets);
     const auto index = std::uint64_t(pixel.y) * std::uint64_t(size_.x) + std::uint64_t(pixel.x);
     const Shading shading =
         shade(placed.field, *placed.object, sight.point, eye_.directionTo(below, ray, placed.placement),
-              lighting_[std::size_t(&placed - objects_.data())], options_.attenuation,
+              lighting_[set * objects_.size() + std::size_t(&placed - objects_.data())], options_.attenuation,
               {options_.discSamples, Random(options_.seed, index, 0)});
     if (aov_ == scene::Aov::Color) return {shading.color, shading.colorVariance, sight.coverage};
     return {dvec3(shading.illumination), dvec3(shading.illuminationVariance), sight.coverage};

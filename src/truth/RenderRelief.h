@@ -20,6 +20,7 @@ namespace lucent::truth {
 struct ReliefOptions {
     Attenuation attenuation = Attenuation::Ratio;
     int environmentLights = 4096; ///< directions that stand for the environment
+    int environmentSets = 1;      ///< of so many directions, each for every so many-th column of pixels
     bool normalise = false; ///< divide the light by the number of lights, an environment counting as one
     int threads = 0;        ///< 0: as many as the machine has
     int discSamples = 256;  ///< points that stand for the disc of a soft light
@@ -45,7 +46,7 @@ private:
     scene::Aov aov_;
     ReliefOptions options_;
     std::vector<PlacedField> objects_;
-    std::vector<Lighting> lighting_; ///< of each object, in its space
+    std::vector<Lighting> lighting_; ///< of each object, in its space, set by set
 };
 
 /// Error "truth: AOV ... has no reference; must be color or d" for another quantity than these.

@@ -272,9 +272,12 @@ Result<Picture> traceWalks(const scene::Scene& scene, ivec2 size, const WalkOpti
     const Result<Bodies> bodies = Bodies::create(scene);
     if (!bodies) return bodies.error();
     if (Status s = checkNoSlab(scene, *bodies); !s) return s.error();
-    const auto surroundings =
-        Surroundings::create(scene, *bodies, size, options.aov, options.samples, options.seed);
-    if (!surroundings) return surroundings.error();
+    auto made = Surroundings::create(
+        scene, *bodies, options.overPixels ? PixelMean::sizeOf(size) : size, options.aov,
+        options.overPixels ? PixelMean::samplesOf(options.samples) : options.samples, options.seed);
+    if (!made) return made.error();
+    std::unique_ptr<Estimator> surroundings = std::make_unique<Surroundings>(std::move(*made));
+    if (options.overPixels) surroundings = std::make_unique<PixelMean>(std::move(surroundings), options.seed);
     // The bar is the rays' but for its beginning.
     constexpr double kSurroundingShare = 0.1;
     const auto stretch = [&](double from, double to) {

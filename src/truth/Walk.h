@@ -15,6 +15,7 @@ struct WalkOptions {
     scene::Aov aov = scene::Aov::Color; ///< or Radiosity
     std::int64_t photons = 1'000'000;   ///< of the whole picture, > 0
     int samples = 256;                  ///< of each pixel of what scatters nothing; see GlassEstimator
+    bool overPixels = false;            ///< of the color: that, too, as the mean over each pixel
     std::uint64_t seed = 0;
     /// Only light that was scattered so often is counted in the picture; nothing: all. Energy is all light's.
     std::optional<int> scatterings = {};

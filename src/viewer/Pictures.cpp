@@ -27,7 +27,7 @@ bool Viewer::State::advance() {
         stale = false;
         phase = Phase::Look;
     }
-    if (phase == Phase::Done || (phase == Phase::Refine && held)) return false;
+    if (phase == Phase::Done || (refines() && held)) return false;
     if (!renderer) renderer = std::make_unique<frame::Renderer>(*context);
     const Result<frame::Progress> progress =
         renderer->advance(picture, pictureNumber, size, phase == Phase::Look);
@@ -37,8 +37,14 @@ bool Viewer::State::advance() {
         settled = false;
         return false;
     }
-    if (!progress->complete) return phase == Phase::Refine;
-    phase = phase == Phase::Look ? Phase::Refine : Phase::Done;
+    const bool better = phase != Phase::Smooth || progress->samples > samples;
+    samples = progress->samples;
+    if (!progress->complete && (phase == Phase::Look || !better)) return false;
+    if (!progress->complete && samples == 0) return true; // light grows
+    if (phase == Phase::Look)
+        phase = samples > 0 ? Phase::Smooth : Phase::Refine; // nothing was coarse
+    else
+        phase = progress->complete ? Phase::Done : Phase::Smooth;
     shown = true;
     if (showStats) settled = false;
     return true;

@@ -86,6 +86,7 @@ std::string statsJson(const StatsInput& input) {
     json.key("milliseconds").value(input.cost.milliseconds).key("passes").value(input.cost.passes);
     json.key("draws").value(input.cost.draws).key("lights").value(input.cost.lights);
     json.key("bytes").value(double(input.cost.bytes)).key("complete").value(input.complete);
+    json.key("finished").value(input.finished);
     json.key("settings").value(input.cost.settings).key("predicted").value(input.cost.predicted);
     json.key("frames").value(input.frames).key("revision").value(double(input.revision));
     if (input.light) {

@@ -20,7 +20,7 @@ std::string changesJson(std::span<const Control> controls, const void* leftOut);
 
 struct StatsInput {
     frame::Stats cost;
-    bool complete = false;
+    bool complete = false, finished = false; ///< the picture is, and has all samples of its pixels
     int frames = 0;
     std::uint64_t revision = 0;
     std::optional<vec2> light;           ///< CSS pixels of its dot

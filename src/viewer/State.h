@@ -39,8 +39,9 @@ struct Viewer::State {
 
     // What the pointer has gripped, and how things were then: drags add up without drift.
     enum class Grip { None, Light, Map, Roll, Orbit, Divider, Water, Paint };
-    // The picture: a quick look first, so that something is seen while a hand moves; then the fine one.
-    enum class Phase { Look, Refine, Done };
+    // The picture: a quick look first, so that something is seen while a hand moves; then the fine one, and
+    // that by more samples of each pixel.
+    enum class Phase { Look, Refine, Smooth, Done };
 
     gl::Context* context;
     gl::ImGuiHost* imguiHost;
@@ -67,6 +68,7 @@ struct Viewer::State {
     std::uint64_t pictureNumber = 0;
     ivec2 picturePixels{0};
     Phase phase = Phase::Done;
+    int samples = 0;                   // of each pixel of what is shown
     bool stale = false, shown = false; // the scene changed since; there is a picture to present
     std::vector<Figure> figures;
     std::uint64_t figuresAt = 0; // revision whose they are
@@ -230,11 +232,10 @@ struct Viewer::State {
     // While time runs, a picture is as good as the next moment lets it be.
     bool complete() const {
         const bool seen = play.playing && phase == Phase::Refine && shown;
-        return scene && !stale && (phase == Phase::Done || seen);
+        return scene && !stale && (phase == Phase::Smooth || phase == Phase::Done || seen);
     }
-    bool working() const {
-        return scene && (stale || phase == Phase::Look || (phase == Phase::Refine && !held));
-    }
+    bool refines() const { return phase == Phase::Refine || phase == Phase::Smooth; }
+    bool working() const { return scene && (stale || phase == Phase::Look || (refines() && !held)); }
 };
 
 } // namespace lucent::viewer

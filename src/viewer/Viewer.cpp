@@ -298,6 +298,7 @@ std::string Viewer::stats() const {
     StatsInput input;
     if (s.renderer) input.cost = s.renderer->stats();
     input.complete = s.complete();
+    input.finished = s.complete() && s.phase != State::Phase::Smooth;
     input.frames = s.drawCount;
     input.revision = s.revision;
     if (s.scene) {

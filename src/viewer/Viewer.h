@@ -87,9 +87,10 @@ public:
     /// not in the panel. Buttons stand at the end: path, label, group, doc and the kind "action". The DOM
     /// twin is made from it.
     std::string controls();
-    /// JSON: milliseconds, passes, draws, lights, bytes, complete, frames, revision; notDrawn: lines that say
-    /// what the scene asks for, the picture lacks, and why; light: [x, y] of the dot; panel: path ->
-    /// [x, y, width, height] of each control's widget that can be seen in full. CSS pixels.
+    /// JSON: milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its
+    /// pixels), frames, revision; notDrawn: lines that say what the scene asks for, the picture lacks, and why;
+    /// light: [x, y] of the dot; panel: path -> [x, y, width, height] of each control's widget that can be seen
+    /// in full. CSS pixels.
     std::string stats() const;
     /// JSON array: of each object that scatters light inside owner, profile; reach [mm] and whole (the share
     /// that leaves again) of red, green and blue; distances [mm] and values [1/mm²] of R_d; text, the same in

@@ -65,10 +65,11 @@ ViewBlock viewBlock(const Eye& eye, ivec2 size) {
             .forward = vec4(eye.forward, eye.farthest),
             .right = vec4(pixel.x * eye.right, eye.nearest),
             .up = vec4(pixel.y * eye.up, 0),
-            .size = vec2(size)};
+            .size = vec2(size),
+            .middle = 0.5f * vec2(size) * (1.0f - eye.shift)};
 }
 
-Eye makeEye(const scene::Scene& scene, float aspect, float nearestPart) {
+Eye makeEye(const scene::Scene& scene, float aspect, float nearestPart, vec2 shift) {
     const scene::Camera& camera = scene.camera;
     Eye eye;
     eye.position = camera.eye;
@@ -100,6 +101,8 @@ Eye makeEye(const scene::Scene& scene, float aspect, float nearestPart) {
         eye.clipFromWorld =
             glm::ortho(-half * aspect, half * aspect, -half, half, nearest, farthest) * viewFromWorld;
     }
+    eye.clipFromWorld = glm::translate(mat4(1), vec3(-shift, 0)) * eye.clipFromWorld;
+    eye.shift = shift;
     eye.nearest = nearest;
     eye.farthest = farthest;
     return eye;

@@ -17,6 +17,7 @@ struct Eye {
     vec3 right{0}, up{0};            ///< world, unit
     vec2 halfExtent{0};              ///< of the picture: m, or m for each metre of depth
     float nearest = 0, farthest = 0; ///< depths between which everything lies, m
+    vec2 shift{0}; ///< of what the picture shows, in halves of it: samples of a pixel lie beside its middle
 
     /// Where eye rays come from in the space of an object: the position with w = 1, or with w = 0 the unit
     /// direction that all of them share. This is what shaders call `eye`.
@@ -29,7 +30,8 @@ struct Eye {
 /// @param nearest  of a perspective eye that stands among them: the near plane is no nearer than this part of
 /// the
 ///                 far one. Depth buffers that are not linear need a thousandth
-Eye makeEye(const scene::Scene& scene, float aspect, float nearest = 1e-3f);
+/// @param shift    Eye::shift
+Eye makeEye(const scene::Scene& scene, float aspect, float nearest = 1e-3f, vec2 shift = vec2(0));
 
 ViewBlock viewBlock(const Eye& eye, ivec2 size);
 

@@ -1,6 +1,7 @@
 #pragma once
 /// What the images of a view depend on: while it stays, only light has changed.
 
+#include "views/Eye.h"
 #include "views/ObjectKey.h"
 
 namespace lucent::views {
@@ -15,7 +16,7 @@ struct SurfaceKey {
 };
 
 /// @param waters  Waters::changes()
-SurfaceKey surfaceKey(const scene::Scene& scene, ivec2 size, std::uint64_t waters);
+SurfaceKey surfaceKey(const scene::Scene& scene, const Eye& eye, ivec2 size, std::uint64_t waters);
 
 /// Whether a quantity is one of the surfaces alone, without light.
 inline bool isGeometric(scene::Aov aov) {

@@ -48,14 +48,6 @@ Result<Bytes> readPut(const std::string& path) {
     return found->second;
 }
 
-truth::ReliefOptions optionsOf(const scene::Scene& scene, int directions) {
-    const truth::Model model = technique::modelOf(scene);
-    return {.attenuation = model.attenuation,
-            .environmentLights = directions,
-            .normalise = model.normalise,
-            .threads = 1};
-}
-
 /// What takes too long for a page, by name.
 Error leftToProgram(const std::string& what) {
     return Error{"truth: " + what +
@@ -72,18 +64,36 @@ Error leftToProgram(const scene::Scene& scene, measure::TruthModel model) {
     return leftToProgram("object " + inQuotes(scattering->name) + " scatters light inside");
 }
 
+/// @param size     of the picture whose pixels are solved; PixelMean::sizeOf() it where their means are drawn
+/// @param samples  of each of them
 Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scene, ivec2 size, int samples) {
     const scene::Aov aov = scene.view.show;
     const measure::TruthModel model = measure::usualTruth(scene);
     if (model == measure::TruthModel::Relief) {
         if (Status known = truth::checkAov(aov); !known) return known.error();
-        return std::unique_ptr<truth::Estimator>(
-            new truth::ReliefEstimator(scene, size, aov, optionsOf(scene, samples)));
+        const truth::Model drawn = technique::modelOf(scene);
+        truth::ReliefOptions options{.attenuation = drawn.attenuation,
+                                     .environmentLights = samples,
+                                     .normalise = drawn.normalise,
+                                     .threads = 1};
+        if (drawn.overPixels) {
+            options.environmentSets = truth::PixelMean::kPlaces; // each place of a pixel has others
+            options.discSamples = truth::PixelMean::samplesOf(options.discSamples);
+        }
+        return std::unique_ptr<truth::Estimator>(new truth::ReliefEstimator(scene, size, aov, options));
     }
     if (model != measure::TruthModel::Glass) return leftToProgram(scene, model);
     auto glass = truth::GlassEstimator::create(scene, size, aov, {.samples = samples});
     if (!glass) return glass.error();
     return std::unique_ptr<truth::Estimator>(new truth::GlassEstimator(std::move(*glass)));
+}
+
+Result<std::unique_ptr<truth::Estimator>> makeFiltered(const scene::Scene& scene, ivec2 size, int samples) {
+    using truth::PixelMean;
+    if (!technique::modelOf(scene).overPixels) return makeEstimator(scene, size, samples);
+    auto places = makeEstimator(scene, PixelMean::sizeOf(size), PixelMean::samplesOf(samples));
+    if (!places) return places;
+    return std::unique_ptr<truth::Estimator>(new PixelMean(std::move(*places), 0));
 }
 
 void solveNext() {
@@ -120,7 +130,7 @@ const char* truth_start(int width, int height, int samples) {
     j.files.clear();
     if (!scene) return answer(scene.error().message);
     j.scene = std::move(*scene);
-    auto estimator = makeEstimator(j.scene, ivec2(width, height), samples);
+    auto estimator = makeFiltered(j.scene, ivec2(width, height), samples);
     if (!estimator) return answer(estimator.error().message);
     j.estimator = std::move(*estimator);
     j.image = Image(width, height, 4);

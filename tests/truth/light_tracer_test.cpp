@@ -444,8 +444,8 @@ TEST(LightTracer, ColoursAreThoseOfGlassWithCausticsDirectlyAndThroughIt) {
               "truth: AOV depth is not traced by light; must be irradiance or color");
 }
 
-TEST(LightTracer, AntialiasedColoursAreTheMeanOverThePixel) {
-    // Half of the only pixel shows the floor, its middle included; what is beside it is black.
+TEST(LightTracer, ColoursOverPixelsAreTheMeanOfWhatIsCovered) {
+    // Half of the only pixel shows the floor, its middle included; what is beside it is nothing.
     scene::Scene scene = sceneOf({matt(scene::Plane{{0.5f, 2}})});
     scene.camera.eye = {0, 2, 0};
     scene.camera.target = {0, 0, 0};
@@ -453,13 +453,21 @@ TEST(LightTracer, AntialiasedColoursAreTheMeanOverThePixel) {
     scene.camera.height = 1;
     scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
     const double lit = double(0.8f) / kPi;
-    LightOptions options{.aov = scene::Aov::Color, .photons = 1, .samples = 10000};
+    LightOptions options{.aov = scene::Aov::Color, .photons = 1, .samples = 1};
     EXPECT_NEAR(traced(scene, {1, 1}, options).values.pixels[1], lit, 1e-6);
-    options.antialias = true;
+    EXPECT_EQ(traced(scene, {1, 1}, options).values.pixels[3], 1);
+    options.overPixels = true;
     const Picture picture = traced(scene, {1, 1}, options);
-    const double error = lit * 0.5 / std::sqrt(10000.0); // of a share of a half
-    EXPECT_NEAR(double(picture.values.pixels[1]), lit / 2, 4 * error);
-    EXPECT_NEAR(double(picture.errors.pixels[1]), error, 0.01 * error);
+    EXPECT_NEAR(double(picture.values.pixels[1]), lit, 1e-6);
+    EXPECT_NEAR(picture.values.pixels[3], 0.5, 0.5 / PixelMean::kPlaces);
+    EXPECT_EQ(picture.errors.pixels[1], 0);
+    // Before black: its share of the light, and an error no smaller than what it is off by.
+    scene.objects.push_back(matt(scene::Plane{{2, 2}}, {0, -1, 0}));
+    scene.objects[1].material.diffuse = vec3(0);
+    const Picture mixed = traced(scene, {1, 1}, options);
+    EXPECT_NEAR(double(mixed.values.pixels[1]), lit / 2, lit * 0.5 / PixelMean::kPlaces);
+    EXPECT_EQ(mixed.values.pixels[3], 1);
+    EXPECT_NEAR(double(mixed.errors.pixels[1]), lit / 2 / std::sqrt(PixelMean::kPlaces - 1), 0.01 * lit);
 }
 
 TEST(LightTracer, TheTreeBringsWhatIsReflectedInsideASlabAsWell) {

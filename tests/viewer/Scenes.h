@@ -18,7 +18,7 @@ inline constexpr const char* kLampScene =
  "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 2},
  "lights": [{"type": "point", "position": [0.2, 0.1, 0.5]}],
  "environment": {"source": "uniform", "enabled": false},
- "technique": {"sampling": {"directions": 8}},
+ "technique": {"sampling": {"directions": 8, "pixelSamples": 1}},
  "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
 
 /// The same field, seen from farther off, under an environment only: more of its lights than a quick look
@@ -26,7 +26,7 @@ inline constexpr const char* kLampScene =
 inline constexpr const char* kMapScene = R"({"lucent": 1, "title": "Map", "size": [512, 512],
  "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 4},
  "environment": {"source": "rainbow"},
- "technique": {"sampling": {"directions": 48}},
+ "technique": {"sampling": {"directions": 48, "pixelSamples": 1}},
  "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
 
 /// Glass and a moving mesh over a floor under all kinds of lights, with 2 m of height shown; nothing of it is
@@ -37,7 +37,7 @@ inline constexpr const char* kGlassScene = R"({"lucent": 1, "title": "Glass", "s
             {"type": "area", "corner": [-0.5, 0.5, 0]},
             {"type": "distant", "direction": [0, -1, -1]}],
  "environment": {"source": "sky"},
- "technique": {"sampling": {"lampSamples": 1}, "caustics": {"grid": 32, "mapSize": 64}},
+ "technique": {"sampling": {"lampSamples": 1, "pixelSamples": 1}, "caustics": {"grid": 32, "mapSize": 64}},
  "objects": [{"name": "block", "shape": {"type": "box", "size": [0.3, 0.4, 0.5]}, "material": {"transmission": 1}},
              {"name": "tent", "shape": {"type": "mesh", "source": "tent.mesh", "part": "cloth"}, "material": {},
               "wave": {"amplitude": [0.05, 0, 0]}},
@@ -47,7 +47,7 @@ inline constexpr const char* kGlassScene = R"({"lucent": 1, "title": "Glass", "s
 inline constexpr const char* kWaterScene = R"({"lucent": 1, "title": "Water", "size": [512, 512],
  "camera": {"type": "orthographic", "eye": [0, 2, 0], "up": [0, 0, -1], "height": 2},
  "lights": [{"type": "distant", "direction": [0.1, -1, 0]}],
- "technique": {"caustics": {"grid": 32, "mapSize": 64}},
+ "technique": {"sampling": {"pixelSamples": 1}, "caustics": {"grid": 32, "mapSize": 64}},
  "objects": [{"name": "floor", "shape": {"type": "plane"}, "transform": {"translate": [0, -0.3, 0]}},
              {"name": "water", "shape": {"type": "water", "cells": 32}, "material": {"transmission": 1, "ior": 1.33}}]})";
 
@@ -55,6 +55,7 @@ inline constexpr const char* kWaterScene = R"({"lucent": 1, "title": "Water", "s
 inline constexpr const char* kMarbleScene = R"({"lucent": 1, "title": "Marble", "size": [512, 512],
  "camera": {"type": "orthographic", "eye": [0, 0, 1], "height": 0.04},
  "lights": [{"type": "distant", "direction": [-1, -0.3, -1], "irradiance": 2}],
+ "technique": {"sampling": {"pixelSamples": 1}},
  "objects": [{"name": "board", "shape": {"type": "box", "size": [0.04, 0.02, 0.001]}, "transform": {"translate": [0, 0, -0.02]}},
              {"name": "ball", "shape": {"type": "sphere", "radius": 0.01}, "material": {"preset": "marble"}}]})";
 

@@ -16,7 +16,7 @@ using Paint = Page;
 constexpr const char* kBall = R"({"lucent": 1, "title": "Ball", "size": [512, 512],
  "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 1},
  "lights": [{"type": "distant", "direction": [-0.3, -0.5, -1]}], "view": {"lightDot": false},
- "technique": {"subsurface": {"method": "lambert"}},
+ "technique": {"sampling": {"pixelSamples": 1}, "subsurface": {"method": "lambert"}},
  "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.25}, "material": {"preset": "marble"}},
              {"name": "wall", "shape": {"type": "box", "size": [2, 2, 0.1]}, "transform": {"translate": [0, 0, -0.5]}}]})";
 

@@ -21,6 +21,27 @@ TEST_F(Picture, AnIdleViewerDrawsNothing) {
     EXPECT_EQ(viewer->drawCount(), drawn);
 }
 
+TEST_F(Picture, SamplesOfThePixelsFollowTheCompletePictureWhileItIsStill) {
+    load(kLampScene);
+    const Image middles = window->read();
+    ASSERT_TRUE(viewer->set("technique.sampling.pixelSamples", "4").ok());
+    viewer->draw(time += 0.02); // begins anew
+    while (!stats()["complete"])
+        viewer->draw(time += 0.02);
+    EXPECT_FALSE(stats()["finished"]);
+    EXPECT_EQ(differences(middles, window->read()), 0);
+    const int drawn = viewer->drawCount();
+    settle();
+    EXPECT_TRUE(stats()["finished"]);
+    EXPECT_EQ(viewer->drawCount(), drawn + 3);
+    const int smooth = differences(middles, window->read()); // along the outline of the field
+    EXPECT_GT(smooth, 200);
+    EXPECT_LT(smooth, 20000);
+    // A hand on it: no more samples until it rests.
+    drag({200, 200}, {260, 180});
+    EXPECT_TRUE(stats()["finished"]);
+}
+
 TEST_F(Picture, TheLightsDotFollowsThePointer) {
     load(kLampScene);
     const vec2 start = dot();

@@ -25,7 +25,8 @@ bool showsLayer(Aov aov) {
 
 // Layers have depths of their own, evenly spaced, so that glass may stand right before the eye.
 views::Eye closeEye(const Picture& picture) {
-    return views::makeEye(picture.scene, float(picture.size.x) / float(picture.size.y), 1e-6f);
+    return views::makeEye(picture.scene, float(picture.size.x) / float(picture.size.y), 1e-6f,
+                          picture.eye.shift);
 }
 
 bool peels(const Picture& picture) {
@@ -158,7 +159,8 @@ private:
 
     // Layers stay while all surfaces do and the eye does: light and materials may change.
     views::KeptLayers* keptLayers(const Picture& picture) {
-        views::SurfaceKey key = views::surfaceKey(picture.scene, picture.size, picture.waters.changes());
+        views::SurfaceKey key =
+            views::surfaceKey(picture.scene, picture.eye, picture.size, picture.waters.changes());
         if (layered_ != key) layers_.current = false;
         layered_ = std::move(key);
         return &layers_;

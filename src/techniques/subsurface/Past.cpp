@@ -195,7 +195,7 @@ bool follows(const Moment& now, const Moment& then) {
     const auto isNearOne = [&](const views::LampPoint& a, const views::LampPoint& b) {
         return isNear(a, b, now.bodies);
     };
-    return now.size == then.size && now.settings == then.settings &&
+    return now.size == then.size && now.eye.shift == then.eye.shift && now.settings == then.settings &&
            now.eye.perspective == then.eye.perspective && now.map == then.map && now.sky.w == then.sky.w &&
            glm::distance(vec3(now.sky), vec3(then.sky)) <= glm::degrees(kTurn) &&
            std::equal(now.bodies.begin(), now.bodies.end(), then.bodies.begin(), then.bodies.end(), isOne) &&
