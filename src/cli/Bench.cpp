@@ -11,6 +11,7 @@
 #include "frame/Renderer.h"
 #include "gl/Context.h"
 #include "measure/Solve.h"
+#include "measure/Steps.h"
 #include "measure/TechniqueBench.h"
 #include "scene/Load.h"
 #include "scene/readers/Readers.h"
@@ -42,11 +43,12 @@ struct BenchOptions {
     std::string commit = LUCENT_COMMIT;
 };
 
-constexpr std::string_view kCompose = "compose"; // of no technique: a table of its own
+// Of no technique: tables of their own.
+constexpr std::string_view kCompose = "compose", kSteps = "steps";
 
 struct Parts {
     std::vector<const measure::BenchPart*> measured;
-    bool compose = false;
+    bool compose = false, steps = false;
 };
 
 // --- the machine
@@ -87,14 +89,15 @@ Result<Parts> parseParts(std::vector<std::string> names) {
     Parts parts;
     for (const std::string& name : names) {
         const auto found = measure::benchParts(name);
-        if (found.empty() && name != kCompose) {
+        if (found.empty() && name != kCompose && name != kSteps) {
             std::string known = "all";
             for (const measure::BenchPart* part : measure::benchParts())
                 known += ", " + std::string(part->name);
             return Error{"NAMES: is " + inQuotes(name) + "; must be one of " + known + ", " +
-                         std::string(kCompose)};
+                         std::string(kCompose) + ", " + std::string(kSteps)};
         }
         parts.compose |= name == kCompose;
+        parts.steps |= name == kSteps;
         for (const measure::BenchPart* part : found)
             if (std::find(parts.measured.begin(), parts.measured.end(), part) == parts.measured.end())
                 parts.measured.push_back(part);
@@ -235,6 +238,26 @@ Status prove(const measure::BenchPart& part, const measure::BenchRun& run, const
     return writeAll({{folder + "/" + std::string(part.name) + ".json", toBytes(proof->json)}});
 }
 
+// How long a page stands still while it draws the gallery's scenes, into steps.json.
+Status benchSteps(gl::Context& context, const BenchOptions& options) {
+    std::vector<fs::path> files;
+    std::error_code failed;
+    for (const fs::directory_entry& file : fs::directory_iterator(options.gallery, failed))
+        if (file.path().extension() == ".json") files.push_back(file.path());
+    if (failed) return Error{options.gallery + ": cannot be read (" + failed.message() + ")"};
+    std::sort(files.begin(), files.end());
+    std::vector<measure::StepTimes> times;
+    for (const fs::path& file : files) {
+        const Result<scene::Scene> scene =
+            scene::load(file.string(), scene::plainFiles(file.string()), technique::tables());
+        if (!scene) continue; // lists and strokes lie there as well
+        times.push_back(measure::timeSteps(context, file.stem().string(), *scene));
+        saying(kSteps)(times.back().scene);
+    }
+    std::fputs(measure::stepsText(times).c_str(), stdout);
+    return writeAll({{options.output + "/steps.json", toBytes(measure::stepsJson(times))}});
+}
+
 Status bench(const BenchOptions& options) {
     const Result<Parts> parts = parseParts(options.parts);
     if (!parts) return parts.error();
@@ -273,6 +296,8 @@ Status bench(const BenchOptions& options) {
                 return proved;
     if (parts->compose)
         if (Status proved = benchCompose(**context, options.output, options.quick); !proved) return proved;
+    if (parts->steps)
+        if (Status timed = benchSteps(**context, options); !timed) return timed;
     report.ratios.push_back({"MB resident with a relief of 512^2 texels", peakMB, 256, false});
     std::fputs(report.text().c_str(), stdout);
     // The figures first: minutes of measuring are not lost with a page that cannot be made.
@@ -294,6 +319,7 @@ std::string partsHelp() {
         add(part->name, part->help);
     }
     add(kCompose, "every lamp past everything on everything");
+    add(kSteps, "how long a page stands still while it draws the gallery");
     add("all", usual);
     return "Parts:\n" + text + "\n";
 }
