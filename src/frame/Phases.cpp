@@ -223,14 +223,6 @@ Status Renderer::State::recordBackground(const Passes& passes, TextureId shownId
     return Done{};
 }
 
-Status Renderer::State::addRest(const Picture& picture) {
-    composed = replaces(picture);
-    if (views::isGeometric(picture.scene.view.show)) return Done{};
-    const Status added = runGraph([&](graph::FrameGraph& graph) { return recordRest(graph, picture); });
-    context.device().wait(this->picture().handle());
-    return added;
-}
-
 // The mean of the samples so far, with the picture of the last one.
 Status Renderer::State::recordMean(graph::FrameGraph& graph, TextureId target) {
     std::vector<std::string> defines;

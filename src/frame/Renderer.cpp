@@ -24,6 +24,8 @@ Status Renderer::finish(const scene::Scene& scene, std::uint64_t revision, ivec2
         if (progress->complete) return Done{};
     }
 }
+bool Renderer::canPresent() const { return state_->presentable || state_->averaged; }
+
 Status Renderer::present(const scene::Scene& scene) {
     State& s = *state_;
     assert(s.shown && "present() before the first advance()");
@@ -100,6 +102,7 @@ Stats Renderer::stats() const {
 
 void Renderer::release() {
     State& s = *state_;
+    s.drop();
     for (graph::Texture* texture : {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable,
                                     &s.through, &s.mean, &s.truth})
         *texture = graph::Texture();

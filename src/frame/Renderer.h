@@ -72,6 +72,8 @@ public:
     Result<Progress> advance(const scene::Scene& scene, std::uint64_t revision, ivec2 size,
                              bool coarse = false);
 
+    /// Whether present() shows a picture: none that is being drawn into.
+    bool canPresent() const;
     /// Draws the picture so far, tone-mapped, into the default framebuffer (premultiplied alpha).
     Status present(const scene::Scene& scene);
     /// The same with a reference beside it, everything enlarged without smoothing.

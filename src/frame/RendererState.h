@@ -24,7 +24,8 @@ namespace lucent::frame {
 // about kSliceMs each; what is shown is the last complete stage, or the mean of the samples that are there.
 struct Renderer::State {
     static constexpr double kSliceMs = 40;
-    static constexpr int kFirstStage = 20; // directions
+    static constexpr double kPortionMs = 20; // of one pass
+    static constexpr int kFirstStage = 20;   // directions
     static constexpr int kStageFactor = 4;
 
     struct Stage {
@@ -46,6 +47,22 @@ struct Renderer::State {
         views::Eye eye;
         views::Drawn drawn, all;
         graph::TextureHandle environment = graph::TextureHandle::None;
+    };
+
+    // Passes that run portion by portion, and what they belong to.
+    struct Running {
+        Running(State& state, Moment of) : moment(std::move(of)), picture(state.pictureOf(moment)) {}
+        enum class Work { Slice, Rest, Again } work = Work::Slice;
+        Moment moment;
+        technique::Picture picture;
+        int end = 0;   // of the light samples that are summed
+        double ms = 0; // that it has taken
+        graph::FrameGraph graph;
+    };
+    // What a pixel of a pass took, and how many of them were drawn at once.
+    struct Cost {
+        double perPixel;
+        int pixels;
     };
 
     explicit State(gl::Context& gl);
@@ -74,6 +91,9 @@ struct Renderer::State {
     bool planning = false;                           // the settings are still to be chosen
     bool composed = false;                           // the picture stands in `through`
     bool averaged = false;                           // what is shown stands in `mean`
+    std::unique_ptr<Running> running;                // of this picture; null: nothing
+    std::map<std::string, Cost> costs;               // of passes
+    bool presentable = true;                         // picture() is not being drawn into
     bool whole = false;                              // a sample is complete, and not yet in the mean
     int sample = 0;                                  // of the pixels, that is being drawn
     int samples = 0;                                 // of this picture, that are shown
@@ -101,6 +121,13 @@ struct Renderer::State {
     void startStage(const scene::Scene& scene);
     Status slice(const scene::Scene& scene);
     Result<bool> ready(const Moment& moment);
+    Status begin(std::unique_ptr<Running> made, Running::Work work,
+                 const std::function<Status(Running&)>& record);
+    Status work();
+    bool runSome(double until);
+    Status follow();
+    Status showSum(Moment moment);
+    void drop();
     Status finishStage(const Moment& moment);
     Status settle(const scene::Scene& scene);
     Status takeSample(const scene::Scene& scene);
@@ -136,7 +163,7 @@ struct Renderer::State {
     Status recordBackground(const technique::Passes& passes, graph::TextureId shownId,
                             graph::TextureId target);
     Result<views::Posed> poseKeeping(graph::FrameGraph& graph, const technique::Picture& picture);
-    Status addRest(const technique::Picture& picture);
+    Status beginRest(Moment moment, Running::Work work);
     Status recordMean(graph::FrameGraph& graph, graph::TextureId target);
 
     std::vector<std::string> leftOut(const technique::Picture& picture) const;

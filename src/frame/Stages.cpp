@@ -78,6 +78,7 @@ Status Renderer::State::plan(const scene::Scene& scene) {
 void Renderer::State::start(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
                             Effort effort) {
     const bool looked = started && coarse && complete() && revision == newRevision && size == newSize;
+    drop();
     started = true;
     revision = newRevision;
     size = newSize;
@@ -230,43 +231,123 @@ Status Renderer::State::slice(const scene::Scene& scene) {
         surfaceShown = surfaceDrawn = false; // water has moved, or the samples of the pixels
     Result<Moment> moment = momentOf(scene);
     if (!moment) return moment.error();
-    const technique::Picture picture = pictureOf(*moment);
+    auto made = std::make_unique<Running>(*this, std::move(*moment));
     const bool geometric = views::isGeometric(scene.view.show);
     if (next == 0 && !geometric) {
-        const Result<bool> isReady = ready(*moment);
+        const Result<bool> isReady = ready(made->moment);
         if (!isReady) return isReady.error();
         if (!*isReady) return Done{};
-        if (Status prepared = prepare(picture); !prepared) return prepared;
+        if (Status prepared = prepare(made->picture); !prepared) return prepared;
     }
-    const int end = geometric ? int(lights.size()) : sliceEnd();
-    const bool more = end < int(lights.size());
-    if ((more || next > 0) && !scratch)
+    made->end = geometric ? int(lights.size()) : sliceEnd();
+    if ((made->end < int(lights.size()) || next > 0) && !scratch)
         scratch = graph::Texture(context.device(), sum.desc(), "frame.scratch");
+    return begin(std::move(made), Running::Work::Slice,
+                 [this](Running& slice) { return recordSlice(slice.graph, slice.picture, slice.end); });
+}
+
+// --- passes, portion by portion
+
+Status Renderer::State::begin(std::unique_ptr<Running> made, Running::Work work,
+                              const std::function<Status(Running&)>& record) {
     const double before = now();
-    const Status status =
-        runGraph([&](graph::FrameGraph& graph) { return recordSlice(graph, picture, end); });
-    if (!status) return status;
+    made->work = work;
+    if (Status recorded = record(*made); !recorded) return recorded;
+    if (Status compiled = made->graph.compile(); !compiled) return compiled;
+    made->ms = now() - before;
+    running = std::move(made);
+    return Done{};
+}
+
+// What has begun, for one slice of time.
+Status Renderer::State::work() {
+    const double until = now() + kSliceMs;
+    while (running && (atOnce || now() < until))
+        if (runSome(until))
+            if (Status followed = follow(); !followed) return followed;
+    return Done{};
+}
+
+// @return whether all passes have run
+bool Renderer::State::runSome(double until) {
+    constexpr int kFewest = 1 << 12, kFirst = 1 << 15; // pixels: of any pass, of one that was never drawn
+    constexpr double kCheapMs = 1;                     // not worth waiting for
+    gl::Device& device = context.device();
+    double before = now();
+    const auto most = [&](const std::string& pass) {
+        const auto known = costs.find(pass);
+        if (known == costs.end()) return kFirst;
+        const double affordable = kPortionMs / known->second.perPixel;
+        return std::max(kFewest, int(std::min(2.0 * known->second.pixels, affordable)));
+    };
+    if (atOnce) running->graph.execute(pool);
+    while (const auto portion = atOnce ? std::nullopt : running->graph.step(pool, most)) {
+        const auto known = costs.find(portion->pass);
+        const bool isCheap = known != costs.end() && known->second.perPixel * portion->pixels < kCheapMs;
+        if (!isCheap && portion->target != graph::TextureHandle::None) device.wait(portion->target);
+        const double after = now(), took = std::max(after - before, 1e-3);
+        if (!isCheap)
+            costs[portion->pass] = {took / std::max(portion->pixels, kFewest),
+                                    std::max(portion->pixels, kFirst)};
+        running->ms += took;
+        before = after;
+        if (after > until) return false;
+    }
+    const bool isSlice = running->work == Running::Work::Slice;
+    device.wait((!isSlice ? picture() : next > 0 ? scratch : sum).handle());
+    running->ms += now() - before; // waited for, so that what is reported as time is time
+    return true;
+}
+
+// All passes have run.
+Status Renderer::State::follow() {
+    const std::unique_ptr<Running> done = std::move(running);
+    passes += done->graph.livePasses();
+    workMs += done->ms;
+    if (std::string error = context.takeError(); !error.empty()) return Error{error, Fault::Machine};
+    if (done->work == Running::Work::Rest) return finishStage(done->moment);
+    if (done->work == Running::Work::Again) presentable = true;
+    if (done->work != Running::Work::Slice) return Done{};
     surfaceDrawn = true;
     if (next > 0) std::swap(sum, scratch);
-    context.device().wait(sum.handle()); // so that what is reported as time is time
-    const double took = now() - before;
-    workMs += took;
-    if (end > next) msPerLight = took / (end - next);
-    next = end;
-    return more ? Status(Done{}) : finishStage(*moment);
+    if (done->end > next) msPerLight = done->ms / (done->end - next);
+    next = done->end;
+    return next < int(lights.size()) ? Status(Done{}) : showSum(std::move(done->moment));
+}
+
+// The picture has changed while its passes ran.
+void Renderer::State::drop() {
+    if (!running) return;
+    running->graph.abandon(pool);
+    running.reset();
+    triangles.current = false;
+    for (const Member& member : members)
+        member.guest->forgetRecorded();
 }
 
 // All light samples of a stage are summed.
-Status Renderer::State::finishStage(const Moment& moment) {
+Status Renderer::State::showSum(Moment moment) {
     std::swap(sum, shown);
     if (!surfaceShown) {
         std::swap(surface, shownSurface);
         shownKey = surfaceKeyOf(moment.scene);
     }
     surfaceShown = true;
-    const double before = now();
-    if (Status added = addRest(pictureOf(moment)); !added) return added;
-    workMs += now() - before;
+    return beginRest(std::move(moment), Running::Work::Rest);
+}
+
+// Over the sum, what is not summed.
+Status Renderer::State::beginRest(Moment moment, Running::Work work) {
+    auto made = std::make_unique<Running>(*this, std::move(moment));
+    composed = replaces(made->picture);
+    if (views::isGeometric(made->moment.scene.view.show)) return finishStage(made->moment);
+    presentable = false;
+    return begin(std::move(made), work,
+                 [this](Running& rest) { return recordRest(rest.graph, rest.picture); });
+}
+
+Status Renderer::State::finishStage(const Moment& moment) {
+    presentable = true;
     stats.lights = int(lights.size());
     whole = !stages[stage].coarse;
     if (sample == 0) averaged = false;
@@ -302,7 +383,7 @@ Status Renderer::State::settle(const scene::Scene& scene) {
         if (!lacks) return lacks.error();
         again = again || *lacks;
     }
-    return again ? addRest(picture) : Status(Done{});
+    return again ? beginRest(std::move(*moment), Running::Work::Again) : Status(Done{});
 }
 
 // The picture of one sample of the pixels joins the mean of those before.
@@ -336,20 +417,24 @@ Result<Progress> Renderer::State::advance(const scene::Scene& scene, std::uint64
         addSamples(scene);
         if (over) startStage(scene);
     }
-    if (!complete() || whole || !settled(effort)) {
+    if (running || !complete() || whole || !settled(effort)) {
         Status status = Done{};
-        if ((complete() || whole) && !settled(effort))
+        if (running)
+            ; // goes on
+        else if ((complete() || whole) && !settled(effort))
             status = settle(scene);
         else if (!whole)
             status = stage < stages.size() ? slice(scene) : plan(scene);
-        if (status && whole && settled(effort)) status = takeSample(scene);
+        if (status) status = work();
+        if (status && !running && whole && settled(effort)) status = takeSample(scene);
         if (!status) {
+            drop();
             started = false;
             return status.error();
         }
     }
     Progress progress;
-    progress.complete = complete() && settled(effort);
+    progress.complete = complete() && !running && settled(effort);
     progress.samples = samples;
     float total = planning ? float(views::samplingOf(scene).directions) : 0, done = 0;
     for (std::size_t i = 0; i < stages.size(); ++i) {

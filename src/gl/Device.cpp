@@ -138,13 +138,17 @@ public:
         setBlend(draw.blend);
         const ivec4 region = draw.region.z > 0 ? draw.region : ivec4(0, 0, size_);
         glViewport(region.x, region.y, region.z, region.w);
+        const bool some = draw.rows.y > 0;
+        setState(GL_SCISSOR_TEST, some);
+        if (some) glScissor(0, draw.rows.x, size_.x, draw.rows.y - draw.rows.x);
+        const ivec4 covered = some ? ivec4(0, draw.rows.x, size_.x, draw.rows.y - draw.rows.x) : region;
         if (draw.indices == IndicesHandle::None)
             glDrawArraysInstanced(glTopology(draw.topology), 0, draw.vertices, draw.instances);
         else
             glDrawElementsInstanced(glTopology(draw.topology), draw.vertices, GL_UNSIGNED_INT, nullptr,
                                     draw.instances);
         ++device_.draws_;
-        if (std::find(drawn_.begin(), drawn_.end(), region) == drawn_.end()) drawn_.push_back(region);
+        if (std::find(drawn_.begin(), drawn_.end(), covered) == drawn_.end()) drawn_.push_back(covered);
     }
     /// The regions that were drawn, each once.
     const std::vector<ivec4>& drawn() const { return drawn_; }

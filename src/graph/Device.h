@@ -55,6 +55,7 @@ struct Draw {
     int instances = 1;
     Topology topology = Topology::Triangles;
     ivec4 region{0}; ///< x, y, width, height in pixels that are drawn; 0 wide: the whole target
+    ivec2 rows{0};   ///< of the target, from and to, that are drawn of it; to 0: all
     Cull cull = Cull::None;
     DepthTest depthTest = DepthTest::None; ///< with None the depth target keeps what it holds
     bool depthWrite = true;

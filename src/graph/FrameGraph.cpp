@@ -241,25 +241,102 @@ PassTarget FrameGraph::targetOf(const Pass& pass, const TexturePool& pool) const
     return target;
 }
 
+void FrameGraph::acquire(const Pass& pass, TexturePool& pool) {
+    for (const Target& target : pass.targets) {
+        Resource& resource = resources_[target.texture];
+        if (resource.imported == TextureHandle::None && resource.slot < 0)
+            resource.slot = int(pool.acquire(resource.desc, resource.label));
+    }
+}
+
+void FrameGraph::release(int pass, TexturePool& pool) {
+    for (int used : usesOf(passes_[pass])) {
+        Resource& resource = resources_[used];
+        if (resource.slot < 0 || resource.lastUse > pass) continue;
+        pool.release(resource.slot);
+        resource.slot = -1;
+    }
+}
+
 void FrameGraph::execute(TexturePool& pool) {
     for (int i = 0; i < int(passes_.size()); ++i) {
         const Pass& pass = passes_[i];
         if (!pass.live) continue;
-        for (const Target& target : pass.targets) {
-            Resource& resource = resources_[target.texture];
-            if (resource.imported == TextureHandle::None && resource.slot < 0)
-                resource.slot = int(pool.acquire(resource.desc, resource.label));
-        }
+        acquire(pass, pool);
         pool.device().runPass(targetOf(pass, pool), [&](Commands& commands) {
             pass.execute(PassResources(*this, pass, pool), commands);
         });
-        for (int used : usesOf(pass)) {
-            Resource& resource = resources_[used];
-            if (resource.slot < 0 || resource.lastUse > i) continue;
-            pool.release(resource.slot);
-            resource.slot = -1;
-        }
+        release(i, pool);
     }
+}
+
+namespace {
+// Keeps draws in place of drawing.
+struct Recorder : Commands {
+    std::vector<Draw> draws;
+    void draw(const Draw& draw) override { draws.push_back(draw); }
+};
+
+// Its pixels do not know of each other, and its triangle costs nothing.
+bool fillsTarget(const Draw& draw) {
+    return draw.vertices == 3 && draw.instances == 1 && draw.indices == IndicesHandle::None &&
+           draw.topology == Topology::Triangles && draw.region.z == 0;
+}
+} // namespace
+
+std::optional<FrameGraph::Portion> FrameGraph::step(TexturePool& pool,
+                                                    const std::function<int(const std::string&)>& most) {
+    while (next_ < passes_.size() && !passes_[next_].live)
+        ++next_;
+    if (next_ == passes_.size()) return std::nullopt;
+    const Pass& pass = passes_[next_];
+    const bool begins = !draws_;
+    if (begins) {
+        acquire(pass, pool);
+        Recorder recorder;
+        pass.execute(PassResources(*this, pass, pool), recorder);
+        draws_ = std::move(recorder.draws);
+        row_ = 0;
+    }
+    PassTarget target = targetOf(pass, pool);
+    if (!begins) {
+        target.depth.clear.reset();
+        for (Attachment& color : target.colors)
+            color.clear.reset();
+    }
+    const Target& first = pass.targets.front();
+    const ivec2 size = resources_[first.texture].desc.sizeOf(first.level);
+    std::size_t drawn = pass.query ? draws_->size() : std::min<std::size_t>(1, draws_->size());
+    int rows = size.y;
+    if (drawn == 1 && !pass.query && fillsTarget(draws_->front())) {
+        rows = std::clamp(most(pass.name) / size.x, 1, size.y - row_);
+        if (rows < size.y) draws_->front().rows = {row_, row_ + rows};
+    }
+    pool.device().runPass(target, [&](Commands& commands) {
+        for (std::size_t i = 0; i < drawn; ++i)
+            commands.draw((*draws_)[i]);
+    });
+    row_ += rows;
+    if (row_ < size.y)
+        drawn = 0;
+    else
+        row_ = 0;
+    draws_->erase(draws_->begin(), draws_->begin() + std::ptrdiff_t(drawn));
+    const TextureHandle color = target.colors.empty() ? TextureHandle::None : target.colors.front().texture;
+    if (draws_->empty()) {
+        draws_.reset();
+        release(int(next_++), pool);
+    }
+    return Portion{pass.name, rows * size.x, color};
+}
+
+void FrameGraph::abandon(TexturePool& pool) {
+    for (Resource& resource : resources_) {
+        if (resource.slot >= 0) pool.release(std::size_t(resource.slot));
+        resource.slot = -1;
+    }
+    draws_.reset();
+    next_ = passes_.size();
 }
 
 // --- telling

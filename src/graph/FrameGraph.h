@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -100,6 +101,21 @@ public:
     /// Runs the passes that are left, in the order they were added. After compile().
     void execute(TexturePool& pool);
 
+    /// What step() has run.
+    struct Portion {
+        const std::string& pass;
+        int pixels;           ///< rows of the target times its width
+        TextureHandle target; ///< None: depths alone
+    };
+    /// execute() by portions: a draw, or some rows of one that fills its target; a pass with a question
+    /// whole.
+    ///
+    /// @param most  pixels that may be drawn at once, by the name of their pass
+    /// @return      nothing when all passes have run
+    std::optional<Portion> step(TexturePool& pool, const std::function<int(const std::string&)>& most);
+    /// Gives back the textures of passes that have not run to their end.
+    void abandon(TexturePool& pool);
+
     int livePasses() const;
     /// One line a pass with reason, targets, size, format and bytes; culled passes at the end.
     std::string dump() const;
@@ -138,9 +154,16 @@ private:
     void cull();
     PassTarget targetOf(const Pass& pass, const TexturePool& pool) const;
     TextureHandle handleOf(const Resource& resource, const TexturePool& pool) const;
+    void acquire(const Pass& pass, TexturePool& pool);
+    void release(int pass, TexturePool& pool);
 
     std::vector<Resource> resources_;
     std::vector<Pass> passes_;
+
+    // of step()
+    std::size_t next_ = 0;                   ///< pass
+    std::optional<std::vector<Draw>> draws_; ///< of a pass that has begun, those that are left
+    int row_ = 0;                            ///< of the first of them
 };
 
 } // namespace lucent::graph

@@ -27,7 +27,7 @@ bool Viewer::State::advance() {
         stale = false;
         phase = Phase::Look;
     }
-    if (phase == Phase::Done || (refines() && held)) return false;
+    if (phase == Phase::Done || rests()) return false;
     if (!renderer) renderer = std::make_unique<frame::Renderer>(*context);
     const Result<frame::Progress> progress =
         renderer->advance(picture, pictureNumber, size, phase == Phase::Look);

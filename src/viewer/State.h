@@ -234,8 +234,10 @@ struct Viewer::State {
         const bool seen = play.playing && phase == Phase::Refine && shown;
         return scene && !stale && (phase == Phase::Smooth || phase == Phase::Done || seen);
     }
-    bool refines() const { return phase == Phase::Refine || phase == Phase::Smooth; }
-    bool working() const { return scene && (stale || phase == Phase::Look || (refines() && !held)); }
+    bool canPresent() const { return !renderer || renderer->canPresent(); }
+    // A hand is on a picture that a look shows.
+    bool rests() const { return (phase == Phase::Refine || phase == Phase::Smooth) && held && canPresent(); }
+    bool working() const { return scene && (stale || (phase != Phase::Done && !rests())); }
 };
 
 } // namespace lucent::viewer

@@ -145,7 +145,8 @@ bool Viewer::draw(double nowSeconds) {
     if (!s.settled) s.settle();
     wait = std::max(wait, s.tooltipWait(nowSeconds));
     const std::uint64_t hash = s.frameHash();
-    const bool paintable = s.shown || !s.working(); // a new size waits for its first picture
+    // A new size waits for its first picture, and no picture is shown that is being drawn into.
+    const bool paintable = (s.shown && s.canPresent()) || !s.working();
     if (paintable && (isNew || hash != s.shownHash)) {
         if (Status painted = s.paint(); !painted) showMessage(painted.error().message);
         s.shownHash = hash;

@@ -53,6 +53,9 @@ public:
         asked_ = 0;
     }
 
+    /// What was asked last has not run: nobody answers.
+    void withdraw() { asked_ = 0; }
+
     /// Layers to draw.
     int drawn() const { return std::max(1, known_); }
     /// For the frame that draws drawn() layers; empty while an answer is still on its way, so that frames

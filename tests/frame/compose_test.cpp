@@ -132,9 +132,13 @@ TEST_F(Composed, ALookWaitsForNoAnswer) {
     Renderer renderer(*context);
     for (std::uint64_t revision = 1; revision < 4; ++revision) {
         scene.camera.eye.x += 0.1f;
-        const Result<Progress> look = renderer.advance(scene, revision, scene.size, true);
-        ASSERT_TRUE(look.ok());
-        EXPECT_TRUE(look->complete);
+        int frames = 0;
+        for (bool complete = false; !complete; ++frames) { // some for its own passes
+            const Result<Progress> look = renderer.advance(scene, revision, scene.size, true);
+            ASSERT_TRUE(look.ok());
+            complete = look->complete;
+            ASSERT_LT(frames, 30);
+        }
     }
     // An answer that does not come is read back in the end.
     int frames = 0;

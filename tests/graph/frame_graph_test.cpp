@@ -21,9 +21,11 @@ public:
     }
     void destroyIndices(IndicesHandle handle) override { indices.erase(std::uint32_t(handle)); }
     void runPass(const PassTarget& target, const std::function<void(Commands&)>& body) override {
-        struct Nothing : Commands {
-            void draw(const Draw&) override {}
-        } commands;
+        struct Noting : Commands {
+            explicit Noting(std::vector<Draw>& list) : draws(list) {}
+            void draw(const Draw& draw) override { draws.push_back(draw); }
+            std::vector<Draw>& draws;
+        } commands(draws);
         passes.push_back(std::string(target.label));
         targets.push_back(target);
         body(commands);
@@ -32,6 +34,7 @@ public:
     std::set<std::uint32_t> alive, indices;
     std::vector<std::string> passes;
     std::vector<PassTarget> targets;
+    std::vector<Draw> draws;
 };
 
 constexpr TextureDesc kSmall{.size = {4, 4}, .format = Format::RGBA32F};
@@ -415,6 +418,60 @@ TEST(Texture, IsDestroyedOnceWhenMoved) {
         b = Texture();
         EXPECT_EQ(device.alive.size(), 0u);
     }
+}
+
+TEST_F(FrameGraphTest, StepsRunDrawsOneByOneAndRowsOfThoseThatFillTheirTarget) {
+    const TextureId kept = graph.import(TextureHandle(77), {.size = {10, 7}}, "kept");
+    graph.addPass("mixed", [&](PassBuilder& pass) -> Execute {
+        pass.write(kept);
+        pass.clear(kept, vec4(0));
+        return [](const Resources&, Commands& commands) {
+            commands.draw({.vertices = 36});
+            commands.draw({});
+            commands.draw({.region = {1, 2, 3, 4}});
+        };
+    });
+    graph.keep(kept);
+    ASSERT_TRUE(graph.compile().ok());
+    std::vector<int> pixels;
+    while (const auto portion = graph.step(pool, [](const std::string&) { return 35; })) { // three rows
+        EXPECT_EQ(portion->pass, "mixed");
+        EXPECT_EQ(portion->target, TextureHandle(77));
+        pixels.push_back(portion->pixels);
+    }
+    EXPECT_EQ(pixels, (std::vector<int>{70, 30, 30, 10, 70}));
+    ASSERT_EQ(device.draws.size(), 5u);
+    const ivec2 rows[] = {{0, 0}, {0, 3}, {3, 6}, {6, 7}, {0, 0}};
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(device.draws[i].rows, rows[i]) << i;
+        EXPECT_EQ(device.targets[i].colors[0].clear.has_value(), i == 0) << i; // once
+    }
+}
+
+TEST_F(FrameGraphTest, StepsEndWhereExecuteEndsAndHoldNoTexture) {
+    const TextureId a = addMaker("a");
+    addFinal({addMaker("b", {a})});
+    ASSERT_TRUE(graph.compile().ok());
+    const auto all = [](const std::string&) { return 1 << 20; };
+    ASSERT_TRUE(graph.step(pool, all).has_value());
+    graph.abandon(pool);
+    EXPECT_FALSE(graph.step(pool, all).has_value());
+    pool.trim();
+    pool.trim(); // what was not used since
+    EXPECT_TRUE(device.alive.empty());
+
+    FrameGraph whole;
+    std::swap(graph, whole);
+    screen = graph.import(TextureHandle::Screen, {.size = {4, 4}}, "screen");
+    device.passes.clear();
+    addFinal({addMaker("b", {addMaker("a")})});
+    ASSERT_TRUE(graph.compile().ok());
+    while (graph.step(pool, all)) {
+    }
+    EXPECT_EQ(device.passes, (std::vector<std::string>{"a", "b", "final"}));
+    pool.trim();
+    pool.trim();
+    EXPECT_TRUE(device.alive.empty());
 }
 
 } // namespace

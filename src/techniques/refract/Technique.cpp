@@ -107,7 +107,7 @@ public:
         return counter_.drawn() > drawn;
     }
     void forgetRecorded() override {
-        counter_.reset();
+        counter_.withdraw();
         layers_.current = false;
     }
     std::vector<std::string> leftOut(const Picture& picture) const override {
