@@ -262,7 +262,8 @@ Status Renderer::State::begin(std::unique_ptr<Running> made, Running::Work work,
 // What has begun, for one slice of time.
 Status Renderer::State::work() {
     const double until = now() + kSliceMs;
-    while (running && (atOnce || now() < until))
+    // Whoever looks on is not kept waiting for programs either.
+    while (running && (atOnce || (now() < until && !context.isCompiling())))
         if (runSome(until))
             if (Status followed = follow(); !followed) return followed;
     return Done{};
