@@ -126,15 +126,12 @@ TEST_F(Caustics, ASineOnWaterLightsTheFloorAsTheSumOverItsRoots) {
         double picture, amplitude, wavelength, depth; // m
         scene::Water water;
         Settings settings;
+        double misplaced;
     };
-    const Case cases[] = {{1,
-                           0.015,
-                           0.25,
-                           0.6,
-                           {.size = {2, 2}, .cells = 640},
-                           {.grid = 256, .mapSize = 1024}}, // measured 0.6 %
-                          {0.5, 0.05, 0.5, 1, {}, {}}};     // as it is by default
-    for (const Case& one : cases) {
+    const Case fine{1,    0.015, 0.25, 0.6, {.size = {2, 2}, .cells = 640}, {.grid = 1024, .mapSize = 1024},
+                    0.005};                            // measured 0.2 %
+    const Case usual{0.5, 0.05, 0.5, 1, {}, {}, 0.01}; // all of it as it is by default
+    for (const Case& one : {fine, usual}) {
         scene::Water water = one.water;
         water.damping = 0;
         water.amplitude = float(one.amplitude);
@@ -145,8 +142,8 @@ TEST_F(Caustics, ASineOnWaterLightsTheFloorAsTheSumOverItsRoots) {
         const Image truth =
             lightOfWater({128, 128}, one.picture, one.amplitude, one.wavelength, kIor, one.depth);
         EXPECT_GT(*std::max_element(truth.pixels.begin(), truth.pixels.end()), 3); // it folds
-        EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.005);
-        EXPECT_LT(misplaced(shown.light, truth), 0.01) << one.wavelength;
+        EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.005) << one.wavelength;
+        EXPECT_LT(misplaced(shown.light, truth), one.misplaced) << one.wavelength;
         expectClosed(shown.energy);
     }
 }
