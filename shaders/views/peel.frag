@@ -16,6 +16,7 @@ layout(location = 0) out vec4 oLayer;
 layout(location = 1) out vec2 oDone;
 
 void main() {
+    if (isCut(mesh.view, placeFrom(mesh.view, gl_FragCoord.xy, vDepth))) discard;
     vec4 texel = vec4(vDepth, vTriangle, float(2 * mesh.object + (gl_FrontFacing ? 1 : 2)));
 #ifndef PEEL_FIRST
     vec2 before = texelFetch(uBefore, ivec2(gl_FragCoord.xy), 0).xy;

@@ -9,6 +9,7 @@ in float vDepth;
 layout(location = 0) out vec4 oSurface;
 
 void main() {
+    if (isCut(mesh.view, placeFrom(mesh.view, gl_FragCoord.xy, vDepth))) discard;
     vec3 n = gl_FrontFacing ? vNormal : -vNormal;
     oSurface = vec4(octahedralFrom(normalize(n)), vDepth, packSurface(mesh.object, kMeshFace, 1.0));
 }

@@ -55,7 +55,10 @@ void main() {
     float reference = 0.5 * (surface.field.lowest + surface.field.highest);
     float z0 = far.z - reference * surface.field.heightScale;
     Ray ray = rayFrom(g, z0, direction, reference, 0.0, surface.field);
-    Crossing hit = walk(ray, surface.field, -reach, reach, 0.0);
+    float slope = dot(surface.cut.xyz, direction), above = dot(surface.cut, vec4(far, 1.0));
+    if (slope <= 0.0 && above < 0.0) discard;
+    float from = slope > 0.0 ? max(-reach, -above / slope) : -reach;
+    Crossing hit = walk(ray, surface.field, from, reach, 0.0);
     if (hit.entry > reach) discard;
 
     vec2 hitG = vec2(ray.base) + ray.origin + hit.entry * ray.step;

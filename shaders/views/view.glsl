@@ -8,7 +8,11 @@ struct View {
     vec4 up;
     vec2 size;    // pixels
     vec2 middle;  // pixel coordinates that `forward` goes through
+    vec4 cut;     // plane from the eye: what lies where dot(cut, (place, 1)) is below 0 is not shown
 };
+
+// Whether a place lies before what the view shows, as behind the mirror whose view it is.
+bool isCut(View view, vec3 place) { return dot(view.cut.xyz, place) + view.cut.w < 0.0; }
 
 // From the eye to a place.
 vec3 placeFrom(View view, vec2 pixel, float depth) {

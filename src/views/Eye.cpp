@@ -66,7 +66,8 @@ ViewBlock viewBlock(const Eye& eye, ivec2 size) {
             .right = vec4(pixel.x * eye.right, eye.nearest),
             .up = vec4(pixel.y * eye.up, 0),
             .size = vec2(size),
-            .middle = 0.5f * vec2(size) * (1.0f - eye.shift)};
+            .middle = 0.5f * vec2(size) * (1.0f - eye.shift),
+            .cut = eye.cut + vec4(0, 0, 0, glm::dot(vec3(eye.cut), eye.position))};
 }
 
 Eye makeEye(const scene::Scene& scene, float aspect, float nearestPart, vec2 shift) {

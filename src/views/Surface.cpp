@@ -51,6 +51,7 @@ void drawField(graph::Commands& commands, const gl::Program& program, const Draw
         .clipFromObject = clipFromObject,
         .objectFromPixel = mat4(glm::inverse(glm::dmat4(clipFromObject)) * clipFromPixel),
         .depthFromObject = vec4(eye.forward, -glm::dot(eye.forward, eye.position)) * worldFromObject,
+        .cut = eye.cut * worldFromObject,
         .eye = eye.inObject(worldFromObject),
         .field = drawn.field->block(drawn.object->field()),
         .size = vec2(size),
