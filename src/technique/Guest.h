@@ -6,6 +6,7 @@
 #include "light/Samples.h"
 #include "views/FieldTextures.h"
 #include "views/Objects.h"
+#include "views/Surroundings.h"
 
 #include <map>
 #include <string>
@@ -31,6 +32,7 @@ struct Picture {
     const views::Drawn& drawn;        ///< what the camera sees
     const views::Drawn& all;          ///< with what is hidden from it
     graph::TextureHandle environment; ///< lat-long map; None without one, or where it is switched off
+    const views::Surroundings* surroundings = nullptr; ///< what Guest::lookAround() asked for; null: nothing
 };
 
 /// The same while a graph of passes is recorded.
@@ -97,6 +99,9 @@ public:
     virtual ~Guest() = default;
 
     // --- before the passes of a stage
+
+    /// Asks for views from elsewhere, where rays leave what the camera shows.
+    virtual void lookAround(const Picture&, views::Outlooks&) const {}
 
     /// Makes what record functions need: tables, counts, plans. Only where the scene needs the technique.
     virtual Status prepare(const Picture&) { return Done{}; }

@@ -1,0 +1,212 @@
+// views/surroundings.glsl: what a ray shows that has left a mirror or refractive objects, by cube views from there.
+//
+// A look at the cube says how far a place lies before what is seen in its direction. A crossing is looked for where that
+// changes its sign, and lies on the plane of the surface that the texel shows: depths between texels need no guess.
+// Where the ray passes behind an edge instead, what it may meet there is hidden from the cube's middle: it goes on as
+// what is seen beside the edge, as a floor does behind a ball that stands on it.
+//
+// in    uAround       radiance; layer 6 * cube + face (+x, -x, +y, -y, +z, -z)
+//       uAroundSolid  x: depth along the face's axis [m]; yz: octahedral normal towards the middle; w: number of the
+//                     object in the scene + 1, 0: nothing there
+// The file that includes this defines AROUND, an Around, and environmentAt(direction).
+#include "lib/octahedral.glsl"
+uniform sampler2DArray uAround;
+uniform sampler2DArray uAroundSolid;
+
+const int kMostLooks = 256;
+const float kTexelsALook = 2.0;
+const int kHalvings = 5;
+const float kSamePlane = 2.0; // texels from the one that shows a plane, within which it may be met: normals are the
+                              // texel's own, surfaces bend
+
+struct Glance {
+    float gap;   // [m] by which a place lies before the plane of the surface there; 1e30: nothing there
+    ivec3 texel;
+    vec4 solid;
+};
+
+struct Met {
+    float t;    // m along the ray; 1e30: nothing
+    vec3 place; // from the cube's middle
+    vec3 normal;
+    int object;
+    vec3 radiance;
+};
+
+// A vector by a face: to its right, up, and along its axis.
+vec3 inFace(int face, vec3 v) {
+    float side = (face & 1) == 0 ? 1.0 : -1.0;
+    if (face < 2) return vec3(side * v.z, v.y, side * v.x);
+    if (face < 4) return vec3(-side * v.x, -v.z, side * v.y);
+    return vec3(-side * v.x, v.y, side * v.z);
+}
+
+vec3 fromFace(int face, vec3 u) {
+    float side = (face & 1) == 0 ? 1.0 : -1.0;
+    if (face < 2) return vec3(side * u.z, u.y, side * u.x);
+    if (face < 4) return vec3(-side * u.x, side * u.z, -u.y);
+    return vec3(-side * u.x, u.y, side * u.z);
+}
+
+int faceTowards(vec3 v) {
+    vec3 a = abs(v);
+    if (a.x >= a.y && a.x >= a.z) return v.x > 0.0 ? 0 : 1;
+    if (a.y >= a.z) return v.y > 0.0 ? 2 : 3;
+    return v.z > 0.0 ? 4 : 5;
+}
+
+float sizeOfFace() { return float(textureSize(uAroundSolid, 0).x); }
+
+bool isShown(int layer) {
+    return ((int(AROUND.cubes[layer / 6].reflectance.a) >> (layer % 6)) & 1) == 1;
+}
+
+vec2 pixelIn(vec3 u) { return (0.5 + 0.5 * u.xy / max(u.z, 1e-20)) * sizeOfFace(); }
+
+// Where a texel's surface lies.
+vec3 placeOf(ivec3 texel, float depth) {
+    vec2 p = (2.0 * vec2(texel.xy) + 1.0) / sizeOfFace() - 1.0;
+    return fromFace(texel.z % 6, vec3(depth * p, depth));
+}
+
+Glance glanceAt(int cube, vec3 v) {
+    int face = faceTowards(v);
+    int layer = 6 * cube + face;
+    ivec3 texel = ivec3(clamp(ivec2(pixelIn(inFace(face, v))), ivec2(0), ivec2(sizeOfFace()) - 1), layer);
+    vec4 solid = isShown(layer) ? texelFetch(uAroundSolid, texel, 0) : vec4(0.0);
+    float gap = solid.w == 0.0 ? 1e30 : dot(v - placeOf(texel, solid.x), fromOctahedral(solid.yz));
+    return Glance(gap, texel, solid);
+}
+
+// Where a ray meets the plane of a texel's surface from the front; below 0: it does not.
+float planeAlong(Glance glance, vec3 origin, vec3 direction) {
+    vec3 n = fromOctahedral(glance.solid.yz);
+    float slope = dot(direction, n);
+    if (glance.solid.w == 0.0 || slope > -1e-4) return -1.0;
+    return dot(placeOf(glance.texel, glance.solid.x) - origin, n) / slope;
+}
+
+// The same where it does so near the texel.
+float surfaceAlong(Glance glance, vec3 origin, vec3 direction) {
+    float t = planeAlong(glance, origin, direction);
+    vec3 u = inFace(glance.texel.z % 6, origin + t * direction);
+    vec2 apart = abs(pixelIn(u) - vec2(glance.texel.xy) - 0.5);
+    return u.z > 0.0 && max(apart.x, apart.y) < kSamePlane ? t : -1.0;
+}
+
+// Of the surface that a texel shows, at a place on it: between the texels around that show it too.
+Met metAt(Glance glance, float t, vec3 place) {
+    vec3 n = fromOctahedral(glance.solid.yz);
+    ivec2 most = ivec2(sizeOfFace()) - 1;
+    vec3 u = inFace(glance.texel.z % 6, place);
+    vec2 at = pixelIn(u) - 0.5;
+    vec2 low = floor(at), f = at - low;
+    float width = 2.0 * u.z / sizeOfFace();
+    vec3 radiance = vec3(0.0), normal = vec3(0.0);
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 corner = ivec2(i & 1, i >> 1);
+        ivec3 texel = ivec3(clamp(ivec2(low) + corner, ivec2(0), most), glance.texel.z);
+        vec4 solid = texelFetch(uAroundSolid, texel, 0);
+        if (solid.w != glance.solid.w || abs(dot(placeOf(texel, solid.x) - place, n)) > width) continue;
+        vec2 share = mix(1.0 - f, f, vec2(corner));
+        float weight = share.x * share.y + 1e-6;
+        radiance += weight * texelFetch(uAround, texel, 0).rgb;
+        normal += weight * fromOctahedral(solid.yz);
+        sum += weight;
+    }
+    if (sum == 0.0) return Met(t, place, n, int(glance.solid.w) - 1, texelFetch(uAround, glance.texel, 0).rgb);
+    return Met(t, place, normalize(normal), int(glance.solid.w) - 1, radiance / sum);
+}
+
+// Where a ray has left all that there is, and a little farther.
+float endOf(vec3 origin, vec3 direction) {
+    vec3 slow = mix(direction, vec3(1e-20), lessThan(abs(direction), vec3(1e-20)));
+    vec3 t = (mix(AROUND.low.xyz, AROUND.high.xyz, step(0.0, slow)) - origin) / slow;
+    return min(t.x, min(t.y, t.z)) + 0.01 * distance(AROUND.low.xyz, AROUND.high.xyz);
+}
+
+bool isOfItself(int cube) { return AROUND.cubes[cube].place.w < -1.5; }
+
+// What a ray meets first, both from the cube's middle.
+Met meetAround(int cube, vec3 origin, vec3 direction) {
+    Met met = Met(1e30, vec3(0.0), vec3(0.0), -1, vec3(0.0));
+    float end = endOf(origin + AROUND.cubes[cube].place.xyz, direction);
+    if (end <= 0.0) return met;
+    // Looks are spaced evenly in the angle that the middle sees.
+    float along = dot(origin, direction);
+    float aside = max(length(origin - along * direction), 1e-3 * end);
+    float first = atan(along, aside), last = atan(along + end, aside);
+    int looks = int(clamp(ceil((last - first) * sizeOfFace() / (1.5707963 * kTexelsALook)), 1.0, float(kMostLooks)));
+
+    Glance before = glanceAt(cube, origin);
+    float from = 0.0;
+    float touching = 4.0 * length(origin) / sizeOfFace();
+    float least = isOfItself(cube) ? touching : 0.0; // it begins on what the cube shows
+    bool isBefore = before.gap > -touching;
+    Glance beside = before; // what lies beside the edge that the ray is behind of
+    for (int i = 1; i <= looks; ++i) {
+        float to = i == looks ? end : aside * tan(mix(first, last, float(i) / float(looks))) - along;
+        Glance after = glanceAt(cube, origin + to * direction);
+        Glance next = after;
+        if (isBefore && after.gap < 0.0) {
+            float low = from, high = to;
+            for (int halving = 0; halving < kHalvings; ++halving) {
+                float middle = 0.5 * (low + high);
+                Glance there = glanceAt(cube, origin + middle * direction);
+                if (there.gap < 0.0) {
+                    high = middle;
+                    after = there;
+                } else {
+                    low = middle;
+                    before = there;
+                }
+            }
+            float t = surfaceAlong(after, origin, direction);
+            if (t >= least) return metAt(after, t, origin + t * direction);
+            t = surfaceAlong(before, origin, direction);
+            if (t >= least) return metAt(before, t, origin + t * direction);
+            beside = before;
+            isBefore = false;
+        } else if (!isBefore && after.gap >= 0.0) {
+            isBefore = true;
+        }
+        if (!isBefore) {
+            float t = planeAlong(beside, origin, direction);
+            if (t >= max(from, least) && t <= to) {
+                met = metAt(beside, t, placeOf(beside.texel, beside.solid.x));
+                met.place = origin + t * direction;
+                return met;
+            }
+        }
+        before = next;
+        from = to;
+    }
+    return met;
+}
+
+int cubeOf(int object) {
+    for (int i = 0; i < AROUND.count; ++i)
+        if (int(AROUND.cubes[i].place.w) == object && AROUND.cubes[i].reflectance.rgb != vec3(0.0)) return i;
+    return -1;
+}
+
+// Light along a ray that begins at a place of the world: what it meets, by way of further mirrors, or the environment.
+// a: coverage.
+vec4 lightAround(int cube, vec3 place, vec3 direction) {
+    vec3 weight = vec3(1.0);
+    for (int mirrors = 0;; ++mirrors) {
+        Met met = meetAround(cube, place - AROUND.cubes[cube].place.xyz, direction);
+        if (cube + 1 < AROUND.count && isOfItself(cube + 1)) {
+            Met itself = meetAround(cube + 1, place - AROUND.cubes[cube].place.xyz, direction);
+            if (itself.t < met.t) met = itself;
+        }
+        if (met.t > 1e29) return vec4(weight, 1.0) * environmentAt(direction);
+        int next = mirrors < AROUND.further ? cubeOf(met.object) : -1;
+        if (next < 0) return vec4(weight * met.radiance, 1.0);
+        weight *= AROUND.cubes[next].reflectance.rgb;
+        place = met.place + AROUND.cubes[cube].place.xyz;
+        direction = reflect(direction, met.normal);
+        cube = next;
+    }
+}
