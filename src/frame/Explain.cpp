@@ -66,6 +66,9 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     }
     const Result<State::Moment> moment = s.readyMoment(scene);
     if (!moment) return moment.error();
+    s.cubesFor.reset();
+    s.flatFor.reset();
+    if (Status r = s.survey(*moment); !r) return r.error();
     const technique::Picture picture = s.pictureOf(*moment);
     graph::FrameGraph graph;
     const TextureDesc screen{.size = size, .format = Format::RGBA8};
@@ -86,7 +89,8 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
         return r.error();
     if (Status compiled = graph.compile(); !compiled) return compiled.error();
     s.started = false;
-    s.triangles.current = false;
+    s.triangles.current = s.surveyed = false;
+    s.asides.clear();
     for (const State::Member& member : s.members)
         member.guest->forgetRecorded();
 
@@ -96,6 +100,7 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     for (const State::Member& member : s.members)
         if (const auto reason = member.technique->need(scene))
             text += "  " + std::string(member.technique->name) + ": " + *reason + "\n";
+    text += "views from elsewhere\n" + linesOf(s.aroundLines(), "no ray leaves what the camera shows");
     text += "passes, in the order they run\n" + graph.dump();
     text += "textures that stay\n";
     const auto line = [&](const std::string& label, std::size_t bytes) {

@@ -20,7 +20,9 @@ using views::hasEnvironment;
 
 } // namespace
 
-Renderer::State::State(gl::Context& gl) : context(gl), pool(gl.device()), images(gl), waters(gl), budget(gl) {
+Renderer::State::State(gl::Context& gl, Supplies* of)
+    : context(gl), pool(gl.device()), own(of ? nullptr : std::make_unique<Supplies>(gl)),
+      images((of ? *of : *own).images), waters((of ? *of : *own).waters), budget(gl) {
     for (const technique::Technique* technique : technique::all())
         members.push_back({technique, technique->make({context, pool, images})});
     for (const Member& member : members)
@@ -35,7 +37,10 @@ int Renderer::State::pixelSamples(const scene::Scene& scene) const {
 
 views::Eye Renderer::State::eyeOf(const scene::Scene& scene) const {
     const vec2 offset = views::pixelOffset(sample, pixelSamples(scene));
-    return views::makeEye(scene, float(size.x) / float(size.y), 1e-3f, 2.0f * offset / vec2(size));
+    views::Eye eye =
+        views::makeEye(scene, float(size.x) / float(size.y), 1e-3f, shift + 2.0f * offset / vec2(size));
+    eye.cut = cut;
+    return eye;
 }
 
 Result<Renderer::State::Moment> Renderer::State::momentOf(const scene::Scene& scene) {

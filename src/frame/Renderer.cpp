@@ -109,6 +109,12 @@ void Renderer::release() {
     s.shownKey.reset();
     s.triangles = {};
     s.waters.clear();
+    s.elsewhere.reset();
+    s.surroundings = {};
+    s.cubesFor.reset();
+    s.flatFor.reset();
+    for (graph::Texture* texture : {&s.aroundRadiance, &s.aroundSolid, &s.flatPictures})
+        *texture = graph::Texture();
     for (const State::Member& member : s.members)
         member.guest->clear();
     s.images.clear();

@@ -2,6 +2,7 @@
 /// What a renderer holds. Private to this folder: each concern has its own file.
 ///   Stages.cpp    from few light samples to all: settings, stages, slices of work
 ///   Phases.cpp    one picture's passes: what the guests draw, phase by phase
+///   Surroundings.cpp  views from mirrors and refractive objects, for what the camera does not see
 ///   Display.cpp   from linear light to what is shown
 ///   Explain.cpp   what is drawn and why, in words
 ///   Renderer.cpp  the calls from outside
@@ -13,6 +14,7 @@
 #include "technique/Guest.h"
 #include "technique/Technique.h"
 #include "views/SurfaceKey.h"
+#include "views/Surroundings.h"
 
 #include <functional>
 #include <optional>
@@ -35,7 +37,8 @@ struct Renderer::State {
         int sample = 0; // of the pixels; 0: their middles
     };
 
-    enum class Effort { Coarse, Progressive, Final }; // one first look; looks, then all; all at once
+    // One first look; looks, then all; all in slices; all at once.
+    enum class Effort { Coarse, Progressive, Unseen, Final };
 
     struct Member {
         const technique::Technique* technique;
@@ -64,13 +67,33 @@ struct Renderer::State {
         double perPixel;
         int pixels;
     };
+    // What views from elsewhere share with the camera's.
+    struct Supplies {
+        explicit Supplies(gl::Context& gl) : images(gl), waters(gl) {}
+        views::ImageCache images;
+        views::Waters waters;
+    };
+    // All but the camera that a picture depends on.
+    struct SceneKey {
+        std::string text;
+        std::vector<views::ObjectKey> objects;
+        std::vector<std::shared_ptr<const void>> maps;
+        std::uint64_t waters;
+        bool operator==(const SceneKey&) const = default;
+    };
+    // One picture from elsewhere: a face of a cube view, or a flat mirror's.
+    struct Aside {
+        int cube = -1, face = 0, flat = -1;
+    };
 
-    explicit State(gl::Context& gl);
+    /// @param of  null: it has its own
+    explicit State(gl::Context& gl, Supplies* of = nullptr);
 
     gl::Context& context;
     graph::TexturePool pool;
-    views::ImageCache images;
-    views::Waters waters;
+    std::unique_ptr<Supplies> own;
+    views::ImageCache& images;
+    views::Waters& waters;
     std::vector<Member> members;
     Budget budget;
     std::vector<technique::Chooser*> choosers; // the guests', then the budget
@@ -81,6 +104,24 @@ struct Renderer::State {
     views::KeptTriangles triangles;          // of refractive objects,
     std::vector<views::ObjectKey> triangled; // as they stood
     std::uint64_t watersThen = 0;            // Waters::changes()
+
+    // what the camera does not see
+    views::Surroundings surroundings; // as drawn
+    views::Surroundings beyondFlat;   // what flat mirrors' pictures are drawn with: its cubes
+    graph::Texture aroundRadiance, aroundSolid, flatPictures;
+    std::vector<int> facesShown;      // of each cube: bits of those before which anything lies
+    std::vector<Aside> asides;        // to be drawn before the stage's picture
+    bool surveyed = false;            // they are known
+    std::optional<SceneKey> cubesFor; // what the cubes were drawn for
+    std::optional<std::pair<SceneKey, mat4>> flatFor;
+    int flatDrawn = 0;                        // bits
+    std::unique_ptr<State> elsewhere;         // draws them
+    std::unique_ptr<scene::Scene> asideScene; // that it draws; null: none is begun
+    std::uint64_t asideRevision = 0;
+    vec4 cut{0, 0, 0, 1};                       // of such a one: Eye::cut
+    vec2 shift{0};                              // Eye::shift
+    const views::Surroundings* given = nullptr; // of such a one: what its pictures know of their surroundings
+    std::size_t outlooksLeft = 0;               // cubes that were asked for and are too many
 
     // the picture being made
     std::uint64_t revision = 0;
@@ -142,6 +183,16 @@ struct Renderer::State {
     int sliceEnd() const;
     std::string choiceText() const;
 
+    // Surroundings.cpp
+    Status survey(const Moment& moment);
+    void surveyCubes(const Moment& moment, std::vector<views::Outlook> asked);
+    void surveyFlat(const Moment& moment, std::vector<views::FlatMirror> asked);
+    Result<bool> lookAround(const Moment& moment);
+    scene::Scene sceneFor(const Moment& moment, const Aside& aside) const;
+    Status keepAside(const scene::Scene& scene, const Aside& aside);
+    SceneKey sceneKey(const scene::Scene& scene) const;
+    std::vector<std::string> aroundLines() const;
+
     // Phases.cpp
     int pixelSamples(const scene::Scene& scene) const;
     views::Eye eyeOf(const scene::Scene& scene) const;
@@ -151,7 +202,8 @@ struct Renderer::State {
     Result<Moment> momentOf(const scene::Scene& scene);
     Result<Moment> readyMoment(const scene::Scene& scene);
     technique::Picture pictureOf(const Moment& moment) const {
-        return {moment.scene, waters, moment.eye, size, moment.drawn, moment.all, moment.environment};
+        return {moment.scene, waters,     moment.eye,         size,
+                moment.drawn, moment.all, moment.environment, given ? given : &surroundings};
     }
     std::vector<technique::Guest*> needed(const scene::Scene& scene) const;
     technique::Guest* replacing(const technique::Picture& picture) const;

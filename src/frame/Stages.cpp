@@ -121,7 +121,8 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool l
     const bool isThere = bakes && bakes->isBaked(used);
     const bool coarsens = directions > 2 * kFirstStage || bakes || !technique::knobs(scene).empty();
     const bool limited = scene.quality.maxError > 0 && dragged; // not as exact as is asked for
-    const bool hasLook = isLit && !isThere && effort != Effort::Final && (coarsens || limited);
+    const bool isShown = effort == Effort::Coarse || effort == Effort::Progressive;
+    const bool hasLook = isLit && !isThere && isShown && (coarsens || limited);
     if (hasLook && !looked) stages.push_back({std::min(directions, kFirstStage), false, true});
     coarse = dragged && hasLook;
     if (coarse) return;
@@ -156,6 +157,7 @@ float Renderer::State::shareOfStage(const scene::Scene& scene) const {
 
 void Renderer::State::startStage(const scene::Scene& scene) {
     next = 0;
+    surveyed = false;
     if (stage >= stages.size()) return;
     const scene::Scene used = chosen(scene);
     views::Sampling sampling = views::samplingOf(used);
@@ -237,6 +239,11 @@ Status Renderer::State::slice(const scene::Scene& scene) {
         const Result<bool> isReady = ready(made->moment);
         if (!isReady) return isReady.error();
         if (!*isReady) return Done{};
+        const double beforeAround = now();
+        const Result<bool> around = lookAround(made->moment);
+        workMs += now() - beforeAround;
+        if (!around) return around.error();
+        if (!*around) return Done{};
         if (Status prepared = prepare(made->picture); !prepared) return prepared;
     }
     made->end = geometric ? int(lights.size()) : sliceEnd();
@@ -361,7 +368,7 @@ Status Renderer::State::finishStage(const Moment& moment) {
     stats.draws = context.device().drawCount() - drawsBefore;
     stats.passes = passes;
     if (stage < stages.size()) return Done{};
-    images.trim();
+    if (own) images.trim(); // others share it
     pool.trim();
     return Done{};
 }

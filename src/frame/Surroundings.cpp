@@ -1,0 +1,341 @@
+// Views from mirrors and refractive objects: what rays meet that leave what the camera shows. Pictures like
+// the camera's, drawn by another state: cubes once for a scene, flat mirrors' pictures with each view.
+#include "frame/RendererState.h"
+
+#include "light/Samples.h"
+#include "light/ShadowMap.h"
+#include "scene/Load.h"
+#include "views/Surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lucent::frame {
+
+using graph::Format;
+using graph::TextureDesc;
+using graph::TextureId;
+
+namespace {
+
+constexpr int kFaces = 6;
+constexpr int kLeastFace = 32, kMostFace = 512; // pixels a side
+constexpr int kLeastDirections = 64;            // of an environment: a quarter, for six faces
+constexpr float kLeastFlat = 1.0f / 4096;       // of the picture: what covers less is seen by the cube
+
+// A face shows a quarter of a turn: as many pixels as the picture has along its longer side hold twice the
+// detail of a ball that fills it. Many cubes together take no more memory than two of the largest.
+int faceSize(ivec2 picture, std::size_t cubes) {
+    const float most =
+        float(kMostFace) * std::sqrt(std::min(1.0f, 2 / float(std::max<std::size_t>(1, cubes))));
+    return std::clamp(std::max(picture.x, picture.y), kLeastFace, int(most));
+}
+
+bool isEmpty(const views::Bounds& bounds) { return bounds.low.x > bounds.high.x; }
+
+// Whether any corner of a box lies before a mirror.
+bool reachesBefore(const views::FlatMirror& mirror, const views::Bounds& bounds) {
+    const vec3 farthest = glm::mix(bounds.low, bounds.high, glm::step(vec3(0), mirror.normal));
+    const float slack = 1e-4f * bounds.radius();
+    return glm::dot(farthest - mirror.place, mirror.normal) > slack;
+}
+
+void hide(scene::Scene& scene, const std::vector<int>& objects) {
+    for (const int object : objects)
+        scene.objects[std::size_t(object)].visible = false;
+}
+
+// The others cast their shadows still.
+void hideBehind(scene::Scene& scene, const views::FlatMirror& mirror) {
+    scene.objects[std::size_t(mirror.object)].visible = false;
+    for (scene::Object& object : scene.objects)
+        if (!reachesBefore(mirror, views::boundsOf(object))) object.visible = false;
+}
+
+// Bits of the faces of a cube view in which anything may be seen.
+int facesWithAnything(scene::Scene scene, const views::Outlook& cube) {
+    hide(scene, cube.hidden);
+    int faces = 0;
+    for (int face = 0; face < kFaces; ++face) {
+        scene.camera = views::cameraOf(cube, face);
+        const views::Eye eye = views::makeEye(scene, 1);
+        const bool shows =
+            std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+                return object.visible && !isEmpty(views::seenBy(eye, views::boundsOf(object)));
+            });
+        if (shows) faces |= 1 << face;
+    }
+    return faces;
+}
+
+bool showsAnything(const scene::Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(),
+                       [](const scene::Object& object) { return object.visible; });
+}
+
+} // namespace
+
+Renderer::State::SceneKey Renderer::State::sceneKey(const scene::Scene& scene) const {
+    scene::Scene still = scene;
+    still.camera = {};
+    still.size = ivec2(1);
+    still.view = {};
+    still.title = still.caption = "";
+    SceneKey key{scene::toJson(still) + (scene.view.matt ? " matt" : ""), {}, {}, waters.changes()};
+    for (const scene::Object& object : scene.objects) {
+        key.objects.push_back(views::objectKey(object, scene.view.time));
+        for (const auto& map :
+             {object.material.baseMap, object.material.diffuseMap, object.material.specularMap})
+            key.maps.push_back(map);
+        key.maps.push_back(object.painting);
+    }
+    if (scene.environment) key.maps.push_back(scene.environment->map);
+    return key;
+}
+
+// What is to be drawn before the picture of a stage. A first look keeps the cubes that there are.
+Status Renderer::State::survey(const Moment& moment) {
+    surveyed = true;
+    asides.clear();
+    asideScene.reset();
+    if (given) return Done{};
+    views::Outlooks asked;
+    const technique::Picture picture = pictureOf(moment);
+    if (moment.scene.view.show == scene::Aov::Color)
+        for (const technique::Guest* guest : needed(moment.scene))
+            guest->lookAround(picture, asked);
+    surroundings.bounds = {};
+    for (const scene::Object& object : moment.scene.objects)
+        if (const views::Bounds one = views::boundsOf(object); object.visible) {
+            surroundings.bounds.add(one.low);
+            surroundings.bounds.add(one.high);
+        }
+    surveyCubes(moment, std::move(asked.cubes));
+    surveyFlat(moment, std::move(asked.flat));
+    beyondFlat = surroundings;
+    beyondFlat.flat.clear();
+    beyondFlat.further = 0; // a flat mirror was the first
+    if (surroundings.cubes.empty() && surroundings.flat.empty()) elsewhere.reset();
+    if (asides.empty()) return Done{};
+    if (!elsewhere) elsewhere = std::make_unique<State>(context, own.get());
+    return Done{};
+}
+
+void Renderer::State::surveyCubes(const Moment& moment, std::vector<views::Outlook> asked) {
+    outlooksLeft = asked.size() - std::min(asked.size(), std::size_t(views::kMostCubes));
+    asked.resize(asked.size() - outlooksLeft);
+    const int side = faceSize(size, asked.size());
+    const TextureDesc desc{
+        .size = ivec2(side), .format = Format::RGBA16F, .layers = kFaces * int(asked.size())};
+    if (asked != surroundings.cubes || (aroundRadiance && aroundRadiance.desc() != desc)) {
+        surroundings.cubes = asked;
+        surroundings.faces.assign(asked.size(), 0);
+        aroundRadiance = graph::Texture();
+        aroundSolid = graph::Texture();
+        cubesFor.reset();
+    }
+    if (!asked.empty() && !aroundRadiance) {
+        TextureDesc solid = desc;
+        solid.format = Format::RGBA32F;
+        aroundRadiance = graph::Texture(context.device(), desc, "frame.aroundRadiance");
+        aroundSolid = graph::Texture(context.device(), solid, "frame.aroundSolid");
+    }
+    surroundings.radiance = aroundRadiance.handle();
+    surroundings.solid = aroundSolid.handle();
+    if (asked.empty() || isCoarse()) return;
+    SceneKey key = sceneKey(moment.scene);
+    if (cubesFor != key) {
+        cubesFor = std::move(key);
+        surroundings.faces.assign(asked.size(), 0);
+        facesShown.clear();
+        for (const views::Outlook& cube : asked)
+            facesShown.push_back(facesWithAnything(moment.scene, cube));
+    }
+    for (std::size_t cube = 0; cube < asked.size(); ++cube)
+        for (int face = 0; face < kFaces; ++face)
+            if (((facesShown[cube] & ~surroundings.faces[cube]) >> face) & 1)
+                asides.push_back({.cube = int(cube), .face = face});
+}
+
+void Renderer::State::surveyFlat(const Moment& moment, std::vector<views::FlatMirror> asked) {
+    std::erase_if(asked, [&](const views::FlatMirror& mirror) {
+        if (mirror.share < kLeastFlat) return true;
+        const scene::Object& object = moment.scene.objects[std::size_t(mirror.object)];
+        if (isEmpty(views::seenBy(moment.eye, views::boundsOf(object)))) return true;
+        scene::Scene seen = moment.scene;
+        hideBehind(seen, mirror);
+        return !showsAnything(seen);
+    });
+    std::stable_sort(asked.begin(), asked.end(),
+                     [](const auto& a, const auto& b) { return a.share > b.share; });
+    asked.resize(std::min(asked.size(), std::size_t(views::kMostFlat)));
+    surroundings.flat = std::move(asked);
+    if (surroundings.flat.empty()) {
+        flatPictures = graph::Texture();
+        flatFor.reset();
+    } else {
+        // An array, even for one.
+        const TextureDesc desc{
+            .size = size, .format = Format::RGBA16F, .layers = std::max(2, int(surroundings.flat.size()))};
+        if (!flatPictures || flatPictures.desc() != desc) {
+            flatPictures = graph::Texture(context.device(), desc, "frame.flatMirrors");
+            flatFor.reset();
+        }
+        std::pair<SceneKey, mat4> key{sceneKey(moment.scene), moment.eye.clipFromWorld};
+        if (isCoarse()) key.first.text += " coarse";
+        if (flatFor != key) flatDrawn = 0;
+        flatFor = std::move(key);
+        for (int i = 0; i < int(surroundings.flat.size()); ++i) // after the cubes: the last is drawn first
+            if (((flatDrawn >> i) & 1) == 0) asides.insert(asides.begin(), {.flat = i});
+    }
+    surroundings.mirrored = flatPictures.handle();
+}
+
+scene::Scene Renderer::State::sceneFor(const Moment& moment, const Aside& aside) const {
+    scene::Scene scene = moment.scene;
+    scene.quality.maxError = 0;
+    views::samplingOf(scene).pixelSamples = 1;
+    if (aside.flat >= 0) {
+        const views::FlatMirror& mirror = surroundings.flat[std::size_t(aside.flat)];
+        hideBehind(scene, mirror);
+        scene.camera = views::mirrored(scene.camera, mirror);
+    } else {
+        const views::Outlook& cube = surroundings.cubes[std::size_t(aside.cube)];
+        hide(scene, cube.hidden);
+        scene.camera = views::cameraOf(cube, aside.face);
+        views::Sampling& sampling = views::samplingOf(scene);
+        sampling.directions =
+            std::min(sampling.directions, std::max(kLeastDirections, sampling.directions / 4));
+    }
+    return scene;
+}
+
+// Draws for a slice of time. @return whether all that the stage's picture needs is there
+Result<bool> Renderer::State::lookAround(const Moment& moment) {
+    if (!surveyed)
+        if (Status done = survey(moment); !done) return done.error();
+    if (asides.empty()) return true;
+    static const views::Surroundings kNothing;
+    const Aside aside = asides.back();
+    const bool isFlat = aside.flat >= 0;
+    if (!asideScene) {
+        asideScene = std::make_unique<scene::Scene>(sceneFor(moment, aside));
+        ++asideRevision;
+    }
+    elsewhere->cut = vec4(0, 0, 0, 1);
+    elsewhere->shift = vec2(0);
+    if (isFlat) {
+        elsewhere->shift = moment.eye.shift * vec2(-1, 1);
+        const views::FlatMirror& mirror = surroundings.flat[std::size_t(aside.flat)];
+        elsewhere->cut = vec4(mirror.normal, -glm::dot(mirror.normal, mirror.place));
+    }
+    elsewhere->given = isFlat ? &beyondFlat : &kNothing;
+    const Effort effort = isCoarse() ? Effort::Coarse : atOnce ? Effort::Final : Effort::Unseen;
+    Result<Progress> progress =
+        elsewhere->advance(*asideScene, asideRevision, isFlat ? size : aroundRadiance.desc().size, effort);
+    if (progress && progress->complete) {
+        if (Status kept = keepAside(*asideScene, aside); !kept) progress = kept.error();
+        asideScene.reset();
+        asides.pop_back();
+    }
+    if (!progress) {
+        cubesFor.reset();
+        flatFor.reset();
+        return progress.error();
+    }
+    return asides.empty();
+}
+
+// The picture, and of a cube's also what it shows: refractive objects by their outside.
+Status Renderer::State::keepAside(const scene::Scene& scene, const Aside& aside) {
+    State& from = *elsewhere;
+    passes += from.passes;
+    const bool isCube = aside.cube >= 0;
+    const TextureDesc desc{.size = from.size, .format = Format::RGBA32F};
+    const graph::Texture linear(context.device(), desc, "frame.aside");
+    Result<Moment> moment = from.momentOf(scene);
+    if (!moment) return moment.error();
+    const std::vector<std::string> defines =
+        isCube ? std::vector<std::string>{"WITH_SOLID"} : std::vector<std::string>{};
+    const gl::Program* program = context.program("views/around", defines);
+    Status kept = from.runGraph([&](graph::FrameGraph& graph) -> Status {
+        const TextureId picture = import(graph, linear);
+        if (Status s = from.recordDisplay(graph, scene, picture, true); !s) return s;
+        TextureId surface, solid;
+        if (isCube) {
+            Result<views::Posed> posed =
+                views::recordPosed(graph, context, moment->all, scene.view.time, nullptr);
+            if (!posed) return posed.error();
+            std::vector<views::PosedMesh> meshes = views::Posed::visible(posed->solid);
+            const std::vector<views::PosedMesh> glass = views::Posed::visible(posed->glass);
+            meshes.insert(meshes.end(), glass.begin(), glass.end());
+            const auto& fields = moment->drawn.fields;
+            surface = graph.create("frame.asideSurface", desc);
+            solid = graph.create("frame.asideSolid", desc);
+            if (Status s =
+                    views::recordSurface(graph, context, moment->eye, fields, meshes, surface, from.size);
+                !s)
+                return s;
+            if (Status s = views::recordSolid(graph, context, moment->eye, fields, meshes, surface, solid,
+                                              from.size);
+                !s)
+                return s;
+        }
+        const TextureId radiances = import(graph, isCube ? aroundRadiance : flatPictures);
+        const TextureId solids = isCube ? import(graph, aroundSolid) : TextureId{};
+        const int layer = isCube ? kFaces * aside.cube + aside.face : aside.flat;
+        graph.addPass("views.around", [&](graph::PassBuilder& pass) -> graph::Execute {
+            pass.reason("what is seen from elsewhere");
+            pass.sample(picture);
+            pass.write(radiances, layer);
+            if (isCube) {
+                pass.sample(surface);
+                pass.sample(solid);
+                pass.write(solids, layer);
+            }
+            return [=](const graph::Resources& resources, graph::Commands& commands) {
+                std::vector<graph::Binding> textures{{"uPicture", resources[picture]}};
+                if (isCube) {
+                    textures.push_back({"uSurface", resources[surface]});
+                    textures.push_back({"uSolid", resources[solid]});
+                }
+                commands.draw({.program = program, .textures = std::move(textures)});
+            };
+        });
+        graph.keep(radiances);
+        if (isCube) graph.keep(solids);
+        return Done{};
+    });
+    if (!kept) return kept;
+    if (isCube) {
+        surroundings.faces[std::size_t(aside.cube)] |= 1 << aside.face;
+        beyondFlat.faces = surroundings.faces;
+    } else {
+        flatDrawn |= 1 << aside.flat;
+    }
+    return Done{};
+}
+
+std::vector<std::string> Renderer::State::aroundLines() const {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < surroundings.cubes.size(); ++i) {
+        int faces = 0;
+        for (int face = 0; face < kFaces; ++face)
+            faces += i < facesShown.size() ? (facesShown[i] >> face) & 1 : 0;
+        const bool isOfItself = surroundings.cubes[i].object < -1;
+        lines.push_back((isOfItself ? "of itself, " : "") +
+                        ("from \"" + surroundings.cubes[i].name + "\": ") + std::to_string(faces) +
+                        " face(s) of a cube, " + std::to_string(aroundRadiance.desc().size.x) +
+                        " pixels a side: rays leave it towards what the camera need not see");
+    }
+    for (const views::FlatMirror& mirror : surroundings.flat)
+        lines.push_back("the camera's view mirrored by \"" + mirror.name + "\", " + std::to_string(size.x) +
+                        "x" + std::to_string(size.y) + ": a flat mirror shows it exactly");
+    if (outlooksLeft > 0)
+        lines.push_back(std::to_string(outlooksLeft) + " more object(s): no more than " +
+                        std::to_string(views::kMostCubes) +
+                        " look around themselves; these show the environment");
+    return lines;
+}
+
+} // namespace lucent::frame
