@@ -24,12 +24,47 @@ MattBlock mattBlock(const Inputs& in, int first) {
 
 MirrorBlock mirrorBlock(const MirrorInputs& in, const views::PosedMesh& mesh) {
     MirrorBlock block{.view = views::viewBlock(in.eye, in.size),
+                      .around = views::aroundBlock(in.surroundings),
                       .reflectance = vec4(mesh.drawn.object->material.reflectance, 0),
-                      .object = mesh.drawn.index};
+                      .object = mesh.drawn.index,
+                      .cube = -1};
+    if (in.surroundings) {
+        const auto& cubes = in.surroundings->cubes;
+        for (std::size_t i = 0; i < cubes.size(); ++i)
+            if (cubes[i].object == block.object) block.cube = int(i);
+        const auto& flat = in.surroundings->flat;
+        for (std::size_t i = 0; i < flat.size(); ++i)
+            if (flat[i].object == block.object)
+                block.flats[std::size_t(block.flatCount++)] = vec4(flat[i].normal, i);
+    }
     if (in.environment == graph::TextureHandle::None) return block;
     block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.scene.environment->rotation)));
     block.intensity = in.scene.environment->intensity;
     return block;
+}
+
+// What of the surroundings mirrors show, for people.
+std::string shownIn(const MirrorInputs& in) {
+    if (in.solid) return "they show what the camera sees";
+    if (in.surroundings && (in.surroundings->hasCubes() || !in.surroundings->flat.empty()))
+        return "they show what is around";
+    return "they show the environment";
+}
+
+// A copy: the target cannot be read.
+graph::TextureId recordCopy(graph::FrameGraph& graph, gl::Context& context, graph::TextureId from,
+                            ivec2 size) {
+    const gl::Program* program = context.program("views/around");
+    graph::TextureId copy;
+    graph.addPass("brdf.seen", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what the camera sees, to be seen in mirrors");
+        pass.sample(from);
+        copy = pass.createColor("brdf.seen", {.size = size, .format = graph::Format::RGBA32F});
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program, .textures = {{"uPicture", resources[from]}}});
+        };
+    });
+    return copy;
 }
 
 } // namespace
@@ -82,22 +117,52 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
     return Done{};
 }
 
+const ParamTable& params() {
+    static const Param list[] = {declare(&Settings::surroundings, views::aroundText())};
+    static const ParamTable table = tableOf<Settings>("brdf", list, "Mirrors");
+    return table;
+}
+
 Status Brdf::recordMirrors(graph::FrameGraph& graph, const MirrorInputs& in) const {
     if (in.mirrors.empty()) return Done{};
     const bool hasSky = in.environment != graph::TextureHandle::None;
-    const gl::Program* program = context_.program("brdf/mirror", hasSky ? std::vector<std::string>{"USE_SKY"}
-                                                                        : std::vector<std::string>{});
+    const bool isAround = in.surroundings && !in.solid;
+    const bool hasCubes = isAround && in.surroundings->hasCubes();
+    const bool hasFlat = isAround && !in.surroundings->flat.empty();
+    std::vector<std::string> defines;
+    if (hasSky) defines.push_back("USE_SKY");
+    if (hasCubes) defines.push_back("USE_AROUND");
+    if (hasFlat) defines.push_back("USE_FLAT");
+    if (in.solid) defines.push_back("USE_VIEW");
+    const gl::Program* program = context_.program("brdf/mirror", defines);
+    const graph::TextureId seen =
+        in.solid ? recordCopy(graph, context_, in.target, in.size) : graph::TextureId{};
     std::vector<graph::Block> blocks;
     for (const views::PosedMesh& mesh : in.mirrors)
         blocks.push_back(mirrorBlock(in, mesh));
+    std::vector<graph::Binding> kept;
+    if (hasSky) kept.push_back({"uEnvironment", in.environment});
+    if (hasFlat) kept.push_back({"uMirrored", in.surroundings->mirrored});
+    if (hasCubes) {
+        kept.push_back({"uAround", in.surroundings->radiance});
+        kept.push_back({"uAroundSolid", in.surroundings->solid});
+    }
     graph.addPass("brdf.mirror", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason(std::to_string(in.mirrors.size()) + " mirror(s); they show the environment only");
+        pass.reason(std::to_string(in.mirrors.size()) + " mirror(s); " + shownIn(in));
         pass.sample(in.surface);
+        if (seen) {
+            pass.sample(seen);
+            pass.sample(in.solid);
+        }
         pass.write(in.target);
-        return [=, surface = in.surface, environment = in.environment](const graph::Resources& resources,
-                                                                       graph::Commands& commands) {
-            std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
-            if (hasSky) textures.push_back({"uEnvironment", environment});
+        return [=, surface = in.surface, solid = in.solid](const graph::Resources& resources,
+                                                           graph::Commands& commands) {
+            std::vector<graph::Binding> textures = kept;
+            textures.push_back({"uSurface", resources[surface]});
+            if (seen) {
+                textures.push_back({"uShown", resources[seen]});
+                textures.push_back({"uSolid", resources[solid]});
+            }
             for (const graph::Block& block : blocks)
                 commands.draw({.program = program, .block = block, .textures = textures});
         };

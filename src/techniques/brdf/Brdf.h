@@ -5,12 +5,19 @@
 #include "light/Occlusion.h"
 #include "scene/Scene.h"
 #include "views/Surface.h"
+#include "views/Surroundings.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace lucent::brdf {
+
+/// The technique's parameters.
+struct Settings {
+    views::Around surroundings = views::Around::Surroundings; ///< of mirrors
+};
+const ParamTable& params();
 
 /// One slice of the light on matt surfaces.
 struct Inputs {
@@ -37,12 +44,14 @@ struct MirrorInputs {
     const std::vector<views::PosedMesh>& mirrors; ///< visible ones
     graph::TextureId surface;                     ///< views.surface
     graph::TextureHandle environment;             ///< lat-long map of scene.environment; None without one
-    graph::TextureId target;                      ///< RGBA32F
+    const views::Surroundings* surroundings = nullptr; ///< null: none were asked for
+    graph::TextureId solid{};  ///< views.geometry: what the camera sees is mirrored; or none
+    graph::TextureId target{}; ///< RGBA32F
 };
 
 /// Radiance of a matt surface: base + diffuse * E / pi, with E of all light samples past everything that
-/// stands in their way, and the flux of caustics. Radiance of a mirror: reflectance times the environment in
-/// the mirrored direction, whatever lies there. A surface is lit on the side that is seen.
+/// stands in their way, and the flux of caustics. Radiance of a mirror: reflectance times what lies in the
+/// mirrored direction. A surface is lit on the side that is seen.
 class Brdf {
 public:
     /// Why the scene needs this technique; nothing when it does not.
