@@ -3,19 +3,21 @@
 // in    views/layers.glsl   all their surfaces; USE_BISECTION: the first one, the others by refract/bisection.glsl
 //       BESIDE              where there are none
 //       uOpaque             the shaded opaque surfaces and the background; a: coverage
-//       views/environment.glsl
+//       views/environment.glsl; ENVIRONMENT_ONLY: opaque surfaces are not seen through glass
+//       USE_AROUND          views/surroundings.glsl: what rays meet that leave the picture or pass behind what it shows
 // out   oColor  COLOR: linear Rec. 709; DIRECTION: the last direction of green light; a: coverage, of DIRECTION 0
 //               where the ray was given up or left the picture inside an object (its colour is what it shows if it
 //               goes on as it does); LOST: 1 there
 // model Snell's law at every interface (thesis 2008, ch. 3); total reflection followed; of Fresnel's reflections
 //       the first one that the eye meets (dissertation 2007, 5); absorption along the geometric way, or
 //       (USE_OPTICAL_LENGTH) that times the index of refraction (thesis 2008, 3.8)
-// not   reflections inside, light from what the view does not show
+// not   reflections inside; without USE_AROUND light from what the view does not show
 #pragma variants - SHOW_DIRECTION SHOW_LAYERS SHOW_LOST USE_DISPERSION
 #pragma variants USE_SOLID USE_BOX
 #pragma variants - BESIDE
 #pragma variants - USE_OPTICAL_LENGTH unless BESIDE
 #pragma variants - USE_BISECTION unless BESIDE
+#pragma variants - USE_AROUND ENVIRONMENT_ONLY unless BESIDE USE_BISECTION SHOW_DIRECTION SHOW_LAYERS SHOW_LOST
 #pragma variants FROM_PEEL FROM_VOXELS FROM_BITS FROM_BOUNDS if USE_BISECTION
 #pragma variants SLICES=256 SLICES=512 if FROM_BITS
 #pragma variants - GLOBAL_BOUNDS if FROM_BITS
@@ -23,14 +25,16 @@
 #pragma variants NORMALS_NEIGHBOURS NORMALS_DELTA=1..2 if FROM_VOXELS FROM_BITS FROM_BOUNDS
 #include "views/glass_block.glsl"
 #include "views/view.glsl"
+#include "views/surroundings_block.glsl"
 layout(std140) uniform RefractBlock {
     View view;
     mat4 mapFromWorld;
     Glass glass[kMostGlass];
+    Around around;
     int count;       // layers
     int hasEnvironment;
     float intensity; // of the environment
-    int around;      // a bit for each object whose box holds the eye
+    int atEye;       // a bit for each object whose box holds the eye
     vec4 low, high;  // USE_BOX: a box around all glass, from the eye
     vec2 depths;     // of bisection: nearest and farthest depth of all surfaces
     int depthCount;  // and how many lie behind each other
@@ -45,6 +49,34 @@ layout(location = 0) out vec4 oColor;
 vec4 environmentAt(vec3 direction) {
     if (layers.hasEnvironment == 0) return vec4(0.0);
     return vec4(layers.intensity * mapRadiance(mat3(layers.mapFromWorld) * direction), 1.0);
+}
+
+#ifdef USE_AROUND
+#define AROUND layers.around
+#include "views/surroundings.glsl"
+
+// The cube whose middle is nearest, of those from refractive objects.
+int cubeBy(vec3 place) {
+    int found = -1;
+    float least = 1e30;
+    for (int i = 0; i < layers.around.count; ++i) {
+        float apart = distance(place, layers.around.cubes[i].place.xyz);
+        if (layers.around.cubes[i].place.w >= 0.0 || apart >= least) continue;
+        least = apart;
+        found = i;
+    }
+    return found;
+}
+#endif
+
+// Light of a ray that has left all that the view shows.
+vec4 lightBeyond(vec3 origin, vec3 direction) {
+#ifdef USE_AROUND
+    vec3 place = layers.view.eye.xyz + origin;
+    int cube = cubeBy(place);
+    if (cube >= 0) return lightAround(cube, place, direction);
+#endif
+    return environmentAt(direction);
 }
 
 // The length that light is absorbed along.
@@ -83,11 +115,13 @@ vec4 follow(inout Beam beam, Crossing first, int channel) {
     for (int i = 0; i < kMostInterfaces; ++i) {
         Crossing crossing = advance(beam, walk, channel);
         if (crossing.kind == kNothing) {
-            vec4 light = environmentAt(beam.direction);
+            vec4 light = lightBeyond(beam.origin, beam.direction);
             return crossing.entered && beam.inside != 0 ? vec4(light.rgb, -1.0) : light;
         }
         if (crossing.kind == kLost) return vec4(0.0, 0.0, 0.0, -1.0);
-#ifdef USE_SOLID
+#if defined(ENVIRONMENT_ONLY) && defined(USE_SOLID)
+        if (crossing.kind == kSolid) return environmentAt(beam.direction);
+#elif defined(USE_SOLID)
         if (crossing.kind == kSolid) return vec4(texelFetch(uOpaque, crossing.pixel, 0).rgb, 1.0);
 #endif
         if (cross_(beam, crossing, channel).x > 0.0 && ++reflections > kMostMirrored) break;
@@ -98,8 +132,8 @@ vec4 follow(inout Beam beam, Crossing first, int channel) {
 // Objects that the eye is inside of: of those around it the ones whose nearest surface in this pixel shows its
 // back.
 int insideAtEye(ivec2 pixel) {
-    if (layers.around == 0) return 0;
-    int seen = ~layers.around, inside = 0;
+    if (layers.atEye == 0) return 0;
+    int seen = ~layers.atEye, inside = 0;
     for (int layer = 0; layer < layers.count; ++layer) {
         vec4 texel = texelFetch(uLayers, ivec3(pixel, layer), 0);
         if (texel.w == 0.0) break;

@@ -26,6 +26,7 @@ bool holds(const views::Bounds& bounds, vec3 place) {
 RefractBlock blockOf(const Inputs& in, ivec2 size) {
     RefractBlock block;
     block.view = views::viewBlock(in.eye, size);
+    block.around = views::aroundBlock(in.surroundings);
     block.count = in.layers.count;
     if (in.light) {
         block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.light->rotation)));
@@ -35,7 +36,7 @@ RefractBlock blockOf(const Inputs& in, ivec2 size) {
     for (std::size_t i = 0; i < in.glass.size(); ++i) {
         const scene::Object& object = *in.glass[i].drawn.object;
         block.glass[i] = views::glassBlock(object.material);
-        if (in.eye.perspective && holds(views::boundsOf(object), in.eye.position)) block.around |= 1 << i;
+        if (in.eye.perspective && holds(views::boundsOf(object), in.eye.position)) block.atEye |= 1 << i;
     }
     const views::Bounds all = views::boundsOfAll(in.glass);
     block.low = vec4(all.low - in.eye.position, 0);
@@ -46,6 +47,11 @@ RefractBlock blockOf(const Inputs& in, ivec2 size) {
 bool sameOptics(const scene::Material& a, const scene::Material& b) {
     return a.ior == b.ior && a.absorption() == b.absorption() && a.dispersion == b.dispersion &&
            a.transmission == b.transmission && a.fresnel == b.fresnel;
+}
+
+bool looksAround(const Inputs& in, const Settings& settings) {
+    return in.surroundings && in.surroundings->hasCubes() && in.show == scene::Aov::Color &&
+           settings.surroundings == views::Around::Surroundings && settings.trace == Trace::Pyramid;
 }
 
 // What bisection leaves out of this picture.
@@ -75,6 +81,9 @@ std::vector<std::string> definesOf(const Inputs& in, const Settings& settings) {
     std::vector<std::string> defines = shownDefines(in);
     const bool showsLight = defines.size() == 1; // by no switch
     if (showsLight && views::disperses(in.glass)) defines.push_back("USE_DISPERSION");
+    const bool isExact = showsLight && settings.trace == Trace::Pyramid;
+    if (isExact && settings.surroundings == views::Around::Environment) defines.push_back("ENVIRONMENT_ONLY");
+    if (looksAround(in, settings)) defines.push_back("USE_AROUND");
     if (settings.pathLength == PathLength::Optical) defines.push_back("USE_OPTICAL_LENGTH");
     return defines;
 }
@@ -177,6 +186,7 @@ const ParamTable& Refract::params() {
                  .doc = "Along which length light is absorbed: the way itself, or, as the thesis has it, "
                         "that times the index of refraction.",
                  .choices = kPathLengths}),
+        declare(&Settings::surroundings, views::aroundText()),
     };
     static const ParamTable table = tableOf<Settings>("refract", list, "Layers and ray tracing");
     return table;
@@ -234,6 +244,9 @@ Status Refract::record(graph::FrameGraph& graph, const Inputs& in, ivec2 size,
     const views::Layers layers = in.layers;
     const graph::TextureId opaque = in.opaque, solid = in.solid, target = in.target;
     const bool counts = bisects && in.show == scene::Aov::Layers; // and looks at nothing else
+    std::vector<graph::Binding> around;
+    if (looksAround(in, settings))
+        around = {{"uAround", in.surroundings->radiance}, {"uAroundSolid", in.surroundings->solid}};
     // Rays are followed where there is glass only: the depth test knows before a pixel is begun.
     const bool parts = layers.depth && in.show != scene::Aov::Layers;
     graph.addPass("refract.trace", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -265,6 +278,7 @@ Status Refract::record(graph::FrameGraph& graph, const Inputs& in, ivec2 size,
                 if (!bisects) textures = views::layerBindings(resources, layers);
                 if (environment != graph::TextureHandle::None)
                     textures.push_back({"uEnvironment", environment});
+                textures.insert(textures.end(), around.begin(), around.end());
                 if (opaque && !counts) {
                     textures.push_back({"uOpaque", resources[opaque]});
                     textures.push_back({"uSolid", resources[solid]});

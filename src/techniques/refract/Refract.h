@@ -3,6 +3,7 @@
 /// layered images of the camera's view.
 
 #include "views/Layers.h"
+#include "views/Surroundings.h"
 #include "views/Voxels.h"
 
 #include <optional>
@@ -28,6 +29,7 @@ struct Settings {
     Trace trace = Trace::Pyramid;
     Normals normals = Normals::Stored;
     PathLength pathLength = PathLength::Geometric;
+    views::Around surroundings = views::Around::Surroundings;
 };
 
 /// Which choices go together: pyramids need the objects, sides and normals that only peeled layers hold, and
@@ -50,6 +52,7 @@ struct Inputs {
     graph::TextureId target;          ///< RGBA32F
     scene::Aov show;                  ///< Color, Direction, Layers or Lost
     int count = 0;                    ///< of Trace::Bisection: surfaces behind each other
+    const views::Surroundings* surroundings = nullptr; ///< null: none were asked for
 };
 
 class Refract {

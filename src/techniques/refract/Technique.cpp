@@ -25,12 +25,64 @@ bool showsLayer(Aov aov) {
 
 // Layers have depths of their own, evenly spaced, so that glass may stand right before the eye.
 views::Eye closeEye(const Picture& picture) {
-    return views::makeEye(picture.scene, float(picture.size.x) / float(picture.size.y), 1e-6f,
-                          picture.eye.shift);
+    views::Eye eye = views::makeEye(picture.scene, float(picture.size.x) / float(picture.size.y), 1e-6f,
+                                    picture.eye.shift);
+    eye.cut = picture.eye.cut;
+    return eye;
 }
 
 bool peels(const Picture& picture) {
     return showsLayer(picture.scene.view.show) || settingsOf(picture.scene).layers == LayerMethod::Peel;
+}
+
+bool isClear(const scene::Object& object) {
+    return object.visible && !object.isField() && object.material.isRefractive();
+}
+
+bool showsOpaque(const scene::Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(),
+                       [](const scene::Object& object) { return object.visible && !isClear(object); });
+}
+
+bool overlap(const views::Bounds& a, const views::Bounds& b) {
+    return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
+}
+
+// One for clear objects that touch or lie in each other: from their common middle, without what is clear, for
+// rays meet that in the layers, and without what stands in the middle, which would hide all else.
+std::vector<views::Outlook> outlooksOf(const scene::Scene& scene) {
+    std::vector<views::Outlook> outlooks;
+    std::vector<views::Bounds> boxes;
+    std::vector<int> clear;
+    for (int i = 0; i < int(scene.objects.size()); ++i) {
+        const scene::Object& object = scene.objects[std::size_t(i)];
+        if (!isClear(object)) continue;
+        clear.push_back(i);
+        if (scene::changesNoLight(scene, object)) continue; // what is behind it is seen as without it
+        views::Bounds box = views::boundsOf(object);
+        views::Outlook outlook = views::outlookFrom(scene, i);
+        for (std::size_t other = boxes.size(); other-- > 0;) {
+            if (!overlap(box, boxes[other])) continue;
+            box.add(boxes[other].low);
+            box.add(boxes[other].high);
+            outlook.name = outlooks[other].name;
+            boxes.erase(boxes.begin() + std::ptrdiff_t(other));
+            outlooks.erase(outlooks.begin() + std::ptrdiff_t(other));
+        }
+        outlook.place = box.center();
+        boxes.push_back(box);
+        outlooks.push_back(std::move(outlook));
+    }
+    for (views::Outlook& outlook : outlooks) {
+        outlook.hidden = clear;
+        for (int i = 0; i < int(scene.objects.size()); ++i) {
+            const scene::Object& object = scene.objects[std::size_t(i)];
+            const views::Bounds bounds = views::boundsOf(object);
+            if (object.visible && !isClear(object) && overlap(bounds, {outlook.place, outlook.place}))
+                outlook.hidden.push_back(i);
+        }
+    }
+    return outlooks;
 }
 
 class RefractGuest : public technique::Guest {
@@ -53,6 +105,12 @@ public:
     bool replaces(const Picture& picture) const override {
         if (showsLayer(picture.scene.view.show)) return picture.drawn.count() > 0;
         return !picture.drawn.meshes.glass.empty();
+    }
+    void lookAround(const Picture& picture, views::Outlooks& asked) const override {
+        const scene::Scene& scene = picture.scene;
+        if (settingsOf(scene).surroundings != views::Around::Surroundings || !showsOpaque(scene)) return;
+        const std::vector<views::Outlook> cubes = outlooksOf(scene);
+        asked.cubes.insert(asked.cubes.end(), cubes.begin(), cubes.end());
     }
     Status through(const Passes& passes, TextureId shown, TextureId target) override {
         const Picture& picture = passes.picture;
@@ -89,7 +147,8 @@ public:
              .light = views::hasEnvironment(picture.scene) ? &*picture.scene.environment : nullptr,
              .target = target,
              .show = picture.scene.view.show,
-             .count = count_},
+             .count = count_,
+             .surroundings = picture.surroundings},
             picture.size, settings);
     }
 
@@ -227,8 +286,17 @@ constexpr technique::Knob kKnobs[] = {
 };
 
 bool refracts(const scene::Scene& scene) { return Refract::need(scene).has_value(); }
+bool showsAround(const scene::Scene& scene, views::Around around) {
+    return refracts(scene) && showsOpaque(scene) && settingsOf(scene).surroundings == around;
+}
 const technique::NotDrawn kLimits[] = {
-    {"through glass, objects that the camera does not see", "rays end on what its view shows", refracts},
+    {"objects through glass", "technique.refract.surroundings is environment",
+     [](const scene::Scene& scene) { return showsAround(scene, views::Around::Environment); }},
+    {"through glass, objects that the camera does not see", "technique.refract.surroundings is view",
+     [](const scene::Scene& scene) { return showsAround(scene, views::Around::View); }},
+    {"through glass, what is hidden from the camera and from the middle of the glass",
+     "its surroundings are drawn from there",
+     [](const scene::Scene& scene) { return showsAround(scene, views::Around::Surroundings); }},
 };
 
 } // namespace
