@@ -120,6 +120,19 @@ void addBetween(scene::Scene& scene, std::string_view between) {
     scene.objects.push_back(std::move(object));
 }
 
+// The eye looks along -z at a mirror so high above that neither its shadow nor its light falls on what is
+// seen, and the mirror turns its view straight down.
+void seeInMirror(scene::Scene& scene) {
+    const float height = 9;
+    scene::Object mirror = objectOf("mirror", scene::Plane{{1.1f, 1.5f}}, {0, height, 0});
+    mirror.transform.rotate = {135, 0, 0};
+    mirror.material.reflectance = vec3(0.9f);
+    scene.objects.push_back(std::move(mirror));
+    scene.camera.eye = {0, height, 4};
+    scene.camera.target = {0, height, 0};
+    scene.camera.up = {0, 1, 0};
+}
+
 void addReceiver(scene::Scene& scene, std::string_view receiver) {
     scene::Object object = objectOf("receiver", scene::Plane{{2, 2}});
     if (receiver == "matt mesh") object.shape = scene::Torus{0.35f, 0.15f};
@@ -136,6 +149,7 @@ void addReceiver(scene::Scene& scene, std::string_view receiver) {
         makeGlass(pane.material);
         scene.objects.push_back(std::move(pane));
     }
+    if (receiver == "floor in a mirror") seeInMirror(scene);
 }
 
 bool bends(std::string_view between) {
@@ -145,7 +159,6 @@ bool bends(std::string_view between) {
 
 // Pairs that no technique draws, and why.
 std::string notDrawn(std::string_view lamp, std::string_view between, std::string_view receiver) {
-    if (receiver == "floor in a mirror") return "mirrors show the environment only";
     const bool glass = bends(between) || receiver == "floor through glass";
     if (lamp == "environment" && glass)
         return "caustics of an environment: its light passes glass straight on";
@@ -158,6 +171,7 @@ std::string notDrawn(std::string_view lamp, std::string_view between, std::strin
 
 double targetOf(std::string_view between, std::string_view receiver) {
     if (receiver == "marble slab") return 0.03;
+    if (receiver == "floor in a mirror") return 0.02;
     return bends(between) || receiver == "floor through glass" ? 0.02 : 0.01;
 }
 

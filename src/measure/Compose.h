@@ -36,8 +36,8 @@ std::span<const std::string_view> composeLamps();
 std::span<const std::string_view> composeBetween();
 std::span<const std::string_view> composeReceivers();
 
-/// The scene of a cell: a receiver of 1 m around the origin, seen straight from above; what stands between
-/// hides from the camera and hangs over its middle.
+/// The scene of a cell: a receiver of 1 m around the origin, seen straight from above, or so in a mirror;
+/// what stands between hides from the camera and hangs over its middle.
 ///
 /// @param lamp, between, receiver  of the lists above
 scene::Scene composeScene(std::string_view lamp, std::string_view between, std::string_view receiver);
