@@ -21,30 +21,40 @@ struct Rings {
     std::vector<int> first, columns;
 };
 
-// Direction of a place on a lat-long map: row 0 = +y, centre column = -z, to the right = +x.
-glm::dvec3 directionAt(double u, double v) {
-    const double azimuth = (2 * u - 1) * std::numbers::pi;
-    const double polar = v * std::numbers::pi;
-    return {std::sin(azimuth) * std::sin(polar), std::cos(polar), -std::cos(azimuth) * std::sin(polar)};
-}
-
 // Integral of a pixel row's radiance into the cells: each pixel is shared out by the area it has in each.
 struct Sums {
-    explicit Sums(int cells) : radiance(cells, glm::dvec3(0)), area(cells, 0) {}
+    explicit Sums(int cells)
+        : radiance(cells, glm::dvec3(0)), towards(cells, glm::dvec3(0)), area(cells, 0) {}
     std::vector<glm::dvec3> radiance;
+    std::vector<glm::dvec3> towards; // directions, by the light from each
     std::vector<double> area;
 };
 
+// A little light is everywhere, so that dark parts have a middle too.
+double lightOf(glm::dvec3 radiance) { return glm::dot(radiance, glm::dvec3(0.2126, 0.7152, 0.0722)) + 1e-4; }
+
+// Part of a row of pixels within a ring. Lat-long map: row 0 = +y, centre column = -z, to the right = +x.
+struct Band {
+    double solidAngle; // of a pixel
+    double cosine;     // of the polar angle, mean
+    glm::dvec3 direction(double u) const {
+        const double azimuth = (2 * u - 1) * std::numbers::pi, sine = std::sqrt(1 - cosine * cosine);
+        return {std::sin(azimuth) * sine, cosine, -std::cos(azimuth) * sine};
+    }
+};
+
 // Adds a pixel's part inside one ring, split at the borders of the ring's cells.
-void addPixel(Sums& sums, const Rings& rings, int row, double left, double right, double solidAngle,
+void addPixel(Sums& sums, const Rings& rings, int row, double left, double right, const Band& band,
               glm::dvec3 color) {
     const int columns = rings.columns[row];
     for (double at = left; at < right - 1e-12;) {
         const int column = std::min(int(at * columns + 1e-9), columns - 1);
         const double end = std::min(right, double(column + 1) / columns);
-        const double share = solidAngle * (end - at) / (right - left);
-        sums.radiance[rings.first[row] + column] += share * color;
-        sums.area[rings.first[row] + column] += share;
+        const double share = band.solidAngle * (end - at) / (right - left);
+        const int cell = rings.first[row] + column;
+        sums.radiance[cell] += share * color;
+        sums.towards[cell] += share * lightOf(color) * band.direction((at + end) / 2);
+        sums.area[cell] += share;
         at = std::max(end, at + 1e-12);
     }
 }
@@ -64,11 +74,11 @@ std::vector<EnvironmentLight> cellsOf(const Image& map, int count) {
             const double low = std::max(top, double(row) / rings.rows);
             const double high = std::min(bottom, double(row + 1) / rings.rows);
             // Area of a band of the unit sphere: difference of cosines times the azimuth.
-            const double band = std::cos(low * std::numbers::pi) - std::cos(high * std::numbers::pi);
-            const double solidAngle = band * 2 * std::numbers::pi / map.width;
+            const double above = std::cos(low * std::numbers::pi), below = std::cos(high * std::numbers::pi);
+            const Band band{(above - below) * 2 * std::numbers::pi / map.width, (above + below) / 2};
             for (int x = 0; x < map.width; ++x) {
                 const float* color = map.at(x, y);
-                addPixel(sums, rings, row, double(x) / map.width, double(x + 1) / map.width, solidAngle,
+                addPixel(sums, rings, row, double(x) / map.width, double(x + 1) / map.width, band,
                          {color[0], color[1], color[2]});
             }
         }
@@ -77,7 +87,7 @@ std::vector<EnvironmentLight> cellsOf(const Image& map, int count) {
     for (int row = 0; row < rings.rows; ++row) {
         for (int column = 0; column < rings.columns[row]; ++column) {
             const int cell = rings.first[row] + column;
-            cells.push_back({vec3(directionAt((column + 0.5) / rings.columns[row], (row + 0.5) / rings.rows)),
+            cells.push_back({vec3(glm::normalize(sums.towards[cell])),
                              vec3(sums.radiance[cell] / sums.area[cell]),
                              float(sums.area[cell] / (4 * std::numbers::pi))});
         }
@@ -103,9 +113,8 @@ struct Part {
         center /= light;
         spread = glm::sqrt(glm::max(square / light - center * center, vec3(0)));
     }
-    // A little light is everywhere, so that dark parts are cut too.
     static float lightOf(const EnvironmentLight& cell) {
-        return cell.weight * (glm::dot(cell.radiance, vec3(0.2126f, 0.7152f, 0.0722f)) + 1e-4f);
+        return cell.weight * float(views::lightOf(glm::dvec3(cell.radiance)));
     }
     float urgency() const { return cells.size() > 1 ? light * glm::length(spread) : 0; }
     int widest() const {

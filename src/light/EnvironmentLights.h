@@ -15,7 +15,8 @@ struct EnvironmentLight {
 
 /// Divides the sphere of directions into about `count` cells of nearly equal solid angle (rings of latitude,
 /// each cut into as many cells as its length asks for) and averages the map over each, weighted by solid
-/// angle: summing map pixels without sin(phi) would over-weight the poles (thesis 2017, 3.2.2).
+/// angle: summing map pixels without sin(phi) would over-weight the poles (thesis 2017, 3.2.2). A light
+/// stands at the centre of its cell's light: an edge of something bright cuts cells.
 ///
 /// @param count  wanted number of lights, >= 6; the result differs by a few
 /// The cells are fixed to the map and turn with `environment.rotation`; `intensity` is included.

@@ -104,6 +104,27 @@ TEST(EnvironmentLights, TheMeanIsWeightedBySolidAngleNotByPixels) {
     EXPECT_NEAR(mean.r, 0.25, 1e-6);
 }
 
+// A cell stands where its light comes from, not in its own middle: of a window that cuts cells the light's
+// mean direction stays, and with it the irradiance of every surface that sees all of it.
+TEST(EnvironmentLights, AWindowKeepsTheMeanDirectionOfItsLight) {
+    scene::Environment environment;
+    environment.map =
+        mapOf({64, 32}, [](int x, int y) { return vec3(y >= 3 && y < 10 && x >= 36 && x < 48 ? 8 : 0); });
+    const auto centroid = [&](int count) {
+        glm::dvec3 sum(0);
+        for (const EnvironmentLight& light : environmentLights(environment, count))
+            sum += double(light.weight * light.radiance.g) * glm::dvec3(light.direction);
+        return sum;
+    };
+    const glm::dvec3 exact = centroid(20000);
+    for (const int count : {64, 256, 1024}) {
+        // A unit direction for a cell's mean one, which is shorter by its squared width over 8, or over 4.
+        const double cell = std::sqrt(4 * std::numbers::pi / count);
+        EXPECT_LT(glm::distance(centroid(count), exact) / glm::length(exact), cell * cell / 4) << count;
+        EXPECT_GT(glm::dot(glm::normalize(centroid(count)), glm::normalize(exact)), 0.9999) << count;
+    }
+}
+
 TEST(EnvironmentLights, DirectionsFollowTheMapConvention) {
     // One bright pixel right of the centre, on the horizon: centre column is -z, to the right +x.
     scene::Environment environment;
