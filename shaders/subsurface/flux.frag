@@ -1,14 +1,17 @@
 // subsurface/flux.frag: light that enters an object through each pixel of a view.
 //
-// in    uSurface  the nearest surfaces that the light sees; FROM_SKY: one layer of the object along an axis, with
+// in    uSurface  the nearest surfaces that the light sees; OF_LAYER: one layer of the object along an axis, with
 //                 outward normals
+//       uEntered  OF_LAYER: what enters there [W/m²]
+//       uWay      OF_LAYER, REFRACTED: the directions that it came from, summed
 //       uPaint    PAINTED: what is painted on these pixels (views/paint.glsl, what enters)
-// out   subsurface/points.glsl
+// out   subsurface/points.glsl; REFRACTED: the way on which light goes on inside in place of the normal
 // model F_t(cos) times the flux of the pixel: the cosine at which light arrives and the slope of the surface in the
-//       pixel cancel. FROM_SKY: irradiance with F_t in it, times area, times cos² of the angle to the view, so that
-//       views along three axes count each place once and none divides by a small cosine
-#pragma variants - FROM_SKY
+//       pixel cancel. OF_LAYER: what enters times the area of the surface, shared out among the
+//       views along three axes (subsurface/share.glsl)
+#pragma variants - OF_LAYER
 #pragma variants - PAINTED
+#pragma variants - REFRACTED
 #include "views/view.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/fresnel.glsl"
@@ -17,7 +20,6 @@ layout(std140) uniform FluxBlock {
     View view;
     vec4 color; // irradiance that faces the light, or that at 1 m; a: exponent of the cone
     vec4 axis;  // unit: along which the light shines most; w: 1: it fades
-    vec4 sky[9];
     vec4 sharpness; // of painted objects. x: most that points tell apart; y: radius of half the profile's light [m]; z:
                     // that of its blur [m], 0: it has none; w: 1: as the paper has it
     vec2 cone;
@@ -26,8 +28,13 @@ layout(std140) uniform FluxBlock {
 } light;
 #include "subsurface/points.glsl"
 
-#ifdef FROM_SKY
-#include "subsurface/sky.glsl"
+#ifdef OF_LAYER
+uniform sampler2D uEntered;
+#ifdef REFRACTED
+uniform sampler2D uWay;
+#endif
+
+#include "subsurface/share.glsl"
 #endif
 
 #ifdef PAINTED
@@ -56,8 +63,8 @@ void main() {
     float width = max(length(light.view.right.xyz), length(light.view.up.xyz)) * (perspective ? depth : 1.0);
     float area = length(light.view.right.xyz) * length(light.view.up.xyz);
     vec3 flux;
-#ifdef FROM_SKY
-    flux = area * abs(cosine) * skyLight(normal);
+#ifdef OF_LAYER
+    flux = shareOf(light.view, normal) * area / abs(cosine) * texelFetch(uEntered, ivec2(gl_FragCoord.xy), 0).rgb;
 #else
     vec3 color = light.color.rgb;
     if (perspective) {
@@ -72,6 +79,14 @@ void main() {
     oPlace = vec4(light.view.eye.xyz + toPlace, depth - 0.5 * width * slope);
     oFlux = vec4(flux, depth + 0.5 * width * slope);
     oNormal = vec4(normal, length(vec2(width, width * slope)));
+#ifdef REFRACTED
+#ifdef OF_LAYER
+    vec3 from = texelFetch(uWay, ivec2(gl_FragCoord.xy), 0).xyz;
+    ray = dot(from, normal) > 0.0 ? -normalize(from) : -normal;
+#endif
+    oNormal.xyz = refract(ray, normal, 1.0 / light.ior);
+    if (oNormal.xyz == vec3(0.0)) oNormal.xyz = -normal;
+#endif
 #ifdef PAINTED
     vec4 paint = texelFetch(uPaint, ivec2(gl_FragCoord.xy), 0);
     oFlux.rgb *= paint.rgb;

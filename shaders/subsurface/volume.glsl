@@ -9,9 +9,8 @@ layout(std140) uniform VolumeBlock {
     ivec4 layers;    // surfaces behind each other along x, y, z
     vec4 diffusion;  // rgb: D over the width; a: 2 A of phi = 2 A D dphi/dn at the surface
     vec4 absorption; // rgb: sigma_a times the width
-    vec4 extinction; // rgb: sigma_t' [1/m]; a: index of refraction
+    vec4 extinction; // rgb: sigma_t' [1/m]; a: unused
     vec4 albedo;     // rgb: alpha'; a: extinction by which the depths of sources are chosen [1/m]
-    vec4 lamp;       // position, 1; or direction to it, 0; or 0: light from all sides
     vec4 omega;      // rgb: Chebyshev's factor of this round
     int object;      // in the scene
     int columns;     // points in a row

@@ -1,6 +1,6 @@
 // subsurface/volume_source.vert: light that entered at a point, laid down where it first scatters.
 //
-// in    uPlace, uFlux, uNormal  points (subsurface/points.glsl)
+// in    uPlace, uFlux, uNormal  points (subsurface/points.glsl), the normals being the light's way inside
 //       uCell
 // out   vFlux   flat; for each cell of full share
 //       vPlace  flat
@@ -42,12 +42,7 @@ void main() {
     if (flux == vec3(0.0)) return;
 
     vec3 place = texelFetch(uPlace, texel, 0).xyz;
-    vec3 normal = texelFetch(uNormal, texel, 0).xyz;
-    vec3 along = -normal;
-    if (volume.lamp.w > 0.0) along = normalize(place - volume.lamp.xyz);
-    else if (volume.lamp.xyz != vec3(0.0)) along = -volume.lamp.xyz;
-    along = refract(along, normal, 1.0 / volume.extinction.a);
-    if (along == vec3(0.0)) along = -normal;
+    vec3 along = texelFetch(uNormal, texel, 0).xyz; // refracted
 
     // Optical depths between which this part of the light scatters, and their mean.
     float from = -log(1.0 - float(part) / float(kDepths));

@@ -149,14 +149,25 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
         return Done{};
     }
     TextureId flux;
+    Guest* carrier = nullptr;
     for (Guest* guest : guests) {
         if (next > 0) break; // all of it joins the first slice
         Result<TextureId> carried = guest->light(passes);
         if (!carried) return carried.error();
-        if (*carried) flux = *carried;
+        if (!*carried) continue;
+        flux = *carried;
+        carrier = guest;
     }
     const std::vector<views::PosedMesh> solids = views::Posed::visible(passes.posed.solid);
     const std::vector<views::PosedMesh> refractive = views::changingLight(picture.scene, passes.posed.glass);
+    const bool carriesEnvironment = std::any_of(guests.begin(), guests.end(), [&](const Guest* guest) {
+        return guest->carriesEnvironment(picture.scene);
+    });
+    views::Bounds beside;
+    for (const Guest* guest : shading) {
+        const views::Bounds box = guest->lit(picture);
+        beside = {glm::min(beside.low, box.low), glm::max(beside.high, box.high)};
+    }
     const views::Lit lit{.eye = picture.eye,
                          .size = size,
                          .surface = passes.surface,
@@ -165,7 +176,9 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
                          .casters = passes.posed.fields,
                          .opaque = passes.posed.solid,
                          .refractive = refractive,
-                         .shadowSize = views::samplingOf(picture.scene).shadowSize};
+                         .shadowSize = views::samplingOf(picture.scene).shadowSize,
+                         .carriesEnvironment = carriesEnvironment,
+                         .beside = beside};
     const std::span<const views::LampPoint> some(lights.data() + next, std::size_t(end - next));
     Result<views::Occlusion> occlusion = views::recordOcclusion(passes.graph, context, lit, some);
     if (!occlusion) return occlusion.error();
@@ -176,10 +189,12 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
                            .placed = placed,
                            .occlusion = *occlusion,
                            .flux = flux,
+                           .fluxOn = {},
                            .sum = next > 0 ? import(passes.graph, sum) : TextureId{},
                            .target = target,
                            .baked = stages[stage].baked,
                            .clears = true};
+    if (carrier) slice.fluxOn = [&](const views::LitView& view) { return carrier->lightOn(passes, view); };
     for (Guest* guest : shading) {
         if (Status s = guest->shade(passes, slice); !s) return s;
         slice.clears = false;

@@ -23,9 +23,15 @@ struct Group {
     std::vector<DrawnObject> casters;
 };
 
+bool isEmpty(const Bounds& bounds) { return glm::any(glm::lessThan(bounds.high, bounds.low)); }
+
 std::vector<Group> groupsOf(const Lit& in) {
     std::vector<Group> groups;
-    if (!in.solids.empty()) groups.push_back({nullptr, seenBy(in.eye, boundsOfAll(in.solids)), in.casters});
+    Bounds meshes = in.beside;
+    const Bounds seen = in.solids.empty() ? Bounds() : seenBy(in.eye, boundsOfAll(in.solids));
+    for (const vec3& corner : {seen.low, seen.high})
+        if (!isEmpty(seen)) meshes.add(corner);
+    if (!isEmpty(meshes)) groups.push_back({nullptr, meshes, in.casters});
     for (const DrawnObject& field : in.fields) {
         std::vector<DrawnObject> others;
         std::copy_if(in.casters.begin(), in.casters.end(), std::back_inserter(others),
@@ -35,26 +41,71 @@ std::vector<Group> groupsOf(const Lit& in) {
     return groups;
 }
 
+int copiesOf(std::size_t samples) { return (int(samples) + kSamplesPerTexel - 1) / kSamplesPerTexel; }
+
 int shadowSizeFor(const LampPoint& sample, int size) {
     const int share = sample.isEnvironment ? kDirectionShare : sample.isPart ? kPartShare : 1;
     return std::max(kLeastShadowSize, size / share);
 }
 
-light::OcclusionBlock blockOf(const Lit& in, const Group& group, const LampPoint& sample,
-                              const ShadowViews& views, ivec2 corner, int channel) {
-    light::OcclusionBlock block{.view = viewBlock(in.eye, in.size),
+// One view whose pixels are shaded.
+struct Target {
+    const Eye& eye;
+    ivec2 size;
+    TextureId surface;
+    const DrawnObject* field; // null: its meshes
+};
+
+light::OcclusionBlock blockOf(const Target& target, const LampPoint& sample, const ShadowViews& views,
+                              ivec2 corner, int channel) {
+    light::OcclusionBlock block{.view = viewBlock(target.eye, target.size),
                                 .faces = facesOf(views),
                                 .source = sample.place,
                                 .faceCount = int(views.faces.size())};
     block.channel[channel] = 1;
     block.corner = vec2(corner);
-    if (!group.field) return block;
-    const scene::Object& object = *group.field->object;
+    if (!target.field) return block;
+    const scene::Object& object = *target.field->object;
     block.worldFromObject = object.transform.worldFromObject();
     block.texels = vec2(object.field().texels());
     block.texelSize = object.field().texelSize();
-    block.object = group.field->index;
+    block.object = target.field->index;
     return block;
+}
+
+Occlusion emptyFor(const gl::Context& context, ivec2 size, std::size_t samples) {
+    return {{}, std::clamp(context.caps().maxTextureSize / size.x, 1, std::max(1, copiesOf(samples))), {}};
+}
+
+// Adds what one sample's shadow keeps from a view.
+Status add(graph::FrameGraph& graph, gl::Context& context, const Target& target, const LampPoint& sample,
+           const Shadow& shadow, std::size_t number, std::size_t samples, Occlusion& occlusion) {
+    const gl::Program* program = context.program(
+        "light/occlusion", target.field ? std::vector<std::string>{"OF_FIELD"} : std::vector<std::string>{});
+    const int copy = int(number) / kSamplesPerTexel, copies = copiesOf(samples), columns = occlusion.columns;
+    const ivec2 corner = ivec2(copy % columns, copy / columns) * target.size;
+    const bool isFirst = !occlusion.texture;
+    if (isFirst)
+        occlusion.texture = graph.create(
+            "light.occlusion", {.size = target.size * ivec2(columns, (copies + columns - 1) / columns)});
+    graph.addPass("light.occlusion", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(target.field ? "what keeps a light sample from a height field"
+                                 : "what keeps a light sample from surfaces");
+        pass.sample(target.surface);
+        pass.sample(shadow.map);
+        pass.write(occlusion.texture);
+        if (isFirst) pass.clear(occlusion.texture, vec4(0));
+        return [surface = target.surface, map = shadow.map, program, region = ivec4(corner, target.size),
+                block = blockOf(target, sample, shadow.views, corner, int(number) % kSamplesPerTexel)](
+                   const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .region = region,
+                           .blend = graph::Blend::Add,
+                           .block = block,
+                           .textures = {{"uSurface", resources[surface]}, {"uShadow", resources[map]}}});
+        };
+    });
+    return Done{};
 }
 
 } // namespace
@@ -68,48 +119,38 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
                                   std::span<const LampPoint> samples) {
     std::vector<PosedMesh> all = in.opaque;
     all.insert(all.end(), in.refractive.begin(), in.refractive.end());
-    const int copies = (int(samples.size()) + kSamplesPerTexel - 1) / kSamplesPerTexel;
-    const int columns = std::clamp(context.caps().maxTextureSize / in.size.x, 1, std::max(1, copies));
-    Occlusion occlusion{{}, columns};
-    for (const Group& group : groupsOf(in)) {
-        const gl::Program* program =
-            context.program("light/occlusion",
-                            group.field ? std::vector<std::string>{"OF_FIELD"} : std::vector<std::string>{});
+    Occlusion occlusion = emptyFor(context, in.size, samples.size());
+    for (const Group& group : groupsOf(in))
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const LampPoint& sample = samples[i];
-            const std::vector<PosedMesh>& meshes = sample.isEnvironment ? in.opaque : all;
-            const ShadowViews views = shadowViews(sample.source, boundsOfAll(meshes, group.casters),
-                                                  group.bounds, shadowSizeFor(sample, in.shadowSize));
-            if (views.faces.empty()) continue;
-            Result<TextureId> shadow =
-                recordShadow(graph, context, views, meshes, group.bounds, group.casters);
-            if (!shadow) return shadow.error();
-            const int copy = int(i) / kSamplesPerTexel;
-            const ivec2 corner = ivec2(copy % columns, copy / columns) * in.size;
-            const bool isFirst = !occlusion.texture;
-            if (isFirst)
-                occlusion.texture = graph.create(
-                    "light.occlusion", {.size = in.size * ivec2(columns, (copies + columns - 1) / columns)});
-            graph.addPass("light.occlusion", [&](graph::PassBuilder& pass) -> graph::Execute {
-                pass.reason(group.field ? "what keeps a light sample from a height field"
-                                        : "what keeps a light sample from visible surfaces");
-                pass.sample(in.surface);
-                pass.sample(*shadow);
-                pass.write(occlusion.texture);
-                if (isFirst) pass.clear(occlusion.texture, vec4(0));
-                return [=, surface = in.surface, shadow = *shadow, region = ivec4(corner, in.size),
-                        block = blockOf(in, group, sample, views, corner, int(i) % kSamplesPerTexel)](
-                           const graph::Resources& resources, graph::Commands& commands) {
-                    commands.draw(
-                        {.program = program,
-                         .region = region,
-                         .blend = graph::Blend::Add,
-                         .block = block,
-                         .textures = {{"uSurface", resources[surface]}, {"uShadow", resources[shadow]}}});
-                };
-            });
+            const std::vector<PosedMesh>& meshes =
+                sample.isEnvironment && !in.carriesEnvironment ? in.opaque : all;
+            Shadow shadow{shadowViews(sample.source, boundsOfAll(meshes, group.casters), group.bounds,
+                                      shadowSizeFor(sample, in.shadowSize)),
+                          {}};
+            if (!shadow.views.faces.empty()) {
+                Result<TextureId> map =
+                    recordShadow(graph, context, shadow.views, meshes, group.bounds, group.casters);
+                if (!map) return map.error();
+                shadow.map = *map;
+                const Target target{in.eye, in.size, in.surface, group.field};
+                if (Status s = add(graph, context, target, sample, shadow, i, samples.size(), occlusion); !s)
+                    return s.error();
+            }
+            if (!group.field) occlusion.shadows.push_back(std::move(shadow));
         }
-    }
+    return occlusion;
+}
+
+Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const LitView& view,
+                                  std::span<const LampPoint> samples, std::span<const Shadow> shadows) {
+    Occlusion occlusion = emptyFor(context, view.size, samples.size());
+    const Target target{view.eye, view.size, view.surface, nullptr};
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        if (shadows[i].map)
+            if (Status s = add(graph, context, target, samples[i], shadows[i], i, samples.size(), occlusion);
+                !s)
+                return s.error();
     return occlusion;
 }
 

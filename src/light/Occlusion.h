@@ -20,12 +20,21 @@ struct Lit {
     const std::vector<PosedMesh>& refractive; ///< all that bends light: what lamps send through is light of
                                               ///< caustics; light of an environment passes straight on
     int shadowSize;                           ///< texels a side of a lamp's shadow view
+    bool carriesEnvironment = false;          ///< unless caustics hold that as well
+    Bounds beside{};                          ///< box around what else the shadows on meshes shall reach
+};
+
+/// What a light sample sees of all that stands in its way.
+struct Shadow {
+    ShadowViews views;
+    graph::TextureId map; ///< none: nothing does
 };
 
 /// 1 - visibility of some samples at each pixel; see shaders/light/occlusion.glsl.
 struct Occlusion {
     graph::TextureId texture; ///< none: nothing stands in the way of any
     int columns = 1;
+    std::vector<Shadow> shadows{}; ///< of each sample, on all but height fields
 };
 
 /// Samples that one recordOcclusion() can take.
@@ -38,5 +47,18 @@ int mostSamplesAtOnce(const gl::Context& context, ivec2 size);
 /// @return         Error (Fault::Machine) when a shadow view is larger than this GPU's textures
 Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const Lit& in,
                                   std::span<const LampPoint> samples);
+
+/// A view other than the camera's that shows meshes.
+struct LitView {
+    const Eye& eye;
+    ivec2 size;
+    graph::TextureId surface; ///< views.surface, or a layer of one object with outward normals
+};
+
+/// The same for another view, by the shadows that are drawn already.
+///
+/// @param shadows  of the samples
+Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const LitView& view,
+                                  std::span<const LampPoint> samples, std::span<const Shadow> shadows);
 
 } // namespace lucent::views

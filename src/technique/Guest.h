@@ -8,6 +8,7 @@
 #include "views/Objects.h"
 #include "views/Surroundings.h"
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -50,7 +51,9 @@ struct Slice {
     int first, end;                               ///< those of this slice
     int placed;                                   ///< samples [placed, ...) are the environment's
     views::Occlusion occlusion;                   ///< of this slice
-    graph::TextureId flux;   ///< W/m² that guests carried to each pixel (Guest::light()); or none
+    graph::TextureId flux; ///< W/m² that guests carried to each pixel (Guest::light()); or none
+    /// The same in another view; null where nobody carries any, and after the first slice.
+    std::function<Result<graph::TextureId>(const views::LitView&)> fluxOn;
     graph::TextureId sum;    ///< of earlier slices; not read when first == 0
     graph::TextureId target; ///< the sum with this slice; RGBA32F
     bool baked;              ///< the environment's light on what a guest has baked comes from there
@@ -125,8 +128,16 @@ public:
     ///
     /// @return  RGBA32F, W/m² on each pixel of the surface; none where there is none
     virtual Result<graph::TextureId> light(const Passes&) { return graph::TextureId{}; }
+    /// Whether that holds the environment's light too: what sends it on then stands in its way.
+    virtual bool carriesEnvironment(const scene::Scene&) const { return false; }
+    /// The same light in another view, in the graph in which light() was called.
+    virtual Result<graph::TextureId> lightOn(const Passes&, const views::LitView&) {
+        return graph::TextureId{};
+    }
     /// Whether light samples reach anything that this technique shades in what a scene shows.
     virtual bool shades(const scene::Scene&) const { return false; }
+    /// Box around what shade() lights beside the surfaces that the camera sees; empty: nothing.
+    virtual views::Bounds lit(const Picture&) const { return {}; }
     /// Shade: adds a slice of the light samples to its pixels and leaves the others as they are.
     virtual Status shade(const Passes&, const Slice&) { return Done{}; }
     /// Scatter: draws, over the complete sum, what is not summed sample by sample.

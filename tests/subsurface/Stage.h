@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -70,6 +71,54 @@ struct SubsurfaceTest : support::GlTest {
         Subsurface subsurface(*context);
         const auto plan = subsurface.plan(pool, scene, posed.drawn.solid, settings);
         EXPECT_TRUE(plan.ok()) << plan.error().message;
+        const std::vector<views::LampPoint> samples = views::lightSamples(scene, views::samplingOf(scene));
+        const Image table = views::sampleTable(samples);
+        const graph::TextureDesc tableDesc{.size = table.size(), .format = graph::Format::RGBA32F};
+        const graph::Texture tableTexture(context->device(), tableDesc, "samples");
+        context->device().upload(tableTexture.handle(), 0, table.pixels);
+        const graph::TextureId tableId = graph.import(tableTexture.handle(), tableDesc, "samples");
+        const int count = int(samples.size()), most = views::mostSamplesAtOnce(*context, size);
+        const std::vector<views::DrawnObject> none;
+        std::vector<views::PosedMesh> bodies = posed.solids;
+        std::erase_if(bodies, [](const auto& mesh) { return !scatters(*mesh.drawn.object); });
+        const std::vector<views::PosedMesh> noGlass;
+        for (int first = 0; first == 0 || first < count; first += most) {
+            const int end = std::min(count, first + most);
+            const auto occlusion = views::recordOcclusion(
+                graph, *context,
+                {.eye = posed.eye,
+                 .size = size,
+                 .surface = surfaceId,
+                 .fields = none,
+                 .solids = posed.solids,
+                 .casters = none,
+                 .opaque = posed.all,
+                 .refractive = noGlass,
+                 .shadowSize = views::samplingOf(scene).shadowSize,
+                 .beside = boundsOfAll(posed.solids)},
+                std::span(samples).subspan(std::size_t(first), std::size_t(end - first)));
+            EXPECT_TRUE(occlusion.ok()) << occlusion.error().message;
+            const Status lit = subsurface.light(
+                graph,
+                {.scene = scene,
+                 .eye = posed.eye,
+                 .size = size,
+                 .solids = bodies,
+                 .opaque = posed.all,
+                 .refractive = noGlass,
+                 .fields = none,
+                 .surface = surfaceId,
+                 .samples = samples,
+                 .table = tableId,
+                 .first = first,
+                 .end = end,
+                 .placed = int(std::count_if(samples.begin(), samples.end(),
+                                             [](const auto& sample) { return !sample.isEnvironment; })),
+                 .occlusion = *occlusion,
+                 .radiosity = radiosity},
+                *plan, settings);
+            EXPECT_TRUE(lit.ok()) << lit.error().message;
+        }
         const Inputs in{.scene = scene,
                         .eye = posed.eye,
                         .solids = posed.solids,

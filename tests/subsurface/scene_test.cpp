@@ -60,7 +60,7 @@ float sumOf(const Image& image) {
 TEST_F(Scattering, ABallRunsNoPassOfOpaqueSurfaces) {
     EXPECT_TRUE(runs("subsurface.splat"));
     EXPECT_TRUE(runs("subsurface.shade"));
-    EXPECT_TRUE(runs("subsurface.highlight"));
+    EXPECT_TRUE(runs("subsurface.enter"));
     EXPECT_FALSE(runs("brdf.light"));
     EXPECT_FALSE(runs("subsurface.peel")); // no environment
     EXPECT_NE(explained().find("subsurface: light scatters inside object \"ball\""), std::string::npos);
@@ -158,7 +158,7 @@ TEST_F(Scattering, LambertLeavesTheWholeProfileWhereLightEnteredAndSplatsNothing
     lambert.method = subsurface::Method::Lambert;
     *static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data()) = lambert;
     EXPECT_FALSE(runs("subsurface.splat"));
-    EXPECT_TRUE(runs("subsurface.highlight")); // as ever
+    EXPECT_TRUE(runs("subsurface.enter")); // as ever
     // The front faces +z; light of 1 W/m² travels along (-0.3, -1, -0.5).
     const double cosine = 0.5 / std::sqrt(0.09 + 1 + 0.25);
     EXPECT_NEAR(picture(scene::Aov::Irradiance).at(24, 24)[1], cosine, 1e-5);
@@ -180,12 +180,12 @@ TEST_F(Scattering, LambertUnderAnEvenSkyIsTheMeanTransmittanceTimesTheWholeProfi
     scene.lights.clear();
     static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data())->method =
         subsurface::Method::Lambert;
+    views::samplingOf(scene).directions = 4096;
     const double arriving = 0.5 * double(kPi);
     EXPECT_NEAR(double(picture(scene::Aov::Irradiance).at(24, 24)[1]), arriving, 1e-3 * arriving);
     const double whole = diffusion::totalReflectance(diffusion::mediaOf(scene.objects[0].material)[1],
                                                      diffusion::Shape::Dipole, 0);
     const double expected = arriving * diffusion::meanTransmittance(1.5) * whole;
-    // 4096 cells stand for the sky, and 1024 steps for its lobe.
     EXPECT_NEAR(double(picture().at(24, 24)[1]), expected, 1e-3 * expected);
 }
 
@@ -244,6 +244,59 @@ TEST_F(Scattering, AnEnvironmentPeelsItsSurfacesAlongThreeAxes) {
     const Image image = picture(scene::Aov::Color);
     EXPECT_GT(image.at(24, 24)[1], 0.1f);
     EXPECT_NEAR(image.at(1, 1)[1], 0.5f, 1e-3); // behind it the environment itself
+}
+
+// A wide blind right before the front shuts out all of the sky that it would receive; what the back receives
+// is on its way through 4 mm of marble.
+TEST_F(Scattering, WhatStandsInTheWayOfAnEnvironmentShutsItOut) {
+    scene.environment.emplace();
+    auto map = std::make_shared<Image>(8, 4, 3);
+    std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);
+    scene.environment->map = map;
+    scene.lights.clear();
+    scene.objects[0].shape = scene::Box{{0.02f, 0.02f, 0.004f}};
+    const auto middle = [&](scene::Aov aov) { return double(picture(aov).at(24, 24)[1]); };
+    const double arriving = middle(scene::Aov::Irradiance), leaving = middle(scene::Aov::Radiosity);
+    EXPECT_NEAR(arriving, 0.5 * double(kPi), 0.005 * double(kPi)); // 256 directions
+    add("blind", scene::Box{{0.2f, 0.2f, 0.001f}}, {0, 0, 0.01f});
+    scene.objects.back().visible = false;
+    // h² / (h² + a²) of the sky stays, h = 7.5 mm before a half width a = 0.1 m: 0.6 %.
+    EXPECT_LT(middle(scene::Aov::Irradiance), 0.02 * arriving);
+    for (const auto method :
+         {subsurface::Method::Multires, subsurface::Method::Splat, subsurface::Method::Diffusion}) {
+        static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data())->method = method;
+        EXPECT_LT(middle(scene::Aov::Radiosity), 0.1 * leaving) << int(method);
+    }
+}
+
+// What a glass ball throws onto a slab enters as what falls straight in: its irradiance is that of a matt
+// slab, and as much of it leaves as of the light beside it.
+TEST_F(Scattering, CausticsEnterWhatScatters) {
+    scene.lights = {scene::DistantLight{.direction = {0, 0, -1}}};
+    scene.objects[0].shape = scene::Box{{0.04f, 0.04f, 0.004f}};
+    const auto sums = [&] {
+        return dvec2(sumOf(picture(scene::Aov::Irradiance)), sumOf(picture(scene::Aov::Radiosity)));
+    };
+    using subsurface::Method;
+    for (const auto method : {Method::Multires, Method::Splat, Method::Diffusion}) {
+        static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data())->method = method;
+        const dvec2 without = sums();
+        scene::Object& ball = add("ball of glass", scene::Sphere{0.006f}, {0, 0, 0.014f});
+        ball.visible = false;
+        ball.material.transmission = 1;
+        const dvec2 within = sums();
+        // The ball takes away what it mirrors, 0.08 of its 0.11 of the light.
+        EXPECT_LT(within.x, 0.999 * without.x) << int(method);
+        EXPECT_NEAR(within.y / without.y, within.x / without.x, 0.02) << int(method);
+        const scene::Material marble = scene.objects[0].material;
+        const Image onMarble = picture(scene::Aov::Irradiance);
+        scene.objects[0].material.scattering = vec3(0);
+        const Image onMatt = picture(scene::Aov::Irradiance);
+        for (std::size_t i = 1; i < onMatt.pixels.size(); i += 4)
+            ASSERT_NEAR(onMarble.pixels[i], onMatt.pixels[i], 1e-3 + 1e-3 * double(onMatt.pixels[i])) << i;
+        scene.objects[0].material = marble;
+        scene.objects.pop_back();
+    }
 }
 
 TEST_F(Scattering, LayersUnderAnEnvironmentAreCountedOnceHoweverTheObjectMovesAndTurns) {

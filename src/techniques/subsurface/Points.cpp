@@ -55,28 +55,37 @@ Result<Level> recordMerge(graph::FrameGraph& graph, gl::Context& context, const 
     return level;
 }
 
+// What the points of a view are made of.
+struct Sources {
+    TextureId surface, paint{};
+    TextureId entered{}, way{}; // of a layer
+};
+
 Result<Points> recordPoints(graph::FrameGraph& graph, gl::Context& context, const FluxBlock& block,
-                            TextureId surface, TextureId paint, bool fromSky, ivec2 size, int levels,
-                            const std::string& name) {
+                            const Sources& from, const Cut& cut, ivec2 size) {
     std::vector<std::string> defines;
-    if (fromSky) defines.push_back("FROM_SKY");
-    if (paint) defines.push_back("PAINTED");
+    if (from.entered) defines.push_back("OF_LAYER");
+    if (from.paint) defines.push_back("PAINTED");
+    if (cut.refracted) defines.push_back("REFRACTED");
     const gl::Program* program = context.program("subsurface/flux", defines);
+    const TextureId way = cut.refracted ? from.way : TextureId{};
     Points points;
     graph.addPass("subsurface.flux", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("light that enters object \"" + name + "\"");
-        pass.sample(surface);
-        if (paint) pass.sample(paint);
-        points.push_back(createLevel(pass, size, bool(paint)));
+        pass.reason("light that enters object \"" + cut.object.drawn.object->name + "\"");
+        for (const TextureId id : {from.surface, from.paint, from.entered, way})
+            if (id) pass.sample(id);
+        points.push_back(createLevel(pass, size, bool(from.paint)));
         return [=](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{
-                .program = program, .block = block, .textures = {{"uSurface", resources[surface]}}};
-            if (paint) draw.textures.push_back({"uPaint", resources[paint]});
+                .program = program, .block = block, .textures = {{"uSurface", resources[from.surface]}}};
+            if (from.paint) draw.textures.push_back({"uPaint", resources[from.paint]});
+            if (from.entered) draw.textures.push_back({"uEntered", resources[from.entered]});
+            if (way) draw.textures.push_back({"uWay", resources[way]});
             commands.draw(draw);
         };
     });
     float width = std::max(glm::length(vec3(block.view.right)), glm::length(vec3(block.view.up)));
-    while (int(points.size()) < levels && points.back().size != ivec2(1)) {
+    while (int(points.size()) < cut.grid.levels && points.back().size != ivec2(1)) {
         width *= 2;
         Result<Level> level = recordMerge(graph, context, points.back(), {width, int(block.view.eye.w)});
         if (!level) return level.error();
@@ -92,35 +101,6 @@ FluxBlock blockOf(const views::Eye& eye, ivec2 size, const views::PosedMesh& obj
     block.object = object.drawn.index;
     block.ior = object.drawn.object->material.surfaceIor();
     return block;
-}
-
-Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::Eye& eye,
-                  const views::PosedMesh& object, ivec2 size, TextureId before, TextureId& layer,
-                  TextureId& paint) {
-    std::vector<std::string> defines;
-    if (!before) defines.push_back("PEEL_FIRST");
-    if (object.drawn.paint) defines.push_back("PAINTED");
-    const gl::Program* program = context.program("subsurface/peel", defines);
-    graph.addPass("subsurface.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("a surface of object \"" + object.drawn.object->name + "\" that the environment lights");
-        pass.sample(object.positions);
-        pass.sample(object.normals);
-        if (before) pass.sample(before);
-        layer = pass.createColor("subsurface.layer", {.size = size, .format = Format::RGBA32F});
-        pass.clear(layer, vec4(0));
-        if (object.drawn.paint) {
-            paint = pass.createColor("subsurface.paint", {.size = size, .format = Format::RGBA32F});
-            pass.clear(paint, vec4(1));
-        }
-        pass.clear(pass.createDepth("subsurface.depth", size, Format::Depth32F), 1.0f);
-        return [=](const graph::Resources& resources, graph::Commands& commands) {
-            graph::Draw draw{.depthTest = graph::DepthTest::Less};
-            if (object.drawn.paint) draw.textures = views::enteringBindings(*object.drawn.paint);
-            if (before) draw.textures.push_back({"uBefore", resources[before]});
-            drawMesh(commands, *program, resources, object, eye, size, object.drawn.index, std::move(draw));
-        };
-    });
-    return Done{};
 }
 
 // @param move  without scale
@@ -158,48 +138,67 @@ ivec2 pixelsOf(const views::Eye& eye, const scene::Object& object, const Grid& g
     return glm::clamp(ivec2(glm::min(wanted, vec2(float(grid.most)))), ivec2(1), ivec2(grid.most));
 }
 
+Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::Eye& eye,
+                  const views::PosedMesh& object, ivec2 size, TextureId before, TextureId layer,
+                  TextureId paint) {
+    std::vector<std::string> defines;
+    if (!before) defines.push_back("PEEL_FIRST");
+    if (paint) defines.push_back("PAINTED");
+    const gl::Program* program = context.program("subsurface/peel", defines);
+    graph.addPass("subsurface.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("a surface of object \"" + object.drawn.object->name + "\" that the environment lights");
+        pass.sample(object.positions);
+        pass.sample(object.normals);
+        if (before) pass.sample(before);
+        pass.write(layer);
+        pass.clear(layer, vec4(0));
+        if (paint) {
+            pass.write(paint);
+            pass.clear(paint, vec4(1));
+        }
+        pass.clear(pass.createDepth("subsurface.depth", size, Format::Depth32F), 1.0f);
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{.depthTest = graph::DepthTest::Less};
+            if (paint) draw.textures = views::enteringBindings(*object.drawn.paint);
+            if (before) draw.textures.push_back({"uBefore", resources[before]});
+            drawMesh(commands, *program, resources, object, eye, size, object.drawn.index, std::move(draw));
+        };
+    });
+    return Done{};
+}
+
 Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const views::LampPoint& lamp,
-                         const views::Eye& face, const views::PosedMesh& object,
-                         const std::vector<views::PosedMesh>& casters,
-                         const std::vector<views::DrawnObject>& fields, const Grid& grid) {
+                         const views::Eye& face, const Cut& cut, const std::vector<views::PosedMesh>& casters,
+                         const std::vector<views::DrawnObject>& fields) {
+    const views::PosedMesh& object = cut.object;
     const views::Bounds bounds = views::boundsOf(*object.drawn.object);
-    const ivec2 size = pixelsOfGrazed(pixelsOf(face, *object.drawn.object, grid), face, bounds, grid);
-    const TextureId surface = graph.create("subsurface.lit", {.size = size, .format = Format::RGBA32F});
-    if (Status s = views::recordSurface(graph, context, face, fields, casters, surface, size); !s)
+    const ivec2 size = pixelsOfGrazed(pixelsOf(face, *object.drawn.object, cut.grid), face, bounds, cut.grid);
+    Sources from{.surface = graph.create("subsurface.lit", {.size = size, .format = Format::RGBA32F})};
+    if (Status s = views::recordSurface(graph, context, face, fields, casters, from.surface, size); !s)
         return s.error();
-    TextureId paint;
     if (object.drawn.paint) {
         Result<TextureId> drawn = views::recordEntering(graph, context, face, object, size);
         if (!drawn) return drawn.error();
-        paint = *drawn;
+        from.paint = *drawn;
     }
-    FluxBlock block = blockOf(face, size, object, grid.sharpness);
+    FluxBlock block = blockOf(face, size, object, cut.grid.sharpness);
     block.color = vec4(lamp.color, lamp.exponent);
     block.axis = vec4(lamp.axis, lamp.fades);
     block.cone = lamp.cone;
-    return recordPoints(graph, context, block, surface, paint, false, size, grid.levels,
-                        object.drawn.object->name);
+    return recordPoints(graph, context, block, from, cut, size);
 }
 
-Result<std::vector<Points>> recordSky(graph::FrameGraph& graph, gl::Context& context, const views::Eye& axis,
-                                      const views::PosedMesh& object, int layers,
-                                      const std::array<vec3, 9>& sky, const Grid& grid) {
-    const ivec2 size = pixelsOf(axis, *object.drawn.object, grid);
-    FluxBlock block = blockOf(axis, size, object, grid.sharpness);
-    std::transform(sky.begin(), sky.end(), block.sky.begin(), [](vec3 one) { return vec4(one, 0); });
-    std::vector<Points> list;
-    TextureId before;
-    for (int i = 0; i < layers; ++i) {
-        TextureId layer, paint;
-        if (Status s = recordPeel(graph, context, axis, object, size, before, layer, paint); !s)
-            return s.error();
-        Result<Points> points = recordPoints(graph, context, block, layer, paint, true, size, grid.levels,
-                                             object.drawn.object->name);
-        if (!points) return points.error();
-        list.push_back(std::move(*points));
-        before = layer;
-    }
-    return list;
+Result<Points> recordLayer(graph::FrameGraph& graph, gl::Context& context, const views::Eye& axis,
+                           const Cut& cut, const LitLayer& layer) {
+    const auto import = [&](const graph::Texture& texture) {
+        return texture ? graph.import(texture.handle(), texture.desc(), texture.label()) : TextureId{};
+    };
+    const ivec2 size = layer.surface.desc().size;
+    const Entered& entered = layer.entered;
+    return recordPoints(graph, context, blockOf(axis, size, cut.object, cut.grid.sharpness),
+                        {import(layer.surface), import(layer.paint), import(entered.light[entered.now]),
+                         import(entered.other[entered.now])},
+                        cut, size);
 }
 
 scene::Object unmoved(const scene::Object& object) {

@@ -28,6 +28,20 @@ struct Sharpness {
     bool paper = false;         ///< without the factor M_d² of the light
 };
 
+/// A sum over light samples in one view, which outlives the graphs that add to it.
+struct Entered {
+    graph::Texture light[2]; ///< W/m² that enters; the sum and the one before it, in turns
+    graph::Texture other[2]; ///< shaders/subsurface/enter.frag
+    int now = 0;
+};
+
+/// One surface of an object along an axis.
+struct LitLayer {
+    graph::Texture surface; ///< shaders/subsurface/peel.frag
+    graph::Texture paint;   ///< of painted objects: what enters there
+    Entered entered;
+};
+
 /// How finely a view is cut.
 struct Grid {
     float pixel = 0; ///< m on a surface that faces the view: width of a block of the finest level
@@ -40,23 +54,33 @@ struct Grid {
 /// names the object.
 ivec2 pixelsOf(const views::Eye& eye, const scene::Object& object, const Grid& grid);
 
+/// How points are made of what a view shows of an object.
+struct Cut {
+    const views::PosedMesh& object;
+    const Grid& grid;
+    bool refracted = false; ///< `normal` holds the way on which light goes on inside instead
+};
+
 /// Points of an object that a lamp sees.
 ///
 /// @param face     one of the lamp's views of the object
 /// @param casters  all meshes that stand in the light's way, the object among them
 /// @param fields   height fields that do
 Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const views::LampPoint& lamp,
-                         const views::Eye& face, const views::PosedMesh& object,
-                         const std::vector<views::PosedMesh>& casters,
-                         const std::vector<views::DrawnObject>& fields, const Grid& grid);
+                         const views::Eye& face, const Cut& cut, const std::vector<views::PosedMesh>& casters,
+                         const std::vector<views::DrawnObject>& fields);
 
-/// Points of all surfaces of an object behind each other along an axis, one list a layer.
+/// Points of one layer of an object along an axis.
+Result<Points> recordLayer(graph::FrameGraph& graph, gl::Context& context, const views::Eye& axis,
+                           const Cut& cut, const LitLayer& layer);
+
+/// Draws one layer of an object along an axis: the surface behind another one.
 ///
-/// @param axis  a view of the object along an axis
-/// @param sky   what enters by the normal (Sky.h)
-Result<std::vector<Points>> recordSky(graph::FrameGraph& graph, gl::Context& context, const views::Eye& axis,
-                                      const views::PosedMesh& object, int layers,
-                                      const std::array<vec3, 9>& sky, const Grid& grid);
+/// @param before  the layer before; none: there is none
+/// @param layer   RGBA32F; paint: none, or the same
+Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::Eye& eye,
+                  const views::PosedMesh& object, ivec2 size, graph::TextureId before, graph::TextureId layer,
+                  graph::TextureId paint);
 
 /// The object as large as it is, but neither moved nor turned: what depends on its shape and size alone.
 scene::Object unmoved(const scene::Object& object);

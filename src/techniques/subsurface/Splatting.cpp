@@ -2,7 +2,7 @@
 
 #include "light/ShadowMap.h"
 #include "shaders/subsurface/Blocks.h"
-#include "techniques/subsurface/Sky.h"
+#include "techniques/subsurface/Entering.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,8 +62,8 @@ struct Part {
 class Splatter {
 public:
     Splatter(graph::FrameGraph& graph, gl::Context& context, const Inputs& in, const Plan::State& plan,
-             const Settings& settings)
-        : graph_(graph), context_(context), in_(in), plan_(plan), settings_(settings) {}
+             const Entering& entering, const Settings& settings)
+        : graph_(graph), context_(context), in_(in), plan_(plan), entering_(entering), settings_(settings) {}
 
     Result<Radiosity> record();
 
@@ -84,10 +84,10 @@ private:
     Status recordPlaces(int scale);
     Result<TextureId> ballsOf(Places& places, int side);
     Status lit(const Target& target, const views::LampPoint& lamp);
-    Status sky(const Target& target);
-    Status splat(const Target& target, const Points& points);
-    Status splatBand(const Target& target, const Points& points, std::size_t band);
-    Status splatPart(const Target& target, const Points& points, std::size_t band, const Part& part);
+    Status onLayers(const Target& target, const LitBody& body);
+    Status splat(const Target& target, const Points& points, int coarser);
+    Status splatPart(const Target& target, const Points& points, int coarser, std::size_t band,
+                     const Part& part);
     Status spread(std::size_t from);
     double pixelOf(const Target& target) const;
     int scaleOf(const Target& target, double pixel) const;
@@ -98,6 +98,7 @@ private:
     gl::Context& context_;
     const Inputs& in_;
     const Plan::State& plan_;
+    const Entering& entering_;
     const Settings& settings_;
     bool splats() const { return context_.caps().floatBlend; }
     float brightest() const;
@@ -215,13 +216,8 @@ SplatBlock Splatter::blockOf(const Target& target, const Band& band) const {
     return block;
 }
 
-Status Splatter::splatBand(const Target& target, const Points& points, std::size_t number) {
-    for (const Part& part : partsOf(target, target.plan.profile->kernel.bands[number]))
-        if (Status s = splatPart(target, points, number, part); !s) return s;
-    return Done{};
-}
-
-Status Splatter::splatPart(const Target& target, const Points& points, std::size_t number, const Part& part) {
+Status Splatter::splatPart(const Target& target, const Points& points, int coarser, std::size_t number,
+                           const Part& part) {
     const Band& band = target.plan.profile->kernel.bands[number];
     const bool offset =
         settings_.dipoleGeometry == DipoleGeometry::Offset && !target.plan.profile->poles[0].empty();
@@ -242,7 +238,7 @@ Status Splatter::splatPart(const Target& target, const Points& points, std::size
         if (!found) return found.error();
         balls = *found;
     }
-    const int last = std::min(int(number) + target.layout.coarser, int(points.size()) - 1);
+    const int last = std::min(int(number) + coarser, int(points.size()) - 1);
     const int first = std::min(int(number), last);
     const graph::Texture& table = target.plan.profile->tables[number];
     const TextureId tableId = graph_.import(table.handle(), table.desc(), table.label());
@@ -316,9 +312,11 @@ Status Splatter::splatPart(const Target& target, const Points& points, std::size
     return Done{};
 }
 
-Status Splatter::splat(const Target& target, const Points& points) {
-    for (std::size_t band = 0; band < target.plan.profile->kernel.bands.size(); ++band)
-        if (Status s = splatBand(target, points, band); !s) return s;
+Status Splatter::splat(const Target& target, const Points& points, int coarser) {
+    const std::vector<Band>& bands = target.plan.profile->kernel.bands;
+    for (std::size_t band = 0; band < bands.size(); ++band)
+        for (const Part& part : partsOf(target, bands[band]))
+            if (Status s = splatPart(target, points, coarser, band, part); !s) return s;
     return Done{};
 }
 
@@ -327,26 +325,23 @@ Status Splatter::lit(const Target& target, const views::LampPoint& lamp) {
     const views::ShadowViews views = views::shadowViews(lamp.source, boundsOfAll(in_.casters, in_.fields),
                                                         target.bounds, target.layout.grid.most);
     for (const views::Eye& face : views.faces) {
-        Result<Points> points =
-            recordLit(graph_, context_, lamp, face, target.mesh, in_.casters, in_.fields, target.layout.grid);
+        Result<Points> points = recordLit(graph_, context_, lamp, face, {target.mesh, target.layout.grid},
+                                          in_.casters, in_.fields);
         if (!points) return points.error();
-        if (Status s = splat(target, *points); !s) return s;
+        if (Status s = splat(target, *points, target.layout.coarser); !s) return s;
     }
     return Done{};
 }
 
-Status Splatter::sky(const Target& target) {
-    const auto entering =
-        enteringSky(*in_.scene.environment, target.mesh.drawn.object->material.surfaceIor());
-    const std::array<views::Eye, 3> axes = axesOf(*target.mesh.drawn.object, target.layout.grid.most);
-    for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-        Result<std::vector<Points>> layers =
-            recordSky(graph_, context_, axes[axis], target.mesh, target.plan.layers[axis], entering,
-                      target.layout.grid);
-        if (!layers) return layers.error();
-        for (const Points& points : *layers)
-            if (Status s = splat(target, points); !s) return s;
-    }
+Status Splatter::onLayers(const Target& target, const LitBody& body) {
+    const Layout layout = target.layout.alongAxes();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const LitLayer& layer : body.layers[axis]) {
+            Result<Points> points =
+                recordLayer(graph_, context_, target.plan.axes[axis], {target.mesh, layout.grid}, layer);
+            if (!points) return points.error();
+            if (Status s = splat(target, *points, layout.coarser); !s) return s;
+        }
     return Done{};
 }
 
@@ -381,16 +376,14 @@ Status Splatter::spread(std::size_t from) {
 // W/m² that may enter.
 float Splatter::brightest() const {
     float most = 0;
-    for (const views::LampPoint& lamp : views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp))
+    for (const views::LampPoint& sample : entering_.samples())
         for (const views::PosedMesh& mesh : in_.solids) {
             const views::Bounds bounds = views::boundsOf(*mesh.drawn.object);
-            const vec3 nearest = glm::clamp(vec3(lamp.place), bounds.low, bounds.high);
-            const float away = std::max(glm::distance(vec3(lamp.place), nearest), 0.1f * bounds.radius());
-            most += std::max({lamp.color.r, lamp.color.g, lamp.color.b}) / (lamp.fades ? away * away : 1);
+            const vec3 nearest = glm::clamp(vec3(sample.place), bounds.low, bounds.high);
+            const float away = std::max(glm::distance(vec3(sample.place), nearest), 0.1f * bounds.radius());
+            most +=
+                std::max({sample.color.r, sample.color.g, sample.color.b}) / (sample.fades ? away * away : 1);
         }
-    if (in_.environment != graph::TextureHandle::None)
-        for (const vec3& part : enteringSky(*in_.scene.environment, 1))
-            most += glm::length(part);
     return most;
 }
 
@@ -412,10 +405,12 @@ Result<Radiosity> Splatter::record() {
     for (int scale = 0; scale <= scales; ++scale)
         if (Status s = recordPlaces(scale); !s) return s.error();
     for (const Target& target : targets) {
-        for (const views::LampPoint& lamp : views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp))
+        if (const LitBody* body = entering_.of(target.plan.index)) {
+            if (Status s = onLayers(target, *body); !s) return s.error();
+            continue;
+        }
+        for (const views::LampPoint& lamp : entering_.samples())
             if (Status s = lit(target, lamp); !s) return s.error();
-        if (in_.environment != graph::TextureHandle::None)
-            if (Status s = sky(target); !s) return s.error();
     }
     for (std::size_t scale = places_.size() - 1; scale > 0; --scale)
         if (Status s = spread(scale); !s) return s.error();
@@ -423,6 +418,16 @@ Result<Radiosity> Splatter::record() {
 }
 
 } // namespace
+
+Layout Layout::alongAxes() const {
+    Layout layout = *this;
+    layout.grid.pixel *= float(1 << refined);
+    layout.grid.most >>= refined;
+    layout.grid.levels = std::max(1, layout.grid.levels - refined);
+    layout.coarser -= refined;
+    layout.refined = 0;
+    return layout;
+}
 
 Layout layoutOf(const Profiled& profile, const views::DrawnMesh& mesh, const Settings& settings,
                 int maxTextureSize) {
@@ -433,7 +438,8 @@ Layout layoutOf(const Profiled& profile, const views::DrawnMesh& mesh, const Set
                            .levels = bands + refined,
                            .most = std::min(settings.mostSplats << refined, maxTextureSize),
                            .spare = bound ? kSpare : 1},
-                  .coarser = refined};
+                  .coarser = refined,
+                  .refined = refined};
     Grid& grid = layout.grid;
     grid.pixel /= float(1 << refined);
     if (!mesh.paint) return layout;
@@ -458,8 +464,9 @@ Layout layoutOf(const Profiled& profile, const views::DrawnMesh& mesh, const Set
 }
 
 Result<Radiosity> recordRadiosity(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
-                                  const Plan::State& plan, const Settings& settings) {
-    return Splatter(graph, context, in, plan, settings).record();
+                                  const Plan::State& plan, const Entering& entering,
+                                  const Settings& settings) {
+    return Splatter(graph, context, in, plan, entering, settings).record();
 }
 
 } // namespace lucent::subsurface

@@ -33,15 +33,24 @@ struct Plan::State {
     struct Object {
         int index = 0; ///< in the scene
         std::shared_ptr<const Profiled> profile;
-        std::array<int, 3> layers{}; ///< along x, y and z, where an environment shines
+        std::array<int, 3> layers{}; ///< along its axes; 0 where lamps light what they see
+        std::array<views::Eye, 3> axes{};
+        std::array<ivec2, 3> sizes{}; ///< of those views
     };
     std::vector<Object> objects;
+    bool onLayers = false; ///< light is summed on layers; else lamps light what they see
 };
+
+class Entering;
 
 /// How an object's points are laid out.
 struct Layout {
     Grid grid;
     int coarser = 0; ///< levels than a band's finest that it may use
+
+    /// Of views along the object's axes: no surface that counts there is as steep as in a lamp's.
+    Layout alongAxes() const;
+    int refined = 0; ///< levels that are finer than what faces a view asks for
 };
 Layout layoutOf(const Profiled& profile, const views::DrawnMesh& mesh, const Settings& settings,
                 int maxTextureSize);
@@ -55,6 +64,7 @@ struct Radiosity {
 /// Adds the passes that sum it. Where the GPU cannot add to 32-bit floats, each pixel gathers its light in
 /// sums of some thousand points, which 16-bit floats add up: about 3 digits.
 Result<Radiosity> recordRadiosity(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
-                                  const Plan::State& plan, const Settings& settings);
+                                  const Plan::State& plan, const Entering& entering,
+                                  const Settings& settings);
 
 } // namespace lucent::subsurface

@@ -1,9 +1,8 @@
 #include "techniques/subsurface/Subsurface.h"
 
 #include "base/Log.h"
-#include "light/ShadowMap.h"
 #include "shaders/subsurface/Blocks.h"
-#include "techniques/subsurface/Lambert.h"
+#include "techniques/subsurface/Entering.h"
 #include "techniques/subsurface/Past.h"
 #include "techniques/subsurface/Splatting.h"
 #include "techniques/subsurface/Volume.h"
@@ -24,10 +23,6 @@ constexpr std::string_view kSplats[] = {"bound", "paper"};
 constexpr std::string_view kExits[] = {"whole", "paper"};
 constexpr std::string_view kBlurEnergies[] = {"kept", "paper"};
 
-bool scatters(const scene::Object& object) {
-    return object.visible && !object.isField() && object.material.isScattering();
-}
-
 // Those whose pixels are drawn here.
 std::vector<views::PosedMesh> scattering(const std::vector<views::PosedMesh>& solids) {
     std::vector<views::PosedMesh> list = solids;
@@ -38,52 +33,13 @@ std::vector<views::PosedMesh> scattering(const std::vector<views::PosedMesh>& so
 // Not a picture but the light at the surface.
 bool showsLight(const Inputs& in) { return in.radiosity || in.irradiance; }
 
-bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
-
-// Adds the highlights of one point of a lamp on all objects to those before it; or to none.
-Result<TextureId> recordHighlight(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
-                                  const std::vector<views::PosedMesh>& objects, const views::LampPoint& lamp,
-                                  TextureId before) {
-    Result<LampShadow> lampShadow = recordLampShadow(graph, context, in, objects, lamp);
-    if (!lampShadow) return lampShadow.error();
-    const views::ShadowViews& views = lampShadow->views;
-    const TextureId shadow = lampShadow->map;
-    std::vector<std::string> defines;
-    if (shadow) defines.push_back("USE_SHADOW");
-    if (before) defines.push_back("USE_BEFORE");
-    const gl::Program* program = context.program("subsurface/highlight", defines);
-    std::vector<graph::Block> blocks;
-    for (const views::PosedMesh& mesh : objects) {
-        const scene::Material& material = mesh.drawn.object->material;
-        HighlightBlock block{.view = views::viewBlock(in.eye, in.size),
-                             .faces = facesOf(views),
-                             .place = lamp.place,
-                             .color = vec4(lamp.color, lamp.exponent),
-                             .axis = vec4(lamp.axis, lamp.fades),
-                             .cone = lamp.cone,
-                             .faceCount = int(views.faces.size()),
-                             .object = mesh.drawn.index,
-                             .ior = material.surfaceIor(),
-                             .roughness = material.roughness};
-        blocks.push_back(block);
-    }
-    TextureId sum;
-    graph.addPass("subsurface.highlight", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("light of one point of a lamp that scattering objects mirror");
-        pass.sample(in.surface);
-        if (shadow) pass.sample(shadow);
-        if (before) pass.sample(before);
-        sum = pass.createColor("subsurface.highlight", {.size = in.size, .format = graph::Format::RGBA32F});
-        pass.clear(sum, vec4(0));
-        return [=, surface = in.surface](const graph::Resources& resources, graph::Commands& commands) {
-            std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
-            if (shadow) textures.push_back({"uShadow", resources[shadow]});
-            if (before) textures.push_back({"uBefore", resources[before]});
-            for (const graph::Block& block : blocks)
-                commands.draw({.program = program, .block = block, .textures = textures});
-        };
-    });
-    return sum;
+// Whether light is summed on layers of objects: lamps without size light what they see, but not by way of
+// glass and mirrors.
+bool isOnLayers(const scene::Scene& scene) {
+    return views::hasEnvironment(scene) || views::hasLargeLamp(scene) ||
+           std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
+               return object.material.isRefractive() || object.material.isMirror();
+           });
 }
 
 SubsurfaceShadeBlock shadeBlock(const Inputs& in, const views::PosedMesh& mesh, float unit,
@@ -124,7 +80,7 @@ Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs&
     graph.addPass("subsurface.shade", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(std::to_string(objects.size()) + (paint ? " painted" : "") +
                     " object(s) in which light scatters" +
-                    (hasSky ? "; the environment lights them past everything" : ""));
+                    (hasSky ? "; they mirror the environment past everything" : ""));
         pass.sample(in.surface);
         pass.sample(radiosity);
         if (highlight) pass.sample(highlight);
@@ -351,6 +307,10 @@ const ParamTable& Subsurface::params() {
     return table;
 }
 
+bool scatters(const scene::Object& object) {
+    return object.visible && !object.isField() && object.material.isScattering();
+}
+
 bool acts(const Settings& settings, std::string_view id) {
     const bool sums = settings.method == Method::Multires || settings.method == Method::Splat;
     return id != "temporal" || sums;
@@ -370,6 +330,7 @@ Plan::~Plan() = default;
 Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scene,
                               const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
     Plan plan;
+    plan.state_->onLayers = isOnLayers(scene);
     std::vector<std::shared_ptr<const Profiled>> used;
     for (const views::DrawnMesh& mesh : meshes) {
         if (!scatters(*mesh.object) || settings.method == Method::Lambert) continue;
@@ -380,11 +341,19 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
         object.profile = known != profiles_.end() ? *known : profileOf(context_, wanted, mesh.object->name);
         if (known == profiles_.end()) profiles_.push_back(object.profile);
         used.push_back(object.profile);
-        const Grid grid = layoutOf(*object.profile, mesh, settings, context_.caps().maxTextureSize).grid;
-        if (mesh.paint) warnOfPaint(mesh, grid, settings);
-        if (hasEnvironment(scene) || settings.method == Method::Diffusion) {
+        const Layout layout = layoutOf(*object.profile, mesh, settings, context_.caps().maxTextureSize);
+        if (mesh.paint) warnOfPaint(mesh, layout.grid, settings);
+        // Cells lie along the world's axes, points along the object's own.
+        const bool inCells = settings.method == Method::Diffusion;
+        if (inCells || plan.state_->onLayers) {
+            const Cells cells = cellsOf(views::boundsOf(*mesh.object), settings.cells);
+            const Grid along = layout.alongAxes().grid;
+            object.axes = inCells ? axesOf(cells) : axesOf(*mesh.object, along.most);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                object.sizes[axis] = inCells ? pixelsOf(object.axes[axis], *mesh.object, cells, context_)
+                                             : pixelsOf(object.axes[axis], *mesh.object, along);
             const Result<std::array<int, 3>> layers =
-                countLayers(pool, mesh, scene.view.time, settings, grid);
+                countLayers(pool, mesh, scene.view.time, object.axes, object.sizes, !inCells);
             if (!layers) return layers.error();
             object.layers = *layers;
         }
@@ -402,17 +371,13 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
     return plan;
 }
 
+// @param turns  the axes turn with the object
 Result<std::array<int, 3>> Subsurface::countLayers(graph::TexturePool& pool, const views::DrawnMesh& mesh,
-                                                   float time, const Settings& settings, const Grid& grid) {
-    // Cells lie along the world's axes, points along the object's own.
-    const bool inCells = settings.method == Method::Diffusion;
-    const std::array<views::Eye, 3> axes =
-        inCells ? axesOf(views::boundsOf(*mesh.object), grid.most) : axesOf(*mesh.object, grid.most);
-    Counted now{.key = views::objectKey(inCells ? *mesh.object : unmoved(*mesh.object), time),
-                .sizes = {},
+                                                   float time, const std::array<views::Eye, 3>& axes,
+                                                   const std::array<ivec2, 3>& sizes, bool turns) {
+    Counted now{.key = views::objectKey(turns ? unmoved(*mesh.object) : *mesh.object, time),
+                .sizes = sizes,
                 .layers = {}};
-    for (std::size_t i = 0; i < axes.size(); ++i)
-        now.sizes[i] = pixelsOf(axes[i], *mesh.object, grid);
     Counted& known = counted_[mesh.index];
     if (!mesh.water && known.key == now.key && known.sizes == now.sizes) return known.layers;
     for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -425,10 +390,21 @@ Result<std::array<int, 3>> Subsurface::countLayers(graph::TexturePool& pool, con
 }
 
 void Subsurface::clear() {
+    entering_.reset();
     counted_.clear();
     profiles_.clear();
     volumes_.reset();
     past_.reset();
+}
+
+Status Subsurface::light(graph::FrameGraph& graph, const Arriving& in, const Plan& plan,
+                         const Settings& settings) {
+    if (!entering_) entering_ = std::make_shared<Entering>();
+    return entering_->add(graph, context_, in, *plan.state_, settings);
+}
+
+void Subsurface::forgetRecorded() {
+    if (entering_) entering_->forget();
 }
 
 Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
@@ -443,22 +419,21 @@ Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan
         if (!painted.empty())
             if (Status s = recordLayer(graph, context_, in, painted, layer); !s) return s;
     }
-    if (objects.empty()) return Done{};
-    Result<Radiosity> radiosity = in.irradiance || settings.method == Method::Lambert
-                                      ? recordLambert(graph, context_, in, objects, settings)
-                                  : settings.method == Method::Diffusion
-                                      ? recordVolumes(graph, context_, in, *plan.state_, settings, *volumes_)
-                                      : recordRadiosity(graph, context_, in, *plan.state_, settings);
+    if (objects.empty() || !entering_) return Done{};
+    const Entered* seen = entering_->seen();
+    const auto import = [&](const graph::Texture& texture) {
+        return graph.import(texture.handle(), texture.desc(), texture.label());
+    };
+    Result<Radiosity> radiosity =
+        in.irradiance || settings.method == Method::Lambert ? Radiosity{import(seen->light[seen->now]), 1}
+        : settings.method == Method::Diffusion
+            ? recordVolumes(graph, context_, in, *plan.state_, *entering_, settings, *volumes_)
+            : recordRadiosity(graph, context_, in, *plan.state_, *entering_, settings);
     if (radiosity && past_ && radiosity->places)
         radiosity = recordSteady(graph, context_, in, *plan.state_, *radiosity, settings, past_);
     if (!radiosity) return radiosity.error();
     TextureId highlight;
-    if (!showsLight(in))
-        for (const views::LampPoint& lamp : views::lampPoints(in.scene, views::samplingOf(in.scene).lamp)) {
-            Result<TextureId> added = recordHighlight(graph, context_, in, objects, lamp, highlight);
-            if (!added) return added.error();
-            highlight = *added;
-        }
+    if (seen && !showsLight(in)) highlight = import(seen->other[seen->now]);
     std::vector<views::PosedMesh> plain, painted;
     for (const views::PosedMesh& mesh : objects)
         (mesh.drawn.paint && !in.irradiance ? painted : plain).push_back(mesh);

@@ -5,12 +5,13 @@
 
 #include "diffusion/Profile.h"
 #include "graph/FrameGraph.h"
-#include "light/Samples.h"
+#include "light/Occlusion.h"
 #include "scene/Scene.h"
 #include "views/ObjectKey.h"
 #include "views/Surface.h"
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -41,6 +42,9 @@ struct Settings {
     bool operator==(const Settings&) const = default;
 };
 
+/// Whether an object is drawn by this technique.
+bool scatters(const scene::Object& object);
+
 /// Whether a parameter changes anything beside these choices.
 bool acts(const Settings& settings, std::string_view id);
 
@@ -60,7 +64,28 @@ struct Inputs {
     graph::TextureId matt{}; ///< painted objects as if they were opaque (brdf), RGBA32F; not for radiosity
 };
 
-struct Grid;
+/// Some of the light samples, on their way to scattering objects.
+struct Arriving {
+    const scene::Scene& scene;
+    const views::Eye& eye;
+    ivec2 size{0};
+    std::vector<views::PosedMesh> solids;            ///< visible ones that scatter
+    const std::vector<views::PosedMesh>& opaque;     ///< all that stands in the light's way, hidden or not:
+    const std::vector<views::PosedMesh>& refractive; ///< see views::Lit
+    const std::vector<views::DrawnObject>& fields;
+    graph::TextureId surface;                     ///< views.surface
+    const std::vector<views::LampPoint>& samples; ///< all of them
+    graph::TextureId table;                       ///< views::sampleTable(samples)
+    int first, end;                               ///< those that are added
+    int placed;                                   ///< [placed, ...) are the environment's
+    const views::Occlusion& occlusion;            ///< of those, shadows included
+    graph::TextureId flux{};                      ///< technique::Slice::flux
+    /// technique::Slice::fluxOn
+    std::function<Result<graph::TextureId>(const views::LitView&)> fluxOn{};
+    bool radiosity = false, irradiance = false; ///< as in Inputs
+};
+
+class Entering;
 struct Profiled;
 struct Past;
 class Volumes;
@@ -81,16 +106,17 @@ private:
 };
 
 /// Radiance B F_t / (pi mean F_t), and what the surface mirrors of lamps and environment. B, what leaves, is
-/// the sum over points of R_d(distance) times the flux that entered: past everything that stands in a lamp's
-/// way, which refractive objects do as if they were opaque (as for brdf); of the environment, which nothing
-/// stands in the way of.
+/// the sum over points of R_d(distance) times the flux that entered: of the light samples, with the
+/// visibility that they have for all who shade, and of caustics, of which as much enters as of light that
+/// falls straight in.
 ///
 /// Painted objects (scene/Painting.h): light that enters at x_i leaves by t M_i M_d² R_d(M_d r) of x_i, and
 /// what is seen at x_o is t M_o times that radiance and 1 - t of the matt one. Of points that cannot stand as
 /// close as the largest M_d asks for, M_d counts as less.
 ///
-/// Not drawn: light that scatters once (ch. 6 leaves it out), light of caustics on scattering objects, light
-/// that scattering objects send each other, and from lamps inside of them.
+/// Not drawn: light that scatters once (ch. 6 leaves it out), light that
+/// scattering objects send each other, and from lamps inside of them; what stands in the way of the
+/// environment that the surface mirrors.
 class Subsurface {
 public:
     static const ParamTable& params();
@@ -106,8 +132,13 @@ public:
     Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene,
                       const std::vector<views::DrawnMesh>& meshes, const Settings& settings);
 
-    /// Adds the passes that draw the pixels of scattering objects into the target and leave the others as
-    /// they are; a: 1.
+    /// Adds the passes that sum a slice of the light samples; the first one begins anew.
+    Status light(graph::FrameGraph& graph, const Arriving& in, const Plan& plan, const Settings& settings);
+    /// What was recorded last did not run.
+    void forgetRecorded();
+
+    /// Adds the passes that draw, by the light that is summed, the pixels of scattering objects into the
+    /// target and leave the others as they are; a: 1.
     ///
     /// @return  Error (Fault::Machine) for images larger than the GPU's textures
     Status record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
@@ -123,9 +154,11 @@ private:
         std::array<int, 3> layers{};
     };
     Result<std::array<int, 3>> countLayers(graph::TexturePool& pool, const views::DrawnMesh& mesh, float time,
-                                           const Settings& settings, const Grid& grid);
+                                           const std::array<views::Eye, 3>& axes,
+                                           const std::array<ivec2, 3>& sizes, bool turns);
 
     gl::Context& context_;
+    std::shared_ptr<Entering> entering_;                    // made by light()
     std::map<int, Counted> counted_;                        // by the object's place in the scene
     std::vector<std::shared_ptr<const Profiled>> profiles_; // of the last plan
     std::shared_ptr<Volumes> volumes_;                      // null for methods that solve nothing

@@ -31,6 +31,42 @@ public:
         return Done{};
     }
 
+    bool shades(const scene::Scene& scene) const override {
+        const Aov show = scene.view.show;
+        return Subsurface::need(scene) &&
+               (show == Aov::Color || show == Aov::Radiosity || show == Aov::Irradiance);
+    }
+    views::Bounds lit(const technique::Picture& picture) const override {
+        return boundsOfAll(scattering(picture.drawn.meshes.solid));
+    }
+    Status shade(const technique::Passes& passes, const technique::Slice& slice) override {
+        const technique::Picture& picture = passes.picture;
+        if (slice.clears) views::recordNothing(passes.graph, "before what scatters", slice.target);
+        if (!plan_) return Done{};
+        const Aov show = picture.scene.view.show;
+        refractive_ = views::changingLight(picture.scene, passes.posed.glass);
+        return subsurface_.light(passes.graph,
+                                 {.scene = picture.scene,
+                                  .eye = picture.eye,
+                                  .size = picture.size,
+                                  .solids = scattering(views::Posed::visible(passes.posed.solid)),
+                                  .opaque = passes.posed.solid,
+                                  .refractive = refractive_,
+                                  .fields = passes.posed.fields,
+                                  .surface = passes.surface,
+                                  .samples = slice.samples,
+                                  .table = slice.table,
+                                  .first = slice.first,
+                                  .end = slice.end,
+                                  .placed = slice.placed,
+                                  .occlusion = slice.occlusion,
+                                  .flux = slice.flux,
+                                  .fluxOn = slice.fluxOn,
+                                  .radiosity = show == Aov::Radiosity,
+                                  .irradiance = show == Aov::Irradiance},
+                                 *plan_, settingsOf(picture.scene));
+    }
+
     Status scatter(const technique::Passes& passes, TextureId shown) override {
         const technique::Picture& picture = passes.picture;
         const Aov show = picture.scene.view.show;
@@ -74,12 +110,22 @@ public:
                                 "\": method diffusion spreads light as the material says");
         return lines;
     }
+    void forgetRecorded() override { subsurface_.forgetRecorded(); }
     void clear() override {
         plan_.reset();
         subsurface_.clear();
     }
 
 private:
+    // Those whose pixels are drawn here.
+    template <class Mesh>
+    static std::vector<Mesh> scattering(std::vector<Mesh> solids) {
+        std::erase_if(solids, [](const Mesh& mesh) { return !scatters(objectOf(mesh)); });
+        return solids;
+    }
+    static const scene::Object& objectOf(const views::DrawnMesh& mesh) { return *mesh.object; }
+    static const scene::Object& objectOf(const views::PosedMesh& mesh) { return *mesh.drawn.object; }
+
     // Painted objects as if they were opaque: what is drawn into cannot be read as well.
     Result<TextureId> recordMatt(graph::FrameGraph& graph, TextureId shown, ivec2 size) {
         const gl::Program* program = store_.context.program("subsurface/matt");
@@ -98,6 +144,7 @@ private:
     technique::Store store_;
     Subsurface subsurface_;
     std::optional<Plan> plan_;
+    std::vector<views::PosedMesh> refractive_; // of the graph that is recorded
 };
 
 bool isMethod(const scene::Scene& scene, std::initializer_list<Method> methods) {
@@ -120,7 +167,7 @@ constexpr technique::Knob kKnobs[] = {
 constexpr Aov kAovs[] = {Aov::Radiosity};
 constexpr Group kFirst[] = {Group::Mode, Group::Subsurface, Group::Light, Group::View};
 
-bool scatters(const scene::Scene& scene) { return Subsurface::need(scene).has_value(); }
+bool anyScatters(const scene::Scene& scene) { return Subsurface::need(scene).has_value(); }
 const technique::NotDrawn kLimits[] = {
     {"painted blur", "method diffusion spreads light as the material says; multires and splat draw it",
      [](const scene::Scene& scene) {
@@ -141,7 +188,11 @@ const technique::NotDrawn kLimits[] = {
                            (!one.material.layers.empty() || one.material.thickness > 0);
                 });
      }},
-    {"light that scatters once inside objects", "diffusion leaves it out (dissertation ch. 6)", scatters},
+    {"light that scatters once inside objects", "diffusion leaves it out (dissertation ch. 6)", anyScatters},
+    {"objects in what translucent surfaces mirror", "they mirror lamps and the environment past everything",
+     [](const scene::Scene& scene) {
+         return anyScatters(scene) && scene.objects.size() > 1 && views::hasEnvironment(scene);
+     }},
     {"light that scattering objects send each other", "they receive lamps and the environment",
      [](const scene::Scene& scene) {
          return std::count_if(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {

@@ -3,7 +3,7 @@
 #include "base/Log.h"
 #include "light/ShadowMap.h"
 #include "shaders/subsurface/Blocks.h"
-#include "techniques/subsurface/Sky.h"
+#include "techniques/subsurface/Entering.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,14 +64,19 @@ std::vector<graph::Binding> columnBindings(const graph::Resources& resources,
         {"uAlongX", resources[along[0]]}, {"uAlongY", resources[along[1]]}, {"uAlongZ", resources[along[2]]}};
 }
 
+// Four points along a cell: with two the lattice shows where light grazes the surface.
+Grid gridOf(const Cells& cells, const gl::Context& context) {
+    return {.pixel = cells.width / 4, .levels = 1, .most = context.caps().maxTextureSize};
+}
+
 // The passes of one body.
 class Body {
 public:
     Body(graph::FrameGraph& graph, gl::Context& context, const Inputs& in, const Plan::State::Object& plan,
-         const views::PosedMesh& mesh, const Settings& settings, Volumes& volumes)
-        : graph_(graph), context_(context), in_(in), plan_(plan), mesh_(mesh), settings_(settings),
-          bounds_(views::boundsOf(*mesh.drawn.object)), cells_(cellsOf(bounds_, settings.cells)),
-          solution_(volumes.of(plan.index, key())) {}
+         const views::PosedMesh& mesh, const Entering& entering, const Settings& settings, Volumes& volumes)
+        : graph_(graph), context_(context), in_(in), plan_(plan), mesh_(mesh), entering_(entering),
+          settings_(settings), bounds_(views::boundsOf(*mesh.drawn.object)),
+          cells_(cellsOf(bounds_, settings.cells)), solution_(volumes.of(plan.index, key())) {}
 
     Status record(TextureId target);
 
@@ -84,7 +89,7 @@ private:
     Status columns(int axis);
     Status cut();
     Status bind();
-    Status lay(const Points& points, vec4 lamp);
+    Status lay(const Points& points);
     Status light();
     void warnOfCells(const std::array<diffusion::Medium, 3>& media) const;
     Status solve();
@@ -96,6 +101,7 @@ private:
     const Inputs& in_;
     const Plan::State::Object& plan_;
     const views::PosedMesh& mesh_;
+    const Entering& entering_;
     const Settings& settings_;
     const views::Bounds bounds_;
     const Cells cells_;
@@ -104,29 +110,9 @@ private:
     TextureId cell_, faces_, lower_, upper_, diagonal_, source_, fluence_;
 };
 
-// Nothing where water moves: it does so by itself.
 std::optional<Volumes::Key> Body::key() const {
-    Volumes::Key key;
-    const float time = in_.scene.view.time;
-    key.objects.push_back(views::objectKey(*mesh_.drawn.object, time));
-    key.painting = mesh_.drawn.object->painting;
-    for (const views::PosedMesh& caster : in_.casters) {
-        if (caster.drawn.water) return std::nullopt;
-        key.objects.push_back(views::objectKey(*caster.drawn.object, time));
-    }
-    for (const views::DrawnObject& field : in_.fields)
-        key.objects.push_back(views::objectKey(*field.object, time));
-    key.lamps = views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp);
-    if (in_.environment != graph::TextureHandle::None) {
-        const scene::Environment& environment = *in_.scene.environment;
-        key.map = environment.map;
-        key.sky = vec4(environment.rotation, environment.intensity);
-    }
-    key.media =
-        diffusion::mediaOf(mesh_.drawn.object->material); // the top layer's ior is that by which light enters
-    key.layers = plan_.layers;
-    key.cells = settings_.cells;
-    return key;
+    if (!entering_.key()) return std::nullopt;
+    return Volumes::Key{*entering_.key(), diffusion::mediaOf(mesh_.drawn.object->material), settings_.cells};
 }
 
 VolumeBlock Body::block() const {
@@ -223,7 +209,7 @@ Status Body::bind() {
     return Done{};
 }
 
-Status Body::lay(const Points& points, vec4 lamp) {
+Status Body::lay(const Points& points) {
     const gl::Program* program = context_.program("subsurface/volume_source");
     const Level& level = points.front();
     graph_.addPass("subsurface.source", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -239,7 +225,6 @@ Status Body::lay(const Points& points, vec4 lamp) {
             pass.clear(source_, vec4(0));
         }
         VolumeBlock block = this->block();
-        block.lamp = lamp;
         block.columns = level.size.x;
         return [level, block, cell = cell_, program](const graph::Resources& resources,
                                                      graph::Commands& commands) {
@@ -257,28 +242,27 @@ Status Body::lay(const Points& points, vec4 lamp) {
     return Done{};
 }
 
-// Four points along a cell: with two the lattice shows where light grazes the surface.
 Status Body::light() {
-    const Grid grid{.pixel = cells_.width / 4, .levels = 1, .most = context_.caps().maxTextureSize};
-    for (const views::LampPoint& lamp : views::lampPoints(in_.scene, views::samplingOf(in_.scene).lamp)) {
+    const Grid grid = gridOf(cells_, context_);
+    const Cut cut{mesh_, grid, true};
+    if (const LitBody* body = entering_.of(plan_.index)) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (const LitLayer& layer : body->layers[axis]) {
+                Result<Points> points = recordLayer(graph_, context_, plan_.axes[axis], cut, layer);
+                if (!points) return points.error();
+                if (Status s = lay(*points); !s) return s;
+            }
+        return Done{};
+    }
+    for (const views::LampPoint& lamp : entering_.samples()) {
         if (lamp.color == vec3(0)) continue;
         const views::ShadowViews views = views::shadowViews(lamp.source, boundsOfAll(in_.casters, in_.fields),
                                                             bounds_, 2 * settings_.cells);
         for (const views::Eye& face : views.faces) {
-            Result<Points> points =
-                recordLit(graph_, context_, lamp, face, mesh_, in_.casters, in_.fields, grid);
+            Result<Points> points = recordLit(graph_, context_, lamp, face, cut, in_.casters, in_.fields);
             if (!points) return points.error();
-            if (Status s = lay(*points, lamp.place); !s) return s;
+            if (Status s = lay(*points); !s) return s;
         }
-    }
-    if (in_.environment == graph::TextureHandle::None) return Done{};
-    const auto entering = enteringSky(*in_.scene.environment, mesh_.drawn.object->material.surfaceIor());
-    for (int axis = 0; axis < 3; ++axis) {
-        Result<std::vector<Points>> layers = recordSky(graph_, context_, eyeAlong(cells_, axis), mesh_,
-                                                       plan_.layers[std::size_t(axis)], entering, grid);
-        if (!layers) return layers.error();
-        for (const Points& points : *layers)
-            if (Status s = lay(points, vec4(0)); !s) return s;
     }
     return Done{};
 }
@@ -423,6 +407,15 @@ Rounds roundsOf(const std::array<diffusion::Medium, 3>& media, const Cells& cell
     return rounds;
 }
 
+std::array<views::Eye, 3> axesOf(const Cells& cells) {
+    return {eyeAlong(cells, 0), eyeAlong(cells, 1), eyeAlong(cells, 2)};
+}
+
+ivec2 pixelsOf(const views::Eye& axis, const scene::Object& object, const Cells& cells,
+               const gl::Context& context) {
+    return pixelsOf(axis, object, gridOf(cells, context));
+}
+
 std::shared_ptr<Volumes::Solution> Volumes::of(int object, const std::optional<Key>& key) {
     std::shared_ptr<Solution>& solution = solutions_[object];
     if (!solution) solution = std::make_shared<Solution>();
@@ -438,7 +431,8 @@ void Volumes::keepOnly(const std::vector<int>& objects) {
 }
 
 Result<Radiosity> recordVolumes(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
-                                const Plan::State& plan, const Settings& settings, Volumes& volumes) {
+                                const Plan::State& plan, const Entering& entering, const Settings& settings,
+                                Volumes& volumes) {
     std::vector<int> indices;
     for (const Plan::State::Object& object : plan.objects)
         indices.push_back(object.index);
@@ -453,7 +447,9 @@ Result<Radiosity> recordVolumes(graph::FrameGraph& graph, gl::Context& context, 
     for (const Plan::State::Object& object : plan.objects)
         for (const views::PosedMesh& mesh : in.solids)
             if (mesh.drawn.index == object.index)
-                if (Status s = Body(graph, context, in, object, mesh, settings, volumes).record(light); !s)
+                if (Status s =
+                        Body(graph, context, in, object, mesh, entering, settings, volumes).record(light);
+                    !s)
                     return s.error();
     return Radiosity{light, 1};
 }

@@ -2,8 +2,7 @@
 /// Diffusion solved inside the body: where profiles of a plane go wrong, behind a body, round its edges and
 /// through its thin parts, this follows the light itself.
 
-#include "techniques/subsurface/Splatting.h"
-#include "views/ObjectKey.h"
+#include "techniques/subsurface/Entering.h"
 
 #include <map>
 
@@ -15,14 +14,9 @@ class Volumes {
 public:
     /// What a solution depends on.
     struct Key {
-        std::vector<views::ObjectKey> objects; ///< the body first, then all that stands in the light's way
-        std::vector<views::LampPoint> lamps;
-        std::shared_ptr<const void> map;        ///< of the environment
-        vec4 sky{0};                            ///< its rotation [degrees] and intensity
+        EnteredKey entered;
         std::array<diffusion::Medium, 3> media; ///< of the body
-        std::array<int, 3> layers{};            ///< as Plan's
         int cells = 0;                          ///< along its longest side
-        std::shared_ptr<const void> painting;   ///< on it
         bool operator==(const Key&) const = default;
     };
     struct Solution {
@@ -50,7 +44,8 @@ private:
 /// Parts of a body that are thinner than a cell are as bright on both sides, which thicker ones than some
 /// mean free paths are not.
 Result<Radiosity> recordVolumes(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
-                                const Plan::State& plan, const Settings& settings, Volumes& volumes);
+                                const Plan::State& plan, const Entering& entering, const Settings& settings,
+                                Volumes& volumes);
 
 /// Cells along the axes, the ring around the body included, and their width.
 struct Cells {
@@ -62,6 +57,10 @@ struct Cells {
     ivec2 imageSize() const { return {count.x * across, count.y * ((count.z + across - 1) / across)}; }
 };
 Cells cellsOf(const views::Bounds& body, int along);
+/// Views along x, y and z in which light enters the cells, and their pixels.
+std::array<views::Eye, 3> axesOf(const Cells& cells);
+ivec2 pixelsOf(const views::Eye& axis, const scene::Object& object, const Cells& cells,
+               const gl::Context& context);
 
 /// Rounds that a solution takes at most: where a thousandth takes more, cells are a hundred mean free paths
 /// wide and tell nothing of the light in them anyway.
