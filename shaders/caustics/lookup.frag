@@ -67,7 +67,7 @@ vec3 besides(vec3 place, vec3 normal, vec2 offset) {
     vec3 origin = view.eye.w > 0.5 ? vec3(0.0) : across;
     vec3 ray = view.eye.w > 0.5 ? across : view.forward.xyz;
     float slope = dot(normal, ray);
-    if (slope >= -1e-3 * length(ray)) return place;
+    if (abs(slope) <= 1e-3 * length(ray)) return place;
     return view.eye.xyz + origin + dot(normal, place - view.eye.xyz - origin) / slope * ray;
 }
 

@@ -199,6 +199,15 @@ std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples) {
     return points;
 }
 
+LampPoint facing(LampPoint point, const vec3& place) {
+    const vec3 way = point.centre - place, beside = vec3(point.place) - point.centre;
+    if (point.place.w == 0 || beside == vec3(0) || way == vec3(0)) return point;
+    const vec3 towards = glm::normalize(way);
+    point.place = vec4(point.centre + beside - glm::dot(beside, towards) * towards, 1);
+    point.source.place = point.place;
+    return point;
+}
+
 bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
 
 bool hasLargeLamp(const scene::Scene& scene) {

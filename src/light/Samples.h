@@ -40,6 +40,10 @@ struct LampPoint {
 /// @param samples  > 0
 std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples);
 
+/// The point beside the middle of its lamp, on the disc that faces a place, as which a point counts there
+/// (shaders/light/sample.glsl); other points as they are.
+LampPoint facing(LampPoint point, const vec3& place);
+
 /// Where the directions are that stand for an environment: evenly all around, or more where the map is
 /// bright.
 enum class EnvironmentSampling : int { Equal, Importance };

@@ -101,7 +101,7 @@ struct Caustics : support::GlTest {
                              .opaque = *solids,
                              .refractive = *glass,
                              .show = scene::Aov::Irradiance,
-                             .flux = *light},
+                             .flux = light->irradiance},
                             table, targetId, {.lamp = 16, .directions = 0});
         const Status compiled = graph.compile();
         EXPECT_TRUE(compiled.ok()) << compiled.error().message;

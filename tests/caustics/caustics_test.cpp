@@ -31,6 +31,64 @@ TEST_F(Caustics, AnIndexOfOneLightsTheFloorAsIfNothingWereThere) {
     }
 }
 
+// A lamp with a size is the disc that faces what it lights, for glass as for everything else: from each of
+// its points a ball fills a cone, none of which begins nearer than the lamp's middle.
+TEST_F(Caustics, PointsOfALampLieOnTheDiscThatFacesTheGlass) {
+    scene::Scene scene = floorUnder(glass(scene::Sphere{0.3f}, 1.5f, {0, 1, 0}), 4);
+    scene.lights = {scene::PointLight{.position = {0, 2.5f, 0},
+                                      .intensity = 1,
+                                      .falloff = scene::LightFalloff::InverseSquare,
+                                      .radius = 0.5f}};
+    double expected = 0;
+    const auto points = views::lampPoints(scene, views::samplingOf(scene).lamp);
+    ASSERT_GT(points.size(), 1u);
+    for (const views::LampPoint& point : points) {
+        const double square =
+            1.5 * 1.5 + double(point.place.x * point.place.x + point.place.z * point.place.z);
+        expected += double(point.color.g) * kTau * (1 - std::sqrt(1 - 0.3 * 0.3 / square));
+    }
+    // The sphere's triangles lie within it; the points' depths would make it 8 % more.
+    EXPECT_NEAR(energyOf(scene, {32, 32}).met.g / expected, 1, 0.01);
+}
+
+void shineFrom(scene::Scene& scene, ivec2 size, const std::function<float(ivec2)>& radiance) {
+    auto map = std::make_shared<Image>(size.x, size.y, 3);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x)
+            std::fill_n(map->at(x, y), 3, radiance({x, y}));
+    scene.lights.clear();
+    scene.environment.emplace();
+    scene.environment->map = std::move(map);
+}
+
+// Of radiance 1 all around, a ball above a wide floor meets what comes from above: 2 pi sr of its cross
+// section.
+TEST_F(Caustics, GlassMeetsAllOfTheEnvironmentThatSeesIt) {
+    scene::Scene scene = floorUnder(glass(scene::Sphere{0.3f}, 1.5f, {0, 1, 0}), 4);
+    shineFrom(scene, {8, 4}, [](ivec2) { return 1.0f; });
+    const double expected = kTau * 0.09 * kTau / 2;
+    const Energy energy = energyOf(scene, {32, 32}, {.directions = 64});
+    EXPECT_NEAR(energy.met.g / expected, 1, 0.05); // parts of the sphere lie on both sides of the horizon
+    expectClosed(energy);
+}
+
+TEST_F(Caustics, ASmallBrightPartOfAnEnvironmentThrowsTheCausticOfADistantLamp) {
+    scene::Scene scene = floorUnder(glass(scene::Sphere{1}, 1.5f, {0, 1.5f, 0}), 4);
+    constexpr double kStep = kTau / 2 / 256; // of the map's pixels
+    const double polar = 40.5 * kStep, azimuth = 300.5 * kStep - kTau / 2;
+    const double part = kStep * kStep * std::sin(polar);
+    scene.lights = {
+        scene::DistantLight{.direction = vec3(-std::sin(azimuth) * std::sin(polar), -std::cos(polar),
+                                              std::cos(azimuth) * std::sin(polar)),
+                            .irradiance = 1}};
+    const Image wanted = lightOf(scene, {64, 64});
+    shineFrom(scene, {512, 256}, [&](ivec2 at) { return at == ivec2(300, 40) ? float(1 / part) : 0.0f; });
+    const Image found = lightOf(scene, {64, 64}, {.directions = 4});
+    EXPECT_NEAR(sumOf(found) / sumOf(wanted), 1, 0.01);
+    EXPECT_LT(misplaced(found, wanted), 0.02); // 0.7 degrees of light
+    EXPECT_EQ(sumOf(lightOf(scene, {64, 64}, {.directions = 0})), 0);
+}
+
 TEST_F(Caustics, EachFaceOfASlabTransmitsTheFresnelShare) {
     for (const float ior : {1.5f, 2.4f}) {
         const scene::Scene scene = floorUnder(glass(scene::Box{{1, 0.5f, 1}}, ior, {0, 1, 0}), 1);

@@ -46,8 +46,8 @@ int borderOf(const std::vector<views::Eye>& faces, int size) {
     return int(std::lround(0.5f * float(size) * (1 - 1 / faces.front().halfExtent.x)));
 }
 
-// What the camera shows of a box, and a little around it: beams that end beside the map are no beams, and so
-// are frayed where it ends.
+// What the camera shows of a box, all of what scatters light to where it shows it, and a little around them:
+// beams that end beside the map are no beams, and so are frayed where it ends.
 //
 // @param ray  m between rays
 views::Bounds seenWithMargin(const views::Eye& eye, const std::vector<views::DrawnMesh>& meshes,
@@ -55,7 +55,9 @@ views::Bounds seenWithMargin(const views::Eye& eye, const std::vector<views::Dra
     constexpr float kMargin = 1.0f / 16, kRays = 4; // of the longest side; at least
     views::Bounds seen;
     const auto add = [&](const scene::Object& object) {
-        const views::Bounds one = views::seenBy(eye, views::boundsOf(object));
+        const views::Bounds all = views::boundsOf(object);
+        const views::Bounds one =
+            object.visible && object.material.isScattering() ? all : views::seenBy(eye, all);
         seen.low = glm::min(seen.low, one.low);
         seen.high = glm::max(seen.high, one.high);
     };
@@ -269,12 +271,33 @@ const ParamTable& Caustics::params() {
                  .group = Group::Caustics,
                  .doc = "Kinds of light that glass with dispersion bends differently: 3 stand for red, green "
                         "and blue, more for as many parts of the spectrum."}),
+        declare(&Settings::directions,
+                {.id = "environmentDirections",
+                 .label = "Directions of the environment",
+                 .min = 0,
+                 .max = 1024,
+                 .low = 0,
+                 .high = 64,
+                 .group = Group::Caustics,
+                 .doc =
+                     "How many directions, more of them where the map is bright, stand for the environment "
+                     "whose light glass, water and mirrors throw; 0: it passes glass straight on."}),
     };
     static const ParamTable table = tableOf<Settings>("caustics", list, "Caustics");
     return table;
 }
 
+bool carriesEnvironment(const scene::Scene& scene) {
+    const auto settings = scene.technique.find("caustics");
+    return views::hasEnvironment(scene) && settings != scene.technique.end() &&
+           settings->second.as<Settings>().directions > 0;
+}
+
 std::optional<std::string> Caustics::need(const scene::Scene& scene) {
+    return scene.lights.empty() && !carriesEnvironment(scene) ? std::nullopt : thrown(scene);
+}
+
+std::optional<std::string> Caustics::thrown(const scene::Scene& scene) {
     const auto find = [&](auto wanted) -> const scene::Object* {
         const auto found = std::find_if(scene.objects.begin(), scene.objects.end(),
                                         [&](const auto& one) { return wanted(one); });
@@ -285,7 +308,7 @@ std::optional<std::string> Caustics::need(const scene::Scene& scene) {
     };
     const scene::Object* bends = find(bendsLight);
     const scene::Object* receives = find([&](const scene::Object& one) { return !bendsLight(one); });
-    if (scene.lights.empty() || !bends || !receives) return std::nullopt;
+    if (!bends || !receives) return std::nullopt;
     return "object \"" + bends->name + "\" casts a caustic on \"" + receives->name + "\"";
 }
 
@@ -299,8 +322,15 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
     const views::Bounds everything = boundsOfAll(all, fields);
     const float ray = meshes.glass.empty() ? 0 : 2 * glass.radius() / float(settings.grid);
     const views::Bounds receivers = seenWithMargin(eye, receiversOf(meshes.solid), fields, ray);
-    for (const views::LampPoint& lamp : views::lampPoints(scene, views::samplingOf(scene).lamp)) {
-        if (lamp.color == vec3(0)) continue;
+    views::Bounds throwing = glass;
+    throwing.low = glm::min(throwing.low, mirrors.low);
+    throwing.high = glm::max(throwing.high, mirrors.high);
+    const views::Sampling sampling{.lamp = views::samplingOf(scene).lamp,
+                                   .directions = settings.directions,
+                                   .environment = views::EnvironmentSampling::Importance};
+    for (const views::LampPoint& point : views::lightSamples(scene, sampling)) {
+        if (point.color == vec3(0)) continue;
+        const views::LampPoint lamp = views::facing(point, throwing.center());
         views::ShadowSource around = lamp.source; // light leaves the cone of a spot where it is bent
         around.tangent = views::ShadowSource().tangent;
         Plan::Light light{.lamp = lamp,
@@ -355,10 +385,10 @@ Status Caustics::checkLimits(const Inputs& in, const Settings& settings) const {
     return Done{};
 }
 
-Result<graph::TextureId> Caustics::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
-                                          const Settings& settings) const {
+Result<Carried> Caustics::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
+                                 const Settings& settings) const {
     if (Status legal = checkLimits(in, settings); !legal) return legal.error();
-    graph::TextureId sum;
+    Carried carried;
     Targets targets(graph);
     Inputs all = in;
     if (!in.fields.empty() && !plan.lights.empty()) {
@@ -368,8 +398,22 @@ Result<graph::TextureId> Caustics::record(graph::FrameGraph& graph, const Inputs
             !s)
             return s.error();
     }
-    for (const Plan::Light& light : plan.lights)
-        if (Status s = LightPasses(graph, context_, targets, all, light, settings).record(sum); !s)
+    for (const Plan::Light& light : plan.lights) {
+        LightPasses passes(graph, context_, targets, all, light, settings);
+        if (Status s = passes.record(carried.irradiance); !s) return s.error();
+        if (settings.deposit != Deposit::Lines) carried.maps.push_back(passes.map());
+    }
+    return carried;
+}
+
+Result<graph::TextureId> Caustics::lookUp(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
+                                          const std::vector<Map>& maps, const Settings& settings) const {
+    graph::TextureId sum;
+    Targets targets(graph);
+    for (std::size_t i = 0; i < maps.size(); ++i)
+        if (Status s =
+                LightPasses(graph, context_, targets, in, plan.lights[i], settings).lookUp(maps[i], sum);
+            !s)
             return s.error();
     return sum;
 }

@@ -30,7 +30,10 @@ struct Settings {
     int steps = 32;                     ///< looks at the receivers' image for a ray, at most
     int receiverLayers = 2;             ///< receivers behind each other on which light is found
     int wavelengths = 3;                ///< of white light in glass that disperses
+    int directions = 0;                 ///< of an environment; 0: its light passes glass straight on
 };
+/// Whether the light that glass, water and mirrors throw of a scene's environment is drawn.
+bool carriesEnvironment(const scene::Scene& scene);
 
 struct Inputs {
     const scene::Scene& scene;
@@ -86,6 +89,13 @@ struct Map {
                              ///< Above what lies on the receivers that it sees: on those behind, if any
     graph::TextureId depths; ///< R32F: of the receivers that it sees; 1e30 where there is none
     ivec2 size{0};           ///< of the latter
+    graph::TextureId behind; ///< R32F: of the receivers behind those; none where there are none
+};
+
+/// What record() carried, for as long as its graph is recorded.
+struct Carried {
+    graph::TextureId irradiance; ///< RGBA32F, W/m² on each pixel of the picture; none where there is none
+    std::vector<Map> maps{};     ///< of the plan's lights; empty where light is gathered in the picture alone
 };
 
 /// Not drawn: light that glass or mirrors reflect on (but for total reflection inside), light by way of a
@@ -95,6 +105,8 @@ struct Map {
 class Caustics {
 public:
     static const ParamTable& params();
+    /// Whether something bends or mirrors light and something else receives it.
+    static bool bends(const scene::Scene& scene) { return thrown(scene).has_value(); }
     /// Why the scene needs this technique; nothing when it does not.
     static std::optional<std::string> need(const scene::Scene& scene);
 
@@ -110,10 +122,17 @@ public:
 
     /// Adds the passes that give each pixel of opaque objects and height fields the irradiance of caustics.
     ///
-    /// @return  RGBA32F, W/m², of `in.size`; none where the plan has no light. Error (Fault::Machine) for
-    ///          more than views::kMostGlass refractive objects or images larger than the GPU's textures
-    Result<graph::TextureId> record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
-                                    const Settings& settings) const;
+    /// @return  Error (Fault::Machine) for more than views::kMostGlass refractive objects or images larger
+    ///          than the GPU's textures
+    Result<Carried> record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
+                           const Settings& settings) const;
+
+    /// Adds the passes that look the same light up in another view, which shows meshes.
+    ///
+    /// @param in    of record(), with that view's eye, surface and size
+    /// @param maps  of record() with the same plan
+    Result<graph::TextureId> lookUp(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
+                                    const std::vector<Map>& maps, const Settings& settings) const;
 
     /// Adds the passes of one light alone, up to its map. `in.surface` must be none.
     Result<Map> recordMap(graph::FrameGraph& graph, const Inputs& in, const Plan::Light& light,
@@ -125,6 +144,7 @@ public:
                            const Plan& plan, const Settings& settings) const;
 
 private:
+    static std::optional<std::string> thrown(const scene::Scene& scene);
     Status checkLimits(const Inputs& in, const Settings& settings) const;
     gl::Context& context_;
 };

@@ -179,10 +179,10 @@ Status LightPasses::deposit() {
     return Done{};
 }
 
-Status LightPasses::lookUp(TextureId& sum) {
+Status LightPasses::lookUp(const Map& from, TextureId& sum) {
     std::vector<std::string> defines;
     if (sum) defines.push_back("USE_BEFORE");
-    if (behind_) defines.push_back("USE_BEHIND");
+    if (from.behind) defines.push_back("USE_BEHIND");
     if (in_.solid) defines.push_back("FROM_SOLID");
     const char* const name = in_.solid ? "uSolid" : "uSurface";
     const TextureId pixels = in_.solid ? in_.solid : in_.surface;
@@ -191,20 +191,20 @@ Status LightPasses::lookUp(TextureId& sum) {
     graph_.addPass("caustics.lookup", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("irradiance that one point of a light throws on each pixel by way of glass");
         pass.sample(pixels);
-        pass.sample(map_);
-        pass.sample(mapDepths_);
-        if (behind_) pass.sample(mapBehind_);
+        pass.sample(from.flux);
+        pass.sample(from.depths);
+        if (from.behind) pass.sample(from.behind);
         if (before) pass.sample(before);
         sum = pass.createColor("caustics.irradiance", {.size = in_.size, .format = Format::RGBA32F});
         const LookupBlock block{.view = views::viewBlock(in_.eye, in_.size),
                                 .faces = views::facesOf(mapViews()),
                                 .faceCount = int(mapViews().faces.size()),
                                 .unit = unit()};
-        return [=, program = looking, map = map_, depths = mapDepths_,
-                behind = mapBehind_](const graph::Resources& resources, graph::Commands& commands) {
-            std::vector<graph::Binding> textures{
-                {name, resources[pixels]}, {"uMap", resources[map]}, {"uShadow", resources[depths]}};
-            if (behind) textures.push_back({"uBehind", resources[behind]});
+        return [=, program = looking](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{name, resources[pixels]},
+                                                 {"uMap", resources[from.flux]},
+                                                 {"uShadow", resources[from.depths]}};
+            if (from.behind) textures.push_back({"uBehind", resources[from.behind]});
             if (before) textures.push_back({"uBefore", resources[before]});
             commands.draw({.program = program, .block = block, .textures = std::move(textures)});
         };

@@ -466,7 +466,7 @@ Status LightPasses::record(TextureId& sum) {
     }
     if (isInPicture()) return drawLines(sum);
     if (Status s = deposit(); !s) return s;
-    return in_.surface ? lookUp(sum) : Status(Done{});
+    return in_.surface ? lookUp(map(), sum) : Status(Done{});
 }
 
 } // namespace lucent::caustics

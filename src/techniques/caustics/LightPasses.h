@@ -64,7 +64,9 @@ public:
     Status record(graph::TextureId& sum);
     /// Flux on a texel of the map that the light meets undisturbed: a number that 16-bit floats hold well.
     float unit() const;
-    Map map() const { return {map_, mapDepths_, mapViews().imageSize()}; }
+    Map map() const { return {map_, mapDepths_, mapViews().imageSize(), mapBehind_}; }
+    /// Looks up what record() left in a map.
+    Status lookUp(const Map& from, graph::TextureId& sum);
 
 private:
     struct Photons {
@@ -165,7 +167,6 @@ private:
     Status addBeams(std::vector<Kind>& kinds);
     Status addSplats(std::vector<Kind>& kinds);
     Status deposit();
-    Status lookUp(graph::TextureId& sum);
 
     // Lines are drawn in the camera's picture; where that is not asked for, their rays are splats.
     // The points of a lamp with a size blur each other's edges.

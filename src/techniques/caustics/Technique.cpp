@@ -31,9 +31,29 @@ public:
     }
 
     Result<TextureId> light(const technique::Passes& passes) override {
+        carried_ = {};
         if (!plan_) return TextureId{};
-        return caustics_.record(passes.graph, inputs(passes, passes.surface), *plan_,
-                                settingsOf(passes.picture.scene));
+        Result<Carried> carried = caustics_.record(passes.graph, inputs(passes, passes.surface), *plan_,
+                                                   settingsOf(passes.picture.scene));
+        if (!carried) return carried.error();
+        carried_ = std::move(*carried);
+        return carried_.irradiance;
+    }
+    Result<TextureId> lightOn(const technique::Passes& passes, const views::LitView& view) override {
+        const Inputs in = inputs(passes, view.surface);
+        return caustics_.lookUp(passes.graph,
+                                {.scene = in.scene,
+                                 .eye = view.eye,
+                                 .glass = in.glass,
+                                 .solids = in.solids,
+                                 .surface = view.surface,
+                                 .size = view.size,
+                                 .fields = in.fields},
+                                *plan_, carried_.maps, settingsOf(passes.picture.scene));
+    }
+
+    bool carriesEnvironment(const scene::Scene& scene) const override {
+        return caustics::carriesEnvironment(scene);
     }
 
     bool replaces(const technique::Picture& picture) const override {
@@ -84,6 +104,7 @@ private:
     technique::Store store_;
     Caustics caustics_;
     std::optional<Plan> plan_;
+    Carried carried_;                     // in the graph that is recorded
     std::vector<views::PosedMesh> glass_; // that bends light, of the graph that is recorded
 };
 
@@ -93,6 +114,7 @@ constexpr double kGrids[] = {32, 64, 128, 256, 512};
 constexpr technique::Knob kKnobs[] = {
     {.id = "grid", .coarse = 64, .steps = kGrids, .words = "rays a side", .tied = "mapSize", .factor = 4},
     {.id = "refine", .coarse = 0},
+    {.id = "environmentDirections", .coarse = 4, .acts = carriesEnvironment},
 };
 
 bool throwsLight(const scene::Scene& scene) {
@@ -120,8 +142,16 @@ const technique::NotDrawn kLimits[] = {
     {"caustics by reflection on glass and water", "their light is followed through, not back", hasGlass},
     {"caustics by way of several mirrors, or of a mirror and glass", "light is followed past one of them",
      [](const scene::Scene& scene) { return hasMirror(scene) && scene.objects.size() > 2; }},
-    {"caustics on objects that scatter light", "what they receive is lamps' own light",
-     [](const scene::Scene& scene) { return Caustics::need(scene) && scatters(scene); }},
+    {"caustics of the environment",
+     "environmentDirections is 0: its light passes glass straight on, at most as much as falls beneath it is "
+     "misplaced",
+     [](const scene::Scene& scene) {
+         return views::hasEnvironment(scene) && !carriesEnvironment(scene) && Caustics::bends(scene);
+     }},
+    {"caustics on objects that scatter light", "deposit lines gathers light in the picture alone",
+     [](const scene::Scene& scene) {
+         return Caustics::need(scene) && scatters(scene) && settingsOf(scene).deposit == Deposit::Lines;
+     }},
 };
 
 } // namespace
