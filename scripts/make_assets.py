@@ -25,6 +25,7 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts/assets"))
 
+import cast_glass
 import coin
 import dragon
 import gallery
@@ -49,8 +50,8 @@ AT_ONCE = 2
 # Order of the gallery.
 SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-backlit", "weave", "coin-sunset",
           "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff", "glass-dragon",
-          "glass-sphere", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave", "prism", "skin",
-          "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup", "makeup",
+          "glass-sphere", "glass-relief", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave",
+          "prism", "skin", "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup", "makeup",
           "checkerboards"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
@@ -110,6 +111,7 @@ def make_data(stamps: Stamps) -> None:
     """What scenes name and no program of ours makes."""
     stamps.make(coin.coin, [], [GALLERY / "coin.png", GALLERY / "coin-alpha.png", GALLERY / "coin-color.png"])
     stamps.make(weave.normal_map, [], [GALLERY / "weave-normal.png"])
+    stamps.make(cast_glass.heights, [], [GALLERY / "cast-glass.png"])
     stamps.make(terrain.elevation, [DEM],
                 [GALLERY / "elevation.png", GALLERY / "elevation-color.png", FIELDS / "elevation-8bit.png"])
     stamps.make(probes.hdr, [MODULES / "@pmndrs/assets/hdri/sunset.exr.js"], [GALLERY / "sunset.hdr"])

@@ -151,6 +151,7 @@ private:
 struct Computed {
     std::shared_ptr<const void> owner; ///< of what BoundParam::data points to
     std::function<Status()> store;     ///< carries that over to the others; an error leaves them alone
+    bool isOwn = false; ///< no other parameter says the same, so that links must carry it as well
 };
 
 /// A declared parameter bound to the struct that holds its value now.
@@ -169,6 +170,8 @@ struct BoundParam {
     /// Where it stands in the panel now.
     Group group() const { return !shown ? Group::None : place != Group::None ? place : param->group; }
     bool isComputed() const { return computed.owner != nullptr; }
+    /// Whether other parameters say the same.
+    bool isDerived() const { return isComputed() && !computed.isOwn; }
 };
 
 /// Number of float components of a kind: 3 for colours and vectors, 2 for ranges and pairs, else 1.

@@ -34,12 +34,12 @@ std::vector<Section> sections() {
     for (const scene::TypeKeys& shape : scene::shapeTypes())
         all.push_back({"shape " + std::string(shape.type), "objects.NAME.shape", shape.keys.tables[0]});
     const std::string material = "objects.NAME.material";
-    all.push_back({"material of height fields and opaque surfaces", material, &scene::colorParams()});
-    all.push_back({"material of height fields", material, &scene::reliefParams()});
-    all.push_back({"material of every other shape", material, &scene::opticsParams()});
-    all.push_back({"material where light gets inside", material, &scene::mediumParams()});
-    all.push_back({"material where light is transmitted", material, &scene::refractionParams()});
-    all.push_back({"material where light is scattered", material, &scene::scatteringParams()});
+    all.push_back({"material", material, &scene::choiceParams()});
+    all.push_back({"material: relief and matt, or painted", material, &scene::colorParams()});
+    all.push_back({"material: relief", material, &scene::reliefParams()});
+    all.push_back({"material: clear", material, &scene::clearParams()});
+    all.push_back({"material: translucent", material, &scene::translucentParams()});
+    all.push_back({"absorption of both in other words", material, &scene::attenuationParams()});
     all.push_back({"layer on what scatters light", material + ".layers.N", &scene::layerParams()});
     all.push_back({"the same in other words, not in files", material, &scene::translucencyParams()});
     all.push_back({"transform", "objects.NAME.transform", &scene::transformParams()});

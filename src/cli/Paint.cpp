@@ -28,7 +28,7 @@ struct PaintOptions {
 Result<scene::Object*> objectOf(const PaintOptions& options, scene::Scene& scene) {
     std::vector<scene::Object*> scattering;
     for (scene::Object& object : scene.objects)
-        if (object.material.isScattering() && !object.isField()) scattering.push_back(&object);
+        if (object.material.isScattering()) scattering.push_back(&object);
     if (options.object.empty() && scattering.size() == 1) return scattering[0];
     std::vector<std::string_view> names;
     for (scene::Object* object : scattering) {

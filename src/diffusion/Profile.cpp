@@ -209,12 +209,12 @@ bool Medium::isLayered() const {
 }
 
 std::array<Medium, 3> mediaOf(const scene::Material& material) {
-    const vec3 absorption = material.absorption();
+    const scene::Translucent& inside = material.translucent();
     std::array<Medium, 3> media;
     for (int i = 0; i < 3; ++i)
-        media[std::size_t(i)] = {(1 - double(material.anisotropy)) * double(material.scattering[i]),
-                                 double(absorption[i]), double(material.ior)};
-    for (const scene::MediumLayer& layer : material.stackedLayers())
+        media[std::size_t(i)] = {(1 - double(inside.anisotropy)) * double(inside.scattering[i]),
+                                 double(inside.absorption[i]), double(inside.ior)};
+    for (const scene::MediumLayer& layer : inside.stackedLayers())
         for (int i = 0; i < 3; ++i)
             media[std::size_t(i)].above.push_back(
                 {(1 - double(layer.anisotropy)) * double(layer.scattering[i]), double(layer.absorption[i]),

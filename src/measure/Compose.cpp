@@ -53,21 +53,17 @@ scene::HeightField waves(float width, float heightScale) {
 scene::Object reliefOf(const char* name, float width, float heightScale, float depth, vec3 place = vec3(0)) {
     scene::Object relief = objectOf(name, waves(width, heightScale), place);
     relief.transform.rotate = {-90, 0, 0};
-    relief.material.depth = depth;
+    relief.material.relief().depth = depth;
     return relief;
 }
 
 // Mean free paths of some millimetres: a few pixels.
 void makeMarble(scene::Material& material) {
-    material.scattering = {220, 260, 300};
-    material.setAbsorption({0.2f, 0.4f, 0.7f});
-    material.ior = 1.5f;
+    material.kind = scene::Translucent{.scattering = {220, 260, 300}, .absorption = {0.2f, 0.4f, 0.7f}};
 }
 
 void makeGlass(scene::Material& material, vec3 absorption = vec3(0)) {
-    material.transmission = 1;
-    material.ior = 1.5f;
-    if (absorption != vec3(0)) material.setAbsorption(absorption);
+    material.kind = scene::Clear{.absorption = absorption};
 }
 
 // Light from a bright window above and a dim rest.
@@ -107,7 +103,7 @@ void addBetween(scene::Scene& scene, std::string_view between) {
     if (between == "mirror") {
         object.shape = scene::Box{{0.3f, 0.02f, 0.3f}};
         object.transform.rotate = {0, 0, 50};
-        object.material.reflectance = vec3(0.9f);
+        object.material.kind = scene::Mirror{vec3(0.9f)};
     }
     if (between == "glass ball") makeGlass(object.material);
     if (between == "absorbing glass") makeGlass(object.material, {1, 3, 8});
@@ -115,7 +111,7 @@ void addBetween(scene::Scene& scene, std::string_view between) {
     if (between == "water") {
         object.shape = scene::Water{.size = {0.9f, 0.9f}, .amplitude = 0.006f, .wavelength = 0.3f};
         makeGlass(object.material);
-        object.material.ior = 1.33f;
+        object.material.clear().ior = 1.33f;
     }
     object.visible = false;
     scene.objects.push_back(std::move(object));
@@ -127,7 +123,7 @@ void seeInMirror(scene::Scene& scene) {
     const float height = 9;
     scene::Object mirror = objectOf("mirror", scene::Plane{{1.1f, 1.5f}}, {0, height, 0});
     mirror.transform.rotate = {135, 0, 0};
-    mirror.material.reflectance = vec3(0.9f);
+    mirror.material.kind = scene::Mirror{vec3(0.9f)};
     scene.objects.push_back(std::move(mirror));
     scene.camera.eye = {0, height, 4};
     scene.camera.target = {0, height, 0};

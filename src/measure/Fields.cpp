@@ -15,7 +15,7 @@ scene::Scene fieldScene(const BenchField& field, float depth) {
     object.name = field.name;
     object.field().heights = field.heights;
     object.field().heightScale = field.heightScale;
-    object.material.depth = depth;
+    object.material.relief().depth = depth;
     scene.size = object.field().texels();
     scene.camera.height = object.field().footprint().y;
     scene.camera.eye.z = 2 + field.heightScale;

@@ -17,8 +17,7 @@ scene::Object objectOf(scene::Shape shape, vec3 place) {
 
 scene::Object glassOf(scene::Shape shape, float ior, vec3 place) {
     scene::Object object = objectOf(std::move(shape), place);
-    object.material.transmission = 1;
-    object.material.ior = ior;
+    object.material.kind = scene::Clear{.ior = ior};
     return object;
 }
 

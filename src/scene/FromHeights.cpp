@@ -20,7 +20,7 @@ std::string stemOf(const std::string& path) {
 } // namespace
 
 Status replaceHeights(Object& object, const std::string& name, std::span<const std::byte> bytes) {
-    if (!object.isField())
+    if (!std::holds_alternative<HeightField>(object.shape))
         return Error{name + ": would replace " + inQuotes(object.name) + ", a " +
                      inQuotes(typeOf(object.shape).type) + "; must replace a height field"};
     Result<std::shared_ptr<const Image>> heights = decodeHeights(bytes, name);
@@ -46,7 +46,7 @@ Result<Scene> sceneFromHeights(const std::string& name, std::span<const std::byt
         scene.technique.emplace(table->name, Settings(*table));
     Object& object = scene.objects.emplace_back();
     object.name = stemOf(name);
-    object.material.specularity = 0.2f;
+    object.material.relief().specularity = 0.2f;
     if (Status loaded = replaceHeights(object, name, bytes); !loaded) return loaded.error();
 
     const vec2 footprint = object.field().footprint();

@@ -58,6 +58,10 @@ bool JsonReading::readParam(const Place& place, const Param& param, void* data) 
         if (!expect(place, Json::Type::Number, param.kind == Kind::Integer ? "an integer" : "a number"))
             return false;
         text = shortest(json.number);
+    } else if (param.axes == "rgb" && json.type != Json::Type::Array) { // the same for each colour
+        if (!expect(place, Json::Type::Number, "a number or a list of 3 numbers")) return false;
+        for (int i = 0; i < count; ++i)
+            text += shortest(json.number) + " ";
     } else {
         const bool numbers = json.type == Json::Type::Array && int(json.items.size()) == count &&
                              std::all_of(json.items.begin(), json.items.end(),
@@ -72,7 +76,7 @@ bool JsonReading::readParam(const Place& place, const Param& param, void* data) 
     return set || fail(place, " " + set.error().message);
 }
 
-bool JsonReading::readKeys(const Place& place, const KeySet& keys, std::initializer_list<void*> structs) {
+bool JsonReading::readKeys(const Place& place, const KeySet& keys, const std::vector<void*>& structs) {
     if (!expect(place, Json::Type::Object, "an object")) return false;
     const std::vector<std::string_view> known = keys.ids();
     for (std::size_t i = 0; i < place.json.keys.size(); ++i) {
@@ -83,7 +87,7 @@ bool JsonReading::readKeys(const Place& place, const KeySet& keys, std::initiali
         for (std::size_t t = 0; t < keys.tables.size(); ++t)
             for (const Param& param : keys.tables[t]->params)
                 if (param.id == key &&
-                    !readParam(member, param, static_cast<std::byte*>(structs.begin()[t]) + param.offset))
+                    !readParam(member, param, static_cast<std::byte*>(structs[t]) + param.offset))
                     return false;
     }
     return true;

@@ -5,10 +5,10 @@
 #include "scene/Json.h"
 #include "scene/Keys.h"
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace lucent::scene {
 
@@ -53,7 +53,7 @@ public:
     bool readParam(const Place& place, const Param& param, void* data);
     /// Reads the parameters of an object into their structs, one for each table of `keys`, and refuses keys
     /// that nobody knows.
-    bool readKeys(const Place& place, const KeySet& keys, std::initializer_list<void*> structs);
+    bool readKeys(const Place& place, const KeySet& keys, const std::vector<void*>& structs);
 
 private:
     std::string path_;

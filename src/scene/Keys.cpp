@@ -1,6 +1,10 @@
 #include "scene/Keys.h"
 
 #include "scene/Painting.h"
+#include "scene/Translucency.h"
+
+#include <algorithm>
+#include <cassert>
 
 namespace lucent::scene {
 namespace {
@@ -71,14 +75,14 @@ constexpr Key kWater[] = {{"type", KeyType::Constant,
 constexpr Key kMaterial[] = {
     {"preset", KeyType::Preset,
      "A measured material, for scattering, absorption and ior; keys beside it replace its values."},
-    {"absorption", KeyType::Coefficient,
-     "Instead of attenuationColor and attenuationDistance: light falls by e^(-absorption * metres) [1/m]."},
-    {"baseMap", KeyType::File, "Picture that multiplies the base colour."},
     {"layers", KeyType::Content,
      "Layers of other media on top of what scatters, the top first; the profile multipole knows them."},
-    {"diffuseMap", KeyType::File, "Picture that multiplies the diffuse colour."},
-    {"specularMap", KeyType::File, "Picture that multiplies the specular colour."},
+    {"baseMap", KeyType::File, "Picture that multiplies the base colour of a height field's relief."},
+    {"diffuseMap", KeyType::File, "Picture that multiplies its diffuse colour."},
+    {"specularMap", KeyType::File, "Picture that multiplies its specular colour."},
 };
+constexpr std::span<const Key> kOfTranslucent = std::span(kMaterial).first(2),
+                               kMaps = std::span(kMaterial).subspan(2);
 constexpr Key kLayer[] = {
     {"preset", KeyType::Preset,
      "A measured material, for scattering, absorption and ior; keys beside it replace its values."},
@@ -171,11 +175,78 @@ const KeySet& objectKeys() {
     return keys;
 }
 
+namespace {
+
+// The last one is translucent and painted.
+std::span<const TypeKeys> materialKindsAndPainted() {
+    static const TypeKeys kinds[] = {
+        {"relief", {{&colorParams(), &reliefParams()}, kMaps}},
+        {"matt", {{&colorParams()}, {}}},
+        {"mirror", {{&mirrorParams()}, {}}},
+        {"clear", {{&clearParams(), &attenuationParams()}, {}}},
+        {"translucent", {{&translucentParams(), &attenuationParams()}, kOfTranslucent}},
+        {"painted translucent",
+         {{&translucentParams(), &attenuationParams(), &colorParams()}, kOfTranslucent}},
+    };
+    static_assert(std::size(kinds) == std::variant_size_v<MaterialKinds> + 1);
+    return kinds;
+}
+
+bool holds(const KeySet& keys, std::string_view key) {
+    const std::vector<std::string_view> ids = keys.ids();
+    return std::find(ids.begin(), ids.end(), key) != ids.end();
+}
+
+// Those that stand in no file but may be set as well.
+bool holdsWords(const TypeKeys& kind, std::string_view key) {
+    return kind.type.ends_with("translucent") && holds({{&translucencyParams()}, {}}, key);
+}
+
+} // namespace
+
+std::span<const TypeKeys> materialKinds() {
+    return materialKindsAndPainted().first(std::variant_size_v<MaterialKinds>);
+}
+
 const KeySet& materialKeys() {
-    static const KeySet keys{{&colorParams(), &reliefParams(), &opticsParams(), &mediumParams(),
-                              &refractionParams(), &scatteringParams()},
+    static const KeySet keys{{&choiceParams(), &colorParams(), &reliefParams(), &clearParams(),
+                              &attenuationParams(), &translucentParams()},
                              kMaterial};
     return keys;
+}
+
+const KeySet& materialKeysOf(const Object& object) {
+    const bool painted = object.painting && object.material.isScattering();
+    const auto kinds = materialKindsAndPainted();
+    return (painted ? kinds.back() : kinds[object.material.kind.index()]).keys;
+}
+
+void* structOf(Material& material, const ParamTable& table) {
+    assert(&table != &attenuationParams());
+    return &table == &colorParams() ? static_cast<void*>(&material) : dataOf(material.kind);
+}
+const void* structOf(const Material& material, const ParamTable& table) {
+    return structOf(const_cast<Material&>(material), table);
+}
+
+std::string whyIdle(const Object& object, std::string_view key) {
+    const bool isHeightField = std::holds_alternative<HeightField>(object.shape);
+    if (key == "wave" && (isHeightField || std::holds_alternative<Water>(object.shape)))
+        return " does nothing on height fields and water; must stand on another shape";
+    if (key == "paint" && isHeightField)
+        return " does nothing on a height field; must stand on another shape";
+    if (key.starts_with("layers.")) key = "layers";
+    if (holds({{&choiceParams()}, {}}, key) || holds(materialKeysOf(object), key)) return {};
+    std::vector<std::string_view> others;
+    for (const TypeKeys& kind : materialKindsAndPainted())
+        if (holds(kind.keys, key) || holdsWords(kind, key)) others.push_back(kind.type);
+    if (others.empty()) return {}; // no key of any
+    if (others.size() > 1 && others[others.size() - 2] == "translucent") others.pop_back();
+    std::string list;
+    for (std::size_t i = 0; i < others.size(); ++i)
+        (list += i == 0 ? "" : i + 1 == others.size() ? " or " : ", ") += others[i];
+    return " is no key of a " + std::string(materialKinds()[object.material.kind.index()].type) +
+           " material; must stand in a " + list + " one";
 }
 
 const KeySet& layerKeys() {

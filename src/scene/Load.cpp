@@ -33,20 +33,6 @@ std::string listOf(std::span<const TypeKeys> types) {
     return list;
 }
 
-// A default-constructed struct of the variant's list.
-template <class Variant, std::size_t first = 0>
-Variant alternative(std::size_t index) {
-    if constexpr (first + 1 < std::variant_size_v<Variant>)
-        if (index != first) return alternative<Variant, first + 1>(index);
-    return Variant(std::in_place_index<first>);
-}
-
-// Absorption coefficients as a file may give them.
-struct Coefficients {
-    float one = 0;
-    vec3 three{0};
-};
-
 Result<std::shared_ptr<const Mesh>> decodeShape(std::span<const std::byte> bytes, const std::string& name) {
     Result<Mesh> mesh = decodeMesh(bytes, name);
     if (!mesh) return mesh.error();
@@ -271,45 +257,90 @@ private:
     }
 
     bool readMaterial(const Place& place, Object& object) {
+        if (!expect(place, Json::Type::Object, "an object")) return false;
         Material& material = object.material;
-        const std::initializer_list<void*> tables = {&material, &material, &material,
-                                                     &material, &material, &material};
-        return readKeys(place, materialKeys(), tables) && readAbsorption(place, material) &&
-               readPreset(place, material) &&
-               optional(place, "layers", &Loader::readLayers, material.layers) &&
-               keepStatus(place, check(material)) && refuseIdleKeys(place, object) &&
+        return chooseKind(place, object) && refuseOtherKinds(place, object) && readKind(place, object) &&
+               readPreset(place, material) && keepStatus(place, check(material)) &&
+               spendBody(place, object) &&
                readMap(place, "baseMap", material.baseMapFile, material.baseMap, decodeColors) &&
                readMap(place, "diffuseMap", material.diffuseMapFile, material.diffuseMap, decodeColors) &&
                readMap(place, "specularMap", material.specularMapFile, material.specularMap, decodeColors);
     }
-
-    bool readAbsorption(const Place& place, Material& material) {
-        constexpr ParamText text{.id = "absorption", .label = "", .min = 0, .max = kFar, .doc = ""};
-        static const Param one = declare(&Coefficients::one, text),
-                           three = declare(&Coefficients::three, text);
+    // A height field that is no relief is drawn as triangles.
+    bool spendBody(const Place& place, const Object& object) {
+        const auto* field = std::get_if<HeightField>(&object.shape);
+        if (!field || object.isField()) return true;
+        const ivec2 texels = field->texels();
+        const std::string why = whyTooLarge(std::to_string(texels.x) + " x " + std::to_string(texels.y),
+                                            bytes_ += bytesOfBody(*field));
+        return why.empty() || fail(place, ": the map of heights" + why);
+    }
+    // The kind that the file names, or that of the one number above 0 that makes a kind.
+    bool chooseKind(const Place& place, Object& object) {
+        KindChoice choice;
+        for (const Param& param : choiceParams().params)
+            if (const Json* json = place.json.find(param.id))
+                if (!readParam(place.at(*json, param.id), param,
+                               reinterpret_cast<std::byte*>(&choice) + param.offset))
+                    return false;
+        struct Maker {
+            std::string_view key;
+            MaterialKind kind;
+            bool says;
+        };
+        const bool isMeasured = place.json.find("preset") != nullptr;
+        const Maker makers[] = {{"transmission", MaterialKind::Clear, choice.transmission > 0},
+                                {"reflectance", MaterialKind::Mirror, choice.reflectance != vec3(0)},
+                                {"scattering", MaterialKind::Translucent, choice.scattering != vec3(0)},
+                                {"preset", MaterialKind::Translucent, isMeasured}};
+        const bool isNamed = place.json.find("kind") != nullptr;
+        MaterialKind kind = isNamed ? choice.kind : ownKind(object.shape);
+        std::string_view maker = isNamed ? "kind" : "";
+        for (const Maker& one : makers) {
+            if (!one.says || one.kind == kind) continue;
+            if (!maker.empty())
+                return fail(place.at(*place.json.find(one.key), one.key),
+                            " makes another kind of material than " + std::string(maker) +
+                                "; must stand without it");
+            kind = one.kind;
+            maker = one.key;
+        }
+        object.material.kind = alternative<MaterialKinds>(std::size_t(kind));
+        return true;
+    }
+    // Keys that change nothing about the object would otherwise be ignored in silence.
+    bool refuseOtherKinds(const Place& place, const Object& object) {
+        for (std::size_t i = 0; i < place.json.keys.size(); ++i)
+            if (const std::string why = whyIdle(object, place.json.keys[i]); !why.empty())
+                return fail(place.at(place.json.items[i], place.json.keys[i]), why);
+        return true;
+    }
+    bool readKind(const Place& place, Object& object) {
+        Material& material = object.material;
+        KindChoice known;
+        Attenuation attenuation;
+        const KeySet& own = materialKeysOf(object);
+        KeySet keys{{&choiceParams()}, own.keys};
+        std::vector<void*> structs{&known};
+        for (const ParamTable* table : own.tables) {
+            keys.tables.push_back(table);
+            structs.push_back(table == &attenuationParams() ? &attenuation : structOf(material, *table));
+        }
+        if (!readKeys(place, keys, structs)) return false;
+        if (material.isScattering() &&
+            !optional(place, "layers", &Loader::readLayers, material.translucent().layers))
+            return false;
+        const Json *color = place.json.find("attenuationColor"),
+                   *distance = place.json.find("attenuationDistance");
         for (const std::string_view other : {"attenuationColor", "attenuationDistance"})
             if (place.json.find("absorption") && place.json.find(other))
                 return fail(place,
                             " has absorption and " + std::string(other) +
                                 "; must have absorption, or attenuationColor with attenuationDistance");
-        if (const Json* color = place.json.find("attenuationColor"))
-            if (!place.json.find("attenuationDistance"))
-                return fail(place.at(*color, "attenuationColor"),
-                            " is given without a distance; must stand beside attenuationDistance");
-        const Json* json = place.json.find("absorption");
-        if (!json) return true;
-        const Place member = place.at(*json, "absorption");
-        Coefficients read;
-        if (json->type == Json::Type::Number) {
-            if (!readParam(member, one, &read.one)) return false;
-            read.three = vec3(read.one);
-        } else if (json->type != Json::Type::Array) {
-            return wrongType(member, "a number or a list of 3 numbers");
-        } else if (!readParam(member, three, &read.three)) {
-            return false;
-        }
-        material.setAbsorption(read.three);
-        return true;
+        if (color && !distance)
+            return fail(place.at(*color, "attenuationColor"),
+                        " is given without a distance; must stand beside attenuationDistance");
+        return !distance || keepStatus(place, store(attenuation, "attenuationDistance", material));
     }
     bool readLayers(const Place& place, std::vector<MediumLayer>& layers) {
         const std::string expected = "a list of at most " + std::to_string(kMostMediumLayers) + " layers";
@@ -357,21 +388,13 @@ private:
         if (!json) return true;
         const MaterialPreset* preset = nullptr;
         if (!readPresetName(place.at(*json, "preset"), preset)) return false;
-        Material measured = material;
-        apply(*preset, measured);
-        if (!place.json.find("scattering")) material.scattering = measured.scattering;
-        if (!place.json.find("ior")) material.ior = measured.ior;
-        if (!place.json.find("absorption") && !place.json.find("attenuationDistance")) {
-            material.attenuationColor = measured.attenuationColor;
-            material.attenuationDistance = measured.attenuationDistance;
-        }
-        return true;
-    }
-    // Keys that change nothing about the object would otherwise be ignored in silence.
-    bool refuseIdleKeys(const Place& place, const Object& object) {
-        for (std::size_t i = 0; i < place.json.keys.size(); ++i)
-            if (const std::string why = whyIdle(object, place.json.keys[i]); !why.empty())
-                return fail(place.at(place.json.items[i], place.json.keys[i]), why);
+        Translucent& inside = material.translucent();
+        const Translucent own = inside;
+        apply(*preset, inside);
+        if (place.json.find("scattering")) inside.scattering = own.scattering;
+        if (place.json.find("ior")) inside.ior = own.ior;
+        if (place.json.find("absorption") || place.json.find("attenuationDistance"))
+            inside.absorption = own.absorption;
         return true;
     }
 
@@ -431,7 +454,7 @@ private:
                                                       " materials; must stand beside a part or a material");
         return read[0].material.isScattering() ||
                fail(place.at(*json, "paint"),
-                    " does nothing where nothing scatters; must stand beside a scattering above 0");
+                    " does nothing where nothing scatters; must stand beside a translucent material");
     }
 
     // --- meshes
@@ -489,23 +512,21 @@ private:
         }
         return true;
     }
-    // Only what acts, and only what a scene file could say as well.
+    // Only what a scene file could say as well.
     bool takeMaterial(const Place& place, const Mesh::Part& part, Object& object) {
         object.material = part.values;
         const auto complain = [&](const std::string& what) {
             return fail(place, ".shape.source: material " + inQuotes(part.material) + ": " + what);
         };
-        if (Status legal = check(part.values); !legal) return complain(legal.error().message);
-        const std::vector<const ParamTable*> acting = materialTables(object);
-        object.material = {};
-        for (const ParamTable* table : acting)
-            for (const Param& param : table->params) {
-                const void* from = reinterpret_cast<const std::byte*>(&part.values) + param.offset;
-                void* to = reinterpret_cast<std::byte*>(&object.material) + param.offset;
-                if (Status set = setText(param, to, getText(param, from)); !set)
-                    return complain(std::string(param.id) + " " + set.error().message);
-            }
-        return true;
+        for (const ParamTable* table : materialKeysOf(object).tables) {
+            if (table == &attenuationParams()) continue;
+            const auto* values = static_cast<const std::byte*>(structOf(part.values, *table));
+            for (const Param& param : table->params)
+                if (Status legal = checkRange(param, values + param.offset); !legal)
+                    return complain(std::string(param.id) + " " + legal.error().message);
+        }
+        const Status legal = check(object.material);
+        return legal || complain(legal.error().message);
     }
 
     // --- shapes
@@ -513,6 +534,7 @@ private:
         std::size_t index = 0;
         if (!readType(place, shapeTypes(), index)) return false;
         object.shape = alternative<Shape>(index);
+        object.material.kind = alternative<MaterialKinds>(std::size_t(ownKind(object.shape)));
         if (object.isField()) return readHeightField(place, object.field());
         if (auto* mesh = std::get_if<MeshShape>(&object.shape)) return readMesh(place, *mesh);
         const auto* water = std::get_if<Water>(&object.shape);

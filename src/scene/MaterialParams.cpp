@@ -1,4 +1,4 @@
-// What a person may change about what surfaces do with light, and on which surfaces it does something.
+// What a person may change about what surfaces do with light.
 #include "base/Text.h"
 #include "scene/Keys.h"
 #include "scene/Scene.h"
@@ -11,7 +11,7 @@ namespace lucent::scene {
 namespace {
 
 // The darkest colour that may be left of white. None at all would be an absorption without bound; a millionth
-// is black in every picture, and with it a distance can be found for any absorption (setAbsorption()).
+// is black in every picture.
 constexpr double kDarkest = 1e-6;
 
 // At 1 light would go on as if nothing had scattered it.
@@ -45,27 +45,27 @@ const ParamTable& colorParams() {
 
 const ParamTable& reliefParams() {
     static const Param params[] = {
-        declare(&Material::specular, {.id = "specular",
-                                      .label = "Specular colour",
-                                      .min = 0,
-                                      .max = 1,
-                                      .group = Group::Material,
-                                      .doc = "Colour of the mirrored highlight.",
-                                      .color = true}),
-        declare(&Material::specularity, {.id = "specularity",
-                                         .label = "Specularity",
-                                         .min = 0,
-                                         .max = 1,
-                                         .group = Group::Material,
-                                         .doc = "Share of the mirrored highlight in the picture."}),
-        declare(&Material::forwardScatter,
+        declare(&Relief::specular, {.id = "specular",
+                                    .label = "Specular colour",
+                                    .min = 0,
+                                    .max = 1,
+                                    .group = Group::Material,
+                                    .doc = "Colour of the mirrored highlight.",
+                                    .color = true}),
+        declare(&Relief::specularity, {.id = "specularity",
+                                       .label = "Specularity",
+                                       .min = 0,
+                                       .max = 1,
+                                       .group = Group::Material,
+                                       .doc = "Share of the mirrored highlight in the picture."}),
+        declare(&Relief::forwardScatter,
                 {.id = "forwardScatter",
                  .label = "Forward scattering",
                  .min = 0,
                  .max = 1,
                  .group = Group::Material,
                  .doc = "How much the light shows only where it comes from behind."}),
-        declare(&Material::depth,
+        declare(&Relief::depth,
                 {.id = "depth",
                  .label = "Depth",
                  .unit = "m",
@@ -77,7 +77,7 @@ const ParamTable& reliefParams() {
                  .group = Group::Material,
                  .doc = "How far below the surface the light is looked at; small is hard, large is "
                         "soft."}),
-        declare(&Material::specularFalloff,
+        declare(&Relief::specularFalloff,
                 {.id = "specularFalloff",
                  .label = "Specular falloff",
                  .min = -1,
@@ -85,7 +85,7 @@ const ParamTable& reliefParams() {
                  .group = Group::Falloff,
                  .doc = "Cosines at which the highlight begins and is full; equal ends "
                         "make a sharp edge."}),
-        declare(&Material::scatterFalloff,
+        declare(&Relief::scatterFalloff,
                 {.id = "scatterFalloff",
                  .label = "Scattering falloff",
                  .min = -1,
@@ -94,58 +94,137 @@ const ParamTable& reliefParams() {
                  .doc = "Cosines at which forward scattering begins and is full; equal "
                         "ends make a sharp edge."}),
     };
-    static const ParamTable table = tableOf<Material>("material", params);
+    static const ParamTable table = tableOf<Relief>("material", params);
     return table;
 }
 
-const ParamTable& opticsParams() {
+namespace {
+
+// Declared by each kind that has it, in its own range.
+template <class Kind>
+Param iorParam(double min, double max) {
+    return declare(&Kind::ior, {.id = "ior",
+                                .label = "Index of refraction",
+                                .min = min,
+                                .max = max,
+                                .low = 0.5,
+                                .high = 2.5,
+                                .group = Group::Refraction,
+                                .doc = "Of the inside over that of vacuum: water 1.33, glass 1.5, diamond "
+                                       "2.42; below 1 a bubble."});
+}
+template <class Kind>
+Param absorptionParam() {
+    return declare(&Kind::absorption,
+                   {.id = "absorption",
+                    .label = "Absorption",
+                    .unit = "1/m",
+                    .min = 0,
+                    .max = kFar,
+                    .high = 20,
+                    .group = Group::Refraction,
+                    .doc =
+                        "Light falls by e^(-absorption * metres), red, green and blue; attenuationColor and "
+                        "attenuationDistance say the same.",
+                    .axes = "rgb"});
+}
+
+template <class Struct>
+Param reflectanceParam() {
+    return declare(&Struct::reflectance, {.id = "reflectance",
+                                          .label = "Reflectance",
+                                          .min = 0,
+                                          .max = 1,
+                                          .group = Group::Material,
+                                          .doc = "Share of light that is mirrored, at any angle; above 0 the "
+                                                 "surface is a mirror and does nothing else.",
+                                          .color = true});
+}
+template <class Struct>
+Param transmissionParam() {
+    return declare(&Struct::transmission,
+                   {.id = "transmission",
+                    .label = "Transmission",
+                    .min = 0,
+                    .max = 1,
+                    .group = Group::Refraction,
+                    .doc = "Share of the light inside that passes; above 0 the object is "
+                           "clear, its surface refracts and does nothing else."});
+}
+template <class Struct>
+Param scatteringParam() {
+    return declare(
+        &Struct::scattering,
+        {.id = "scattering",
+         .label = "Scattering",
+         .unit = "1/m",
+         .min = 0,
+         .max = kFar,
+         .high = 5e3, // marble, milk and skin
+         .group = Group::Material,
+         .doc = "How often light is scattered on a metre of its way inside, red, green and blue; above "
+                "0 the object is translucent.",
+         .axes = "rgb"});
+}
+
+constexpr std::string_view kKindNames[] = {"relief", "matt", "mirror", "clear", "translucent"};
+static_assert(std::size(kKindNames) == std::variant_size_v<MaterialKinds>);
+
+} // namespace
+
+const ParamTable& choiceParams() {
     static const Param params[] = {
-        declare(&Material::reflectance,
-                {.id = "reflectance",
-                 .label = "Reflectance",
-                 .min = 0,
-                 .max = 1,
-                 .group = Group::Material,
-                 .doc = "Share of light that is mirrored, at any angle; above 0 the surface is a mirror and "
-                        "does nothing else.",
-                 .color = true}),
-        declare(&Material::transmission,
-                {.id = "transmission",
-                 .label = "Transmission",
-                 .min = 0,
-                 .max = 1,
-                 .group = Group::Refraction,
-                 .doc = "Share of the light inside that passes; above 0 the object is clear, its surface "
-                        "refracts and does nothing else."}),
-        declare(&Material::scattering,
-                {.id = "scattering",
-                 .label = "Scattering",
-                 .unit = "1/m",
-                 .min = 0,
-                 .max = kFar,
-                 .high = 5e3, // marble, milk and skin
-                 .group = Group::Material,
-                 .doc =
-                     "How often light is scattered on a metre of its way inside, red, green and blue; above "
-                     "0 the object is translucent.",
-                 .axes = "rgb"}),
+        declare(
+            &KindChoice::kind,
+            {.id = "kind",
+             .label = "Kind",
+             .group = Group::Material,
+             .doc =
+                 "What the surface does with light: relief (the model of height fields), matt, mirror, clear "
+                 "or translucent. Left out it follows from reflectance, transmission, scattering or preset; "
+                 "without those height fields are reliefs and other shapes matt.",
+             .choices = kKindNames}),
+        reflectanceParam<KindChoice>(),
+        transmissionParam<KindChoice>(),
+        scatteringParam<KindChoice>(),
     };
-    static const ParamTable table = tableOf<Material>("material", params);
+    static const ParamTable table = tableOf<KindChoice>("material", params);
     return table;
 }
 
-const ParamTable& mediumParams() {
+const ParamTable& mirrorParams() {
+    static const Param params[] = {reflectanceParam<Mirror>()};
+    static const ParamTable table = tableOf<Mirror>("material", params);
+    return table;
+}
+
+const ParamTable& clearParams() {
     static const Param params[] = {
-        declare(&Material::ior, {.id = "ior",
-                                 .label = "Index of refraction",
-                                 .min = kAboveZero,
-                                 .max = 100,
-                                 .low = 0.5,
-                                 .high = 2.5,
-                                 .group = Group::Refraction,
-                                 .doc = "Of the inside over that of vacuum: water 1.33, glass 1.5, diamond "
-                                        "2.42; below 1 a bubble."}),
-        declare(&Material::attenuationDistance,
+        transmissionParam<Clear>(),
+        iorParam<Clear>(kAboveZero, 100),
+        absorptionParam<Clear>(),
+        declare(&Clear::dispersion,
+                {.id = "dispersion",
+                 .label = "Dispersion",
+                 .min = 0,
+                 .max = 20,
+                 .group = Group::Refraction,
+                 .doc =
+                     "20 over the Abbe number: how far the index differs between red and blue; crown glass "
+                     "0.31, flint 0.55."}),
+        declare(&Clear::fresnel, {.id = "fresnel",
+                                  .label = "Fresnel reflection",
+                                  .group = Group::Refraction,
+                                  .doc = "Each surface mirrors its share of light; off: all light is "
+                                         "transmitted unless it is totally reflected."}),
+    };
+    static const ParamTable table = tableOf<Clear>("material", params);
+    return table;
+}
+
+const ParamTable& attenuationParams() {
+    static const Param params[] = {
+        declare(&Attenuation::distance,
                 {.id = "attenuationDistance",
                  .label = "Attenuation distance",
                  .unit = "m",
@@ -154,7 +233,7 @@ const ParamTable& mediumParams() {
                  .group = Group::Refraction,
                  .doc = "Way inside after which white light has the attenuation colour; 0: nothing is "
                         "absorbed."}),
-        declare(&Material::attenuationColor,
+        declare(&Attenuation::color,
                 {.id = "attenuationColor",
                  .label = "Attenuation colour",
                  .min = kDarkest,
@@ -165,34 +244,16 @@ const ParamTable& mediumParams() {
                         "absorption without bound.",
                  .color = true}),
     };
-    static const ParamTable table = tableOf<Material>("material", params);
+    static const ParamTable table = tableOf<Attenuation>("material", params);
     return table;
 }
 
-const ParamTable& refractionParams() {
+const ParamTable& translucentParams() {
     static const Param params[] = {
-        declare(&Material::dispersion,
-                {.id = "dispersion",
-                 .label = "Dispersion",
-                 .min = 0,
-                 .max = 20,
-                 .group = Group::Refraction,
-                 .doc =
-                     "20 over the Abbe number: how far the index differs between red and blue; crown glass "
-                     "0.31, flint 0.55."}),
-        declare(&Material::fresnel, {.id = "fresnel",
-                                     .label = "Fresnel reflection",
-                                     .group = Group::Refraction,
-                                     .doc = "Each surface mirrors its share of light; off: all light is "
-                                            "transmitted unless it is totally reflected."}),
-    };
-    static const ParamTable table = tableOf<Material>("material", params);
-    return table;
-}
-
-const ParamTable& scatteringParams() {
-    static const Param params[] = {
-        declare(&Material::anisotropy,
+        scatteringParam<Translucent>(),
+        iorParam<Translucent>(double(kLeastScatteringIor), double(kMostScatteringIor)),
+        absorptionParam<Translucent>(),
+        declare(&Translucent::anisotropy,
                 {.id = "anisotropy",
                  .label = "Anisotropy",
                  .min = -kMostAnisotropy,
@@ -203,7 +264,7 @@ const ParamTable& scatteringParams() {
                  .doc = "Mean cosine of the angle by which scattered light turns: 0 as often back as forth, "
                         "towards 1 forwards. Light spreads as if scattering were (1 - anisotropy) times as "
                         "frequent and even."}),
-        declare(&Material::thickness,
+        declare(&Translucent::thickness,
                 {.id = "thickness",
                  .label = "Thickness",
                  .unit = "m",
@@ -214,7 +275,7 @@ const ParamTable& scatteringParams() {
                  .doc =
                      "Of a layer whose upper side the surface is, for profiles that know layers; 0: as thick "
                      "as the object."}),
-        declare(&Material::roughness,
+        declare(&Translucent::roughness,
                 {.id = "roughness",
                  .label = "Roughness",
                  .min = 0,
@@ -222,7 +283,7 @@ const ParamTable& scatteringParams() {
                  .group = Group::Material,
                  .doc = "Of the surface that mirrors lamps: 0 as sharp points, 1 spread wide."}),
     };
-    static const ParamTable table = tableOf<Material>("material", params);
+    static const ParamTable table = tableOf<Translucent>("material", params);
     return table;
 }
 
@@ -286,7 +347,7 @@ const ParamTable& layerParams() {
     return table;
 }
 
-std::vector<MediumLayer> Material::stackedLayers() const {
+std::vector<MediumLayer> Translucent::stackedLayers() const {
     std::vector<MediumLayer> stacked = layers;
     std::erase_if(stacked, [](const MediumLayer& layer) { return layer.thickness == 0; });
     std::stable_sort(stacked.begin(), stacked.end(),
@@ -294,78 +355,58 @@ std::vector<MediumLayer> Material::stackedLayers() const {
     return stacked;
 }
 
-float Material::surfaceIor() const {
+float Translucent::surfaceIor() const {
     const std::vector<MediumLayer> stacked = stackedLayers();
     return stacked.empty() ? ior : stacked.front().ior;
 }
 
-vec3 Material::absorption() const {
-    if (attenuationDistance == 0) return vec3(0);
-    const auto sigma = [&](float color) {
-        return float(-std::log(double(color)) / double(attenuationDistance));
-    };
-    return {sigma(attenuationColor.x), sigma(attenuationColor.y), sigma(attenuationColor.z)};
+MaterialKind ownKind(const Shape& shape) {
+    return std::holds_alternative<HeightField>(shape) ? MaterialKind::Relief : MaterialKind::Matt;
 }
 
-void Material::setAbsorption(vec3 sigma) {
-    attenuationColor = vec3(1);
-    attenuationDistance = 0;
-    const double largest = std::max({sigma.x, sigma.y, sigma.z});
-    if (largest == 0) return;
-    // Just above the darkest colour: where colours are near 1 a float keeps few digits of their logarithm.
-    attenuationDistance = float(std::min(13 / largest, 1e30));
-    for (int i = 0; i < 3; ++i)
-        attenuationColor[i] = float(std::exp(-double(sigma[i]) * double(attenuationDistance)));
+KindChoice choiceOf(const Material& material) {
+    KindChoice choice{.kind = MaterialKind(material.kind.index())};
+    if (material.isMirror()) choice.reflectance = material.mirror().reflectance;
+    if (material.isRefractive()) choice.transmission = material.clear().transmission;
+    if (material.isScattering()) choice.scattering = material.translucent().scattering;
+    return choice;
 }
 
-namespace {
-
-bool holds(const ParamTable& table, std::string_view key) {
-    return std::any_of(table.params.begin(), table.params.end(), [&](const Param& p) { return p.id == key; });
+Status store(const KindChoice& wanted, std::string_view id, Material& material) {
+    if (id == "kind" && wanted.kind != MaterialKind(material.kind.index()))
+        material.kind = alternative<MaterialKinds>(std::size_t(wanted.kind));
+    if (id == "reflectance" && wanted.reflectance != vec3(0)) material.kind = Mirror{wanted.reflectance};
+    if (id == "transmission" && wanted.transmission > 0)
+        material.kind = Clear{.transmission = wanted.transmission};
+    if (id == "scattering" && wanted.scattering != vec3(0))
+        material.kind = Translucent{.scattering = wanted.scattering};
+    return Done{};
 }
 
-} // namespace
-
-std::string whyIdle(const Object& object, std::string_view key) {
-    if (key == "wave" && (object.isField() || std::holds_alternative<Water>(object.shape)))
-        return " does nothing on height fields and water; must stand on another shape";
-    if (key == "paint")
-        return object.isField() ? " does nothing on a height field; must stand on another shape"
-                                : std::string();
-    const bool inside = holds(mediumParams(), key) || key == "absorption";
-    const bool refracts = holds(refractionParams(), key);
-    const bool scatters = holds(scatteringParams(), key) || key == "layers" || key.starts_with("layers.") ||
-                          (key != "preset" && holds(translucencyParams(), key));
-    if (object.isField()) {
-        if (!inside && !refracts && !scatters && !holds(opticsParams(), key) && key != "preset") return {};
-        return " does nothing on a height field; must stand on another shape";
-    }
-    const Material& material = object.material;
-    const bool isMap = key == "baseMap" || key == "diffuseMap" || key == "specularMap";
-    if (isMap || holds(reliefParams(), key))
-        return " does nothing on a " + inQuotes(typeOf(object.shape).type) + "; must stand on a height field";
-    if (inside && !material.isRefractive() && !material.isScattering())
-        return " does nothing where no light gets inside; must stand beside a transmission or scattering "
-               "above 0";
-    if (refracts && !material.isRefractive())
-        return " does nothing where nothing is transmitted; must stand beside a transmission above 0";
-    if (scatters && !material.isScattering())
-        return " does nothing where nothing scatters; must stand beside a scattering above 0";
-    if (!holds(colorParams(), key)) return {};
-    if (material.isRefractive())
-        return " does nothing beside a transmission above 0; must stand on an opaque surface";
-    if (material.isMirror())
-        return " does nothing beside a reflectance above 0; must stand on an opaque surface";
-    if (material.isScattering() && !object.painting)
-        return " does nothing beside a scattering above 0; must stand on an opaque or painted surface";
-    return {};
+Attenuation attenuationOf(vec3 absorption, float distance) {
+    if (distance == 0 && absorption != vec3(0)) // half is left of the colour that is absorbed most
+        distance = float(std::log(2.0) / double(std::max({absorption.x, absorption.y, absorption.z})));
+    const dvec3 color = glm::exp(-dvec3(absorption) * double(distance));
+    return {.distance = distance, .color = vec3(glm::max(color, kDarkest))};
 }
 
-std::vector<const ParamTable*> materialTables(const Object& object) {
-    std::vector<const ParamTable*> acting;
-    for (const ParamTable* table : materialKeys().tables)
-        if (whyIdle(object, table->params.front().id).empty()) acting.push_back(table);
-    return acting;
+vec3 absorptionOf(const Attenuation& attenuation) {
+    if (attenuation.distance == 0) return vec3(0);
+    const dvec3 sigma = -glm::log(dvec3(attenuation.color)) / double(attenuation.distance);
+    return vec3(sigma) + 0.0f; // of white no -0
+}
+
+Status store(const Attenuation& wanted, std::string_view, Material& material) {
+    const Absorbing to = absorbing(material);
+    *to.absorption = absorptionOf(wanted);
+    *to.distance = wanted.distance;
+    return Done{};
+}
+
+Absorbing absorbing(Material& material) {
+    if (material.isRefractive()) return {&material.clear().absorption, &material.clear().attenuationDistance};
+    if (!material.isScattering()) return {};
+    return {&material.translucent().absorption, &material.translucent().attenuationDistance};
 }
 
 } // namespace lucent::scene

@@ -24,18 +24,16 @@ std::span<const MaterialPreset> materialPresets() {
 
 namespace {
 constexpr double kPerMetre = 1000;
-}
 
-void apply(const MaterialPreset& preset, MediumLayer& layer) {
-    layer.scattering = vec3(kPerMetre * preset.scattering / (1 - double(layer.anisotropy)));
-    layer.absorption = vec3(kPerMetre * preset.absorption);
-    layer.ior = preset.ior;
+template <class Inside>
+void applyTo(const MaterialPreset& preset, Inside& inside) {
+    inside.scattering = vec3(kPerMetre * preset.scattering / (1 - double(inside.anisotropy)));
+    inside.absorption = vec3(kPerMetre * preset.absorption);
+    inside.ior = preset.ior;
 }
+} // namespace
 
-void apply(const MaterialPreset& preset, Material& material) {
-    material.scattering = vec3(kPerMetre * preset.scattering / (1 - double(material.anisotropy)));
-    material.setAbsorption(vec3(kPerMetre * preset.absorption));
-    material.ior = preset.ior;
-}
+void apply(const MaterialPreset& preset, MediumLayer& layer) { applyTo(preset, layer); }
+void apply(const MaterialPreset& preset, Translucent& material) { applyTo(preset, material); }
 
 } // namespace lucent::scene

@@ -22,7 +22,7 @@ std::span<const MaterialPreset> materialPresets();
 
 /// Gives a material the coefficients of a preset. The measurement knows the reduced coefficient only, so what
 /// is scattered grows with the material's anisotropy: sigma_s = sigma_s' / (1 - g).
-void apply(const MaterialPreset& preset, Material& material);
+void apply(const MaterialPreset& preset, Translucent& material);
 void apply(const MaterialPreset& preset, MediumLayer& layer);
 
 } // namespace lucent::scene

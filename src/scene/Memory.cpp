@@ -22,6 +22,11 @@ double bytesOf(const Water& water) {
     return kBytesPerVertex * double(cells.x + 1) * double(cells.y + 1);
 }
 
+double bytesOfBody(const HeightField& field) {
+    const ivec2 grid = field.texels() + 2;
+    return 2 * kBytesPerVertex * double(grid.x) * double(grid.y);
+}
+
 double bytesOfPaint(int side) { return kBytesPerPaintTexel * double(side) * double(side); }
 
 double bytesOfHeights(ivec2 resolution) {

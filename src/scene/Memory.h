@@ -11,6 +11,8 @@ inline constexpr double kMostBytes = sizeof(void*) == 4 ? 0x1p30 : 0x1p34;
 
 /// Of a sheet's triangles on their way to the GPU.
 double bytesOf(const Water& water);
+/// Of the triangles of a height field that is no relief.
+double bytesOfBody(const HeightField& field);
 /// Of both painted maps of `side` x `side` texels and the surface under them.
 double bytesOfPaint(int side);
 /// Of heights that are taken from a mesh.

@@ -104,14 +104,18 @@ Mesh meshOf(const Box& box, int cells = 1);
 Mesh meshOf(const Sphere& sphere, int segments = 256);
 Mesh meshOf(const Torus& torus, int segments = 384);
 Mesh meshOf(const Cylinder& cylinder, int segments = 256);
+/// The body of a height field, closed: its top cut into triangles between texel centres and the border, walls
+/// around and a flat bottom, at height 0 or the lowest one below that. Where heights touch the bottom, or a
+/// hole was dug, it has none.
+Mesh meshOf(const HeightField& field);
 /// Water without waves: its grid, row after row along x; a sheet like the plane.
 Mesh meshOf(const Water& water);
 /// Squares of that grid along x and z: `cells` along the longer side, about as large along the other.
 ivec2 waterCells(const Water& water);
 
-/// The triangles of an object that is no height field, as all draw it: those of its file, or such as lie on
-/// its shape, made once for the same shape. With a wave flat sides are cut into small squares; with flat
-/// normals no two triangles share a vertex. Water lies still.
+/// The triangles of an object that is no relief (Object::isField()), as all draw it: those of its file, or
+/// such as lie on its shape, made once for the same shape. With a wave flat sides are cut into small squares;
+/// with flat normals no two triangles share a vertex. Water lies still.
 std::shared_ptr<const Mesh> meshOf(const Object& object);
 
 /// For each vertex the first one at its place.
@@ -126,8 +130,8 @@ Mesh partOf(const Mesh& mesh, const Mesh::Part& part);
 
 /// True for bytes that start as the plain form does.
 bool isMesh(std::span<const std::byte> bytes);
-/// The plain form in which meshes reach the loader: "LUCENTM2" and then everything above, little-endian; or
-/// "LUCENTM3" where a material scatters, with scattering, anisotropy and roughness behind each material.
+/// The plain form in which meshes reach the loader: "LUCENTM4" and then everything above, little-endian; of a
+/// material its colours and the numbers of its kind that such files know.
 /// The readers write it from glTF and OBJ, natively and in the page alike.
 Bytes encodeMesh(const Mesh& mesh);
 /// Error "NAME: what; expected" for truncated files, indices out of range, lists whose lengths do not agree

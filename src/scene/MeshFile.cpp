@@ -1,3 +1,4 @@
+#include "scene/Keys.h"
 #include "scene/Mesh.h"
 
 #include <algorithm>
@@ -12,8 +13,7 @@
 namespace lucent::scene {
 namespace {
 
-constexpr std::string_view kMagic = "LUCENTM2";
-constexpr std::string_view kScatteringMagic = "LUCENTM3"; // materials have what scatters as well
+constexpr std::string_view kMagic = "LUCENTM4";
 static_assert(std::endian::native == std::endian::little, "mesh files are written as they lie in memory");
 static_assert(sizeof(vec2) == 8 && sizeof(vec3) == 12 && sizeof(vec4) == 16 && sizeof(mat4) == 64);
 static_assert(sizeof(Node) == 44, "parent, translate, rotate as x y z w, scale: nothing between them");
@@ -92,34 +92,54 @@ private:
     std::string missing_;
 };
 
-// What the file holds, in its order; Files is a Writer or a Reader.
-template <class File, class Values>
-void materialFields(File& file, Values& m, bool scatter) {
-    file.value(m.base, "materials");
-    file.value(m.diffuse, "materials");
-    file.value(m.specular, "materials");
-    file.value(m.specularity, "materials");
-    file.value(m.forwardScatter, "materials");
-    file.value(m.depth, "materials");
-    file.value(m.specularFalloff, "materials");
-    file.value(m.scatterFalloff, "materials");
+// What the file holds, in its order; File is a Writer or a Reader. A file's materials are of any kind but
+// relief, and without layers.
+template <class File>
+void kindFields(File&, const Relief&) {}
+template <class File>
+void kindFields(File&, const Matt&) {}
+template <class File>
+void kindFields(File& file, auto& m) requires requires {
+    m.reflectance;
+}
+{ file.value(m.reflectance, "materials"); }
+template <class File>
+void kindFields(File& file, auto& m) requires requires {
+    m.transmission;
+}
+{
     file.value(m.transmission, "materials");
     file.value(m.ior, "materials");
-    file.value(m.attenuationColor, "materials");
-    file.value(m.attenuationDistance, "materials");
+    file.value(m.absorption, "materials");
     file.value(m.dispersion, "materials");
-    std::uint8_t fresnel = m.fresnel;
-    file.value(fresnel, "materials");
-    if constexpr (!std::is_const_v<Values>) m.fresnel = fresnel != 0;
-    file.value(m.reflectance, "materials");
-    if (!scatter) return;
+    file.value(m.attenuationDistance, "materials");
+}
+template <class File>
+void kindFields(File& file, auto& m) requires requires {
+    m.scattering;
+}
+{
     file.value(m.scattering, "materials");
+    file.value(m.ior, "materials");
+    file.value(m.absorption, "materials");
     file.value(m.anisotropy, "materials");
     file.value(m.roughness, "materials");
+    file.value(m.attenuationDistance, "materials");
+}
+template <class File, class AnyMaterial>
+void materialFields(File& file, AnyMaterial& m) {
+    file.value(m.base, "materials");
+    file.value(m.diffuse, "materials");
+    auto kind = std::uint8_t(m.kind.index());
+    file.value(kind, "materials");
+    if constexpr (!std::is_const_v<AnyMaterial>)
+        m.kind =
+            alternative<MaterialKinds>(std::min<std::size_t>(kind, std::variant_size_v<MaterialKinds> - 1));
+    std::visit([&](auto& of) { kindFields(file, of); }, m.kind);
 }
 
 template <class File, class AnyMesh>
-void meshFields(File& file, AnyMesh& mesh, bool scatter) {
+void meshFields(File& file, AnyMesh& mesh) {
     file.list(mesh.positions, "positions");
     file.list(mesh.indices, "indices");
     file.list(mesh.normals, "normals");
@@ -147,7 +167,7 @@ void meshFields(File& file, AnyMesh& mesh, bool scatter) {
         file.list(part.material, "names of materials");
         file.value(part.firstIndex, "parts");
         file.value(part.indexCount, "parts");
-        materialFields(file, part.values, scatter);
+        materialFields(file, part.values);
     });
 }
 
@@ -160,6 +180,20 @@ bool isFinite(const glm::vec<N, float>& v) {
 }
 bool isFinite(const glm::quat& q) { return isFinite(vec4(q.x, q.y, q.z, q.w)); }
 bool isFinite(const mat4& m) { return isFinite(m[0]) && isFinite(m[1]) && isFinite(m[2]) && isFinite(m[3]); }
+
+bool isSound(const Material& m) {
+    if (!isFinite(m.base) || !isFinite(m.diffuse)) return false;
+    if (m.isMirror()) return isFinite(m.mirror().reflectance);
+    if (m.isRefractive()) {
+        const Clear& c = m.clear();
+        return isFinite(c.transmission) && isFinite(c.ior) && c.ior > 0 && isFinite(c.absorption) &&
+               isFinite(c.dispersion) && isFinite(c.attenuationDistance);
+    }
+    if (!m.isScattering()) return true;
+    const Translucent& t = m.translucent();
+    return isFinite(t.scattering) && isFinite(t.ior) && t.ior > 0 && isFinite(t.absorption) &&
+           isFinite(t.anisotropy) && isFinite(t.roughness) && isFinite(t.attenuationDistance);
+}
 
 // Normals and weights of joints are stored rounded, often to 8 or 16 bits.
 constexpr float kUnitTolerance = 1e-2f;
@@ -306,15 +340,7 @@ private:
                       std::to_string(part.indexCount) + "; must begin at " + std::to_string(end) +
                       " and have three a triangle");
             end = std::uint64_t(part.firstIndex) + part.indexCount;
-            const Material& m = part.values;
-            const bool sound = isFinite(m.base) && isFinite(m.diffuse) && isFinite(m.specular) &&
-                               isFinite(m.specularity) && isFinite(m.forwardScatter) && isFinite(m.depth) &&
-                               isFinite(m.specularFalloff) && isFinite(m.scatterFalloff) &&
-                               isFinite(m.transmission) && isFinite(m.ior) && isFinite(m.attenuationColor) &&
-                               isFinite(m.attenuationDistance) && isFinite(m.dispersion) &&
-                               isFinite(m.reflectance) && isFinite(m.scattering) && isFinite(m.anisotropy) &&
-                               isFinite(m.roughness);
-            if (!sound || !(m.ior > 0))
+            if (!isSound(part.values))
                 wrong(name + " has a value that is not finite or an ior of 0 or less; must not");
         }
         if (!mesh_.parts.empty() && end != mesh_.indices.size())
@@ -329,23 +355,15 @@ private:
 
 } // namespace
 
-namespace {
-bool startsWith(std::span<const std::byte> bytes, std::string_view magic) {
-    return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
-}
-} // namespace
-
 bool isMesh(std::span<const std::byte> bytes) {
-    return startsWith(bytes, kMagic) || startsWith(bytes, kScatteringMagic);
+    return bytes.size() >= kMagic.size() && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
 }
 
 Bytes encodeMesh(const Mesh& mesh) {
-    const bool scatter = std::any_of(mesh.parts.begin(), mesh.parts.end(),
-                                     [](const Mesh::Part& part) { return part.values.isScattering(); });
     Writer file;
-    for (const char letter : scatter ? kScatteringMagic : kMagic)
+    for (const char letter : kMagic)
         file.value(letter, "");
-    meshFields(file, mesh, scatter);
+    meshFields(file, mesh);
     return file.take();
 }
 
@@ -354,7 +372,7 @@ Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& nam
         return Error{name + ": is no mesh file; must be glTF 2.0, OBJ or start with " + std::string(kMagic)};
     Reader file(bytes.subspan(kMagic.size()));
     Mesh mesh;
-    meshFields(file, mesh, startsWith(bytes, kScatteringMagic));
+    meshFields(file, mesh);
     if (!file.missing().empty()) return Error{name + ": " + file.missing()};
     if (file.left() > 0)
         return Error{name + ": " + std::to_string(file.left()) + " bytes follow the mesh; must be none"};

@@ -48,6 +48,7 @@ Mesh generated(const Object& object) {
     if (const auto* torus = std::get_if<Torus>(&shape))
         return isClear(object) ? clearMesh(*torus) : meshOf(*torus);
     if (const auto* water = std::get_if<Water>(&shape)) return meshOf(*water);
+    if (const auto* field = std::get_if<HeightField>(&shape)) return meshOf(*field);
     return meshOf(std::get<Cylinder>(shape));
 }
 

@@ -195,39 +195,76 @@ struct Binder {
         }
     }
 
-    // Of an object that scatters: what it has better words for, or may not have beside, is not shown.
-    static void placeInside(BoundParam& param, const Material& material) {
-        param.place = Group::Subsurface;
-        param.shown = param.data == &material.ior || param.data == &material.anisotropy ||
-                      param.data == &material.thickness || param.data == &material.roughness;
+    // Binds what is computed from a material: each member of `words` is carried back by
+    // store(words, id, material).
+    template <class Words>
+    std::size_t addWords(const std::string& path, std::string_view prefix, const ParamTable& table,
+                         const Words& now, Material& material,
+                         Status (*store)(const Words&, std::string_view, Material&)) {
+        const auto words = std::make_shared<Words>(now);
+        const std::size_t start = bound.size();
+        add(path, prefix, table, words.get());
+        for (std::size_t i = start; i < bound.size(); ++i)
+            bound[i].computed = {words, [words, store, id = bound[i].param->id, &material] {
+                                     return store(*words, id, material);
+                                 }};
+        return start;
     }
 
-    // What is computed from a material: its words for light inside.
+    // What makes it another kind. What says of which it is already is a number of its own kind.
+    void addChoice(const std::string& path, std::string_view prefix, Material& material) {
+        const std::size_t start =
+            addWords<KindChoice>(path, prefix, choiceParams(), choiceOf(material), material, store);
+        bound[start].computed.isOwn = true;
+        constexpr MaterialKind kOf[] = {MaterialKind::Mirror, MaterialKind::Clear, MaterialKind::Translucent};
+        for (std::size_t i = 3; i-- > 0;)
+            if (std::size_t(kOf[i]) == material.kind.index())
+                bound.erase(bound.begin() + std::ptrdiff_t(start + 1 + i));
+    }
+
+    void addAttenuation(const std::string& path, std::string_view prefix, Material& material) {
+        const Absorbing now = absorbing(material);
+        addWords<Attenuation>(path, prefix, attenuationParams(),
+                              attenuationOf(*now.absorption, *now.distance), material, store);
+    }
+
+    // A translucent material in better words than its numbers, which are not shown then. Of what sends light
+    // back itself a measured material may be chosen.
     void addTranslucency(const std::string& path, std::string_view prefix, Material& material) {
-        const auto words = std::make_shared<Translucency>(translucencyOf(material));
+        const std::size_t start = addWords<Translucency>(path, prefix, translucencyParams(),
+                                                         translucencyOf(material), material, store);
+        if (material.isScattering()) return;
+        bound.resize(start + 1);
+        bound[start].shown = false;
+    }
+
+    void addMaterial(const std::string& path, std::string_view prefix, Object& object) {
+        Material& material = object.material;
+        const bool scatters = material.isScattering();
+        addTranslucency(path, prefix, material);
         const std::size_t start = bound.size();
-        add(path, prefix, translucencyParams(), words.get());
-        if (!material.isScattering()) { // a measured material may be chosen for what is opaque
-            bound.resize(start + 1);
-            bound[start].shown = false;
+        addChoice(path, prefix, material);
+        for (const ParamTable* table : materialKeysOf(object).tables)
+            if (table == &attenuationParams())
+                addAttenuation(path, prefix, material);
+            else
+                add(path, prefix, *table, structOf(material, *table));
+        // Of what is clear it is shown as a colour.
+        for (std::size_t i = start; i < bound.size() && material.isRefractive(); ++i)
+            if (bound[i].data == &material.clear().absorption) bound[i].shown = false;
+        if (!scatters) return;
+        const Translucent& inside = material.translucent();
+        for (std::size_t i = start + 1; i < bound.size(); ++i) { // after its kind
+            bound[i].place = Group::Subsurface;
+            bound[i].shown = bound[i].data == &inside.ior || bound[i].data == &inside.anisotropy ||
+                             bound[i].data == &inside.thickness || bound[i].data == &inside.roughness;
         }
-        for (std::size_t i = start; i < bound.size(); ++i)
-            bound[i].computed = {
-                words, [words, id = bound[i].param->id, &material] { return store(*words, id, material); }};
+        addLayers(path + ".layers.", material.translucent().layers);
     }
 
     void addObject(Object& object, bool first) {
         const std::string path = "objects." + object.name;
-        const std::string_view prefix = first ? "material" : "";
-        const bool scatters = !object.isField() && object.material.isScattering();
-        if (!object.isField() && !object.material.isRefractive() && !object.material.isMirror())
-            addTranslucency(path + ".material", prefix, object.material);
-        const std::size_t start = bound.size();
-        for (const ParamTable* table : materialTables(object))
-            add(path + ".material", prefix, *table, &object.material);
-        for (std::size_t i = start; scatters && i < bound.size(); ++i)
-            placeInside(bound[i], object.material);
-        if (object.material.isScattering()) addLayers(path + ".material.layers.", object.material.layers);
+        addMaterial(path + ".material", first ? "material" : "", object);
         add(path + ".shape", first ? "shape" : "", *typeOf(object.shape).keys.tables[0],
             dataOf(object.shape));
         if (whyIdle(object, "wave").empty()) {
@@ -261,6 +298,8 @@ std::string pathWithName(const Scene& scene, std::string_view path) {
         return std::string(path);
     return std::string(kObjects) + scene.objects[number].name + std::string(rest.substr(word.size()));
 }
+
+std::string textOf(ivec2 size) { return std::to_string(size.x) + " x " + std::to_string(size.y); }
 
 std::string vectorText(vec3 v) { return shortest(v.x) + " " + shortest(v.y) + " " + shortest(v.z); }
 
@@ -349,16 +388,8 @@ Status check(const Shape& shape) {
 }
 
 Status check(const Material& material) {
-    if (material.isRefractive() && material.isMirror())
-        return Error{"reflectance is " + vectorText(material.reflectance) +
-                     "; must be 0 beside a transmission above 0"};
-    if (!material.isScattering()) return Done{};
-    if (material.isRefractive() || material.isMirror())
-        return Error{"scattering is " + vectorText(material.scattering) + "; must be 0 beside a " +
-                     (material.isRefractive() ? "transmission" : "reflectance") + " above 0"};
-    if (material.ior < kLeastScatteringIor || material.ior > kMostScatteringIor)
-        return Error{"ior is " + shortest(material.ior) + "; must be in [" + shortest(kLeastScatteringIor) +
-                     ", " + shortest(kMostScatteringIor) + "] beside a scattering above 0"};
+    if (material.isScattering() && material.translucent().scattering == vec3(0))
+        return Error{"scattering is 0 0 0; must be above 0 in a colour of a translucent material"};
     return Done{};
 }
 
@@ -389,11 +420,15 @@ Status checkAll(const Scene& scene) {
             const std::string why = whyTooLarge(std::to_string(water->cells), bytes += bytesOf(*water));
             if (!why.empty()) return Error{path + ".shape.cells" + why};
         }
+        if (const auto* field = std::get_if<HeightField>(&object.shape); field && !object.isField()) {
+            const std::string why = whyTooLarge(textOf(field->texels()), bytes += bytesOfBody(*field));
+            if (!why.empty()) return Error{path + ".shape.heights" + why};
+        }
     }
     return Done{};
 }
 
-// " does nothing on ...": why a path that looks like a parameter of an object is none now; "" for others.
+// Why a path that looks like a parameter of an object is none now (whyIdle()); "" for others.
 std::string whyUnbound(const Scene& scene, std::string_view path) {
     for (const Object& object : scene.objects) {
         const std::string owner = "objects." + object.name + ".";
@@ -434,13 +469,13 @@ Status setParam(Scene& scene, std::string_view path, std::string_view value) {
 }
 
 bool changesNoLight(const Scene& scene, const Object& object) {
-    const auto isVacuum = [](const Material& material) {
-        return material.transmission == 1 && material.ior == 1 && material.dispersion == 0 &&
-               material.absorption() == vec3(0);
+    const auto isVacuum = [](const Clear& clear) {
+        return clear.transmission == 1 && clear.ior == 1 && clear.dispersion == 0 &&
+               clear.absorption == vec3(0);
     };
     return object.material.isRefractive() &&
            std::all_of(scene.objects.begin(), scene.objects.end(), [&](const Object& one) {
-               return !one.material.isRefractive() || isVacuum(one.material);
+               return !one.material.isRefractive() || isVacuum(one.material.clear());
            });
 }
 

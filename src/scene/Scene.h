@@ -133,53 +133,81 @@ struct MediumLayer {
 };
 inline constexpr std::size_t kMostMediumLayers = 4;
 
-/// What the surface does with light. The relief model's colours and factors (height-field thesis 2017, 3.5)
-/// hold for height fields. Other shapes are either opaque, with `base` and `diffuse` as their own radiance
-/// and albedo, or refractive, or mirrors.
-struct Material {
-    vec3 base{0};               ///< cB, shown without light
-    vec3 diffuse{0.8f};         ///< cD
+/// Light as the relief model has it (height-field thesis 2017, 3.5), over the material's own colours. On
+/// shapes other than height fields it is the model's matt limit, depth 0.
+struct Relief {
     vec3 specular{1};           ///< cS
     float specularity = 0;      ///< ks, [0,1]
     float forwardScatter = 0;   ///< kf, [0,1]
     float depth = 0.05f;        ///< t: how far below the surface the light is looked at, m, > 0
     vec2 specularFalloff{0, 1}; ///< s_min, s_max
     vec2 scatterFalloff{0, 1};  ///< f_min, f_max
+};
 
-    // Refraction, where transmission > 0; not of height fields. As glTF defines the words.
-    float transmission = 0;        ///< share of the light inside that passes, [0,1]
-    float ior = 1.5f;              ///< index of refraction of the inside over that of vacuum, > 0
-    vec3 attenuationColor{1};      ///< what is left of white after `attenuationDistance`, [1e-6,1]
-    float attenuationDistance = 0; ///< m; 0: nothing is absorbed
-    float dispersion = 0;          ///< 20 / Abbe number
-    bool fresnel = true;           ///< false: all light is transmitted where Snell's law lets it
-    // Light inside, where scattering > 0; not of height fields, nor beside transmission and reflectance. What
-    // is absorbed on the way is absorption(), what bends at the surface is ior.
-    vec3 scattering{0};     ///< sigma_s, 1/m
+/// Light that goes out evenly in all directions: the material's own colours and nothing else.
+struct Matt {};
+
+struct Mirror {
+    vec3 reflectance{1}; ///< share of mirrored light at any angle, [0,1]
+};
+
+/// What refracts, and lets light through. As glTF defines the words.
+struct Clear {
+    float transmission = 1; ///< share of the light inside that passes, [0,1]
+    float ior = 1.5f;       ///< index of refraction of the inside over that of vacuum, > 0
+    vec3 absorption{0};     ///< sigma, 1/m: light falls by exp(-sigma l) on a way of l metres
+    float dispersion = 0;   ///< 20 / Abbe number
+    bool fresnel = true;    ///< false: all light is transmitted where Snell's law lets it
+    /// At which absorption is spoken of as a colour (Attenuation), m; 0: at none yet. Does nothing to light.
+    float attenuationDistance = 0;
+
+    bool operator==(const Clear&) const = default;
+};
+
+/// What scatters light inside.
+struct Translucent {
+    vec3 scattering{1000};  ///< sigma_s, 1/m, not 0
+    vec3 absorption{0};     ///< sigma_a, 1/m
+    float ior = 1.5f;       ///< index of refraction of the inside over that of vacuum
     float anisotropy = 0;   ///< g, mean cosine of a scattered ray, [-0.999,0.999]
     float thickness = 0;    ///< m, of a slab that the surface is the upper side of; 0: as thick as the object
-    float roughness = 0.3f; ///< of the surface, [0,1]: its highlight; not of height fields
-    std::vector<MediumLayer> layers; ///< on top of it, kMostMediumLayers at most, in no order
-    // Mirrors, where reflectance > 0; not of height fields, and not beside transmission.
-    vec3 reflectance{0}; ///< share of mirrored light at any angle, [0,1]
+    float roughness = 0.3f; ///< of the surface, [0,1]: its highlight
+    std::vector<MediumLayer> layers{}; ///< on top of it, kMostMediumLayers at most, in no order
+    float attenuationDistance = 0;     ///< as Clear's
 
-    bool isRefractive() const { return transmission > 0; }
-    bool isMirror() const { return reflectance != vec3(0); }
-    bool isScattering() const { return scattering != vec3(0); }
-    /// Absorption coefficient sigma [1/m]: light falls by exp(-sigma l) on a way of l metres. It is
-    /// -ln(attenuationColor) / attenuationDistance; 0 where the distance is 0.
-    vec3 absorption() const;
     /// The layers that are there, the top first.
     std::vector<MediumLayer> stackedLayers() const;
     /// Index of refraction inside the surface: that of the top layer, or ior.
     float surfaceIor() const;
-    /// Sets attenuationColor and attenuationDistance so that absorption() gives `sigma` [1/m, >= 0 and
-    /// finite] back, to float precision in channels of a hundredth of the largest or more.
-    void setAbsorption(vec3 sigma);
+};
 
-    std::shared_ptr<const Image> baseMap, diffuseMap,
-        specularMap;                                          ///< 3 channels, linear; multiply the colours
-    std::string baseMapFile, diffuseMapFile, specularMapFile; ///< as the scene file names them
+using MaterialKinds = std::variant<Relief, Matt, Mirror, Clear, Translucent>;
+
+/// What the surface does with light: one of a few kinds, and the colours that those of them share which send
+/// it back themselves (Relief, Matt, and what is painted on Translucent).
+struct Material {
+    vec3 base{0};       ///< cB, shown without light; W/(m² sr)
+    vec3 diffuse{0.8f}; ///< cD, albedo
+    MaterialKinds kind{};
+
+    std::shared_ptr<const Image> baseMap{}, diffuseMap{},
+        specularMap{}; ///< 3 channels, linear; multiply the colours of a height field's relief
+    std::string baseMapFile{}, diffuseMapFile{}, specularMapFile{}; ///< as the scene file names them
+
+    bool isRelief() const { return std::holds_alternative<Relief>(kind); }
+    bool isMirror() const { return std::holds_alternative<Mirror>(kind); }
+    bool isRefractive() const { return std::holds_alternative<Clear>(kind); }
+    bool isScattering() const { return std::holds_alternative<Translucent>(kind); }
+
+    /// The kind, which it must be of.
+    Relief& relief() { return *std::get_if<Relief>(&kind); }
+    Mirror& mirror() { return *std::get_if<Mirror>(&kind); }
+    Clear& clear() { return *std::get_if<Clear>(&kind); }
+    Translucent& translucent() { return *std::get_if<Translucent>(&kind); }
+    const Relief& relief() const { return *std::get_if<Relief>(&kind); }
+    const Mirror& mirror() const { return *std::get_if<Mirror>(&kind); }
+    const Clear& clear() const { return *std::get_if<Clear>(&kind); }
+    const Translucent& translucent() const { return *std::get_if<Translucent>(&kind); }
 };
 
 /// Placement of an object: scaled, then rotated about the fixed x, y, z axes, then moved.
@@ -203,7 +231,9 @@ struct Object {
     std::shared_ptr<const Painting> painting;
     Kept kept{}; ///< what was worked out from it: its mesh, its bounds
 
-    bool isField() const { return std::holds_alternative<HeightField>(shape); }
+    /// A height field that is a relief, whose heights rays walk along. Of other materials it is a mesh, the
+    /// body of its heights (Mesh.h).
+    bool isField() const { return std::holds_alternative<HeightField>(shape) && material.isRelief(); }
     /// The shape, which must be a height field.
     HeightField& field() { return std::get<HeightField>(shape); }
     const HeightField& field() const { return std::get<HeightField>(shape); }
@@ -342,14 +372,13 @@ const ParamTable& torusParams();
 const ParamTable& cylinderParams();
 const ParamTable& waterParams();
 const ParamTable& waveParams();
-// Of the material, by where they act; see whyIdle() in Keys.h.
-const ParamTable& colorParams();      ///< height fields and opaque surfaces
-const ParamTable& reliefParams();     ///< height fields
-const ParamTable& opticsParams();     ///< every other shape: what makes it clear, a mirror or translucent
-const ParamTable& mediumParams();     ///< what is clear or translucent
-const ParamTable& refractionParams(); ///< what is clear
-const ParamTable& scatteringParams(); ///< what is translucent
-const ParamTable& layerParams();      ///< a layer of what is translucent
+// Of the material and its kinds; see Keys.h.
+const ParamTable& colorParams();
+const ParamTable& reliefParams();
+const ParamTable& mirrorParams();
+const ParamTable& clearParams();
+const ParamTable& translucentParams();
+const ParamTable& layerParams(); ///< a layer of what is translucent
 const ParamTable& transformParams();
 const ParamTable& pointLightParams();
 const ParamTable& distantLightParams();
@@ -369,9 +398,9 @@ std::span<const std::string_view> aovNames();
 /// was when it was bound, and no part of a scene file.
 ///
 /// The pointers stay valid while the scene's vectors keep their size. Of a camera's height and field of view
-/// only the one in use is bound, and of a material what acts on its object. A wave without amplitude and the
-/// time of a scene in which nothing moves are bound but not shown. Attributes address the first light and the
-/// first object; others are set by path.
+/// only the one in use is bound, and of a material what its kind has and what chooses the kind. A wave
+/// without amplitude and the time of a scene in which nothing moves are bound but not shown. Attributes
+/// address the first light and the first object; others are set by path.
 std::vector<BoundParam> bindParams(Scene& scene);
 
 /// True where the picture depends on View::time: water, a wave, an animation.

@@ -4,6 +4,8 @@
 #include "scene/Load.h"
 #include "scene/MaterialPresets.h"
 
+#include <set>
+
 namespace lucent::scene {
 namespace {
 
@@ -25,6 +27,21 @@ void writeNumbers(JsonWriter& json, const Param& param) {
     json.key("minItems").value(count).key("maxItems").value(count);
 }
 
+// A number that is not negative, or three.
+void writeCoefficientType(JsonWriter& json, double most = kFar) {
+    const auto writeNumber = [&] {
+        json.beginObject().key("type").value("number");
+        json.key("minimum").value(0).key("maximum").value(most).end();
+    };
+    json.key("anyOf").beginArray();
+    writeNumber();
+    json.beginObject().key("type").value("array");
+    json.key("items");
+    writeNumber();
+    json.key("minItems").value(3).key("maxItems").value(3).end();
+    json.end();
+}
+
 void writeType(JsonWriter& json, const Param& param) {
     switch (param.kind) {
     case Kind::Toggle:
@@ -44,6 +61,9 @@ void writeType(JsonWriter& json, const Param& param) {
         json.end().end();
         break;
     case Kind::Vector:
+        if (param.axes == "rgb") return writeCoefficientType(json, param.max);
+        writeNumbers(json, param);
+        break;
     case Kind::Range:
     case Kind::Pair:
         writeNumbers(json, param);
@@ -70,21 +90,6 @@ void writeSizeType(JsonWriter& json) {
     json.key("minItems").value(2).key("maxItems").value(2);
 }
 
-// A number that is not negative, or three.
-void writeCoefficientType(JsonWriter& json) {
-    const auto writeNumber = [&] {
-        json.beginObject().key("type").value("number");
-        json.key("minimum").value(0).key("maximum").value(kFar).end();
-    };
-    json.key("anyOf").beginArray();
-    writeNumber();
-    json.beginObject().key("type").value("array");
-    json.key("items");
-    writeNumber();
-    json.key("minItems").value(3).key("maxItems").value(3).end();
-    json.end();
-}
-
 class SchemaWriter {
 public:
     explicit SchemaWriter(std::span<const ParamTable* const> techniques) : techniques_(techniques) {}
@@ -103,9 +108,10 @@ private:
     void writeObject(const KeySet& keys, std::initializer_list<std::string_view> required = {}) {
         json_.key("type").value("object");
         json_.key("properties").beginObject();
+        std::set<std::string_view> written; // kinds of a material share keys
         for (const ParamTable* table : keys.tables)
             for (const Param& param : table->params)
-                writeParam(json_, param);
+                if (written.insert(param.id).second) writeParam(json_, param);
         for (const Key& key : keys.keys)
             writeKey(key);
         json_.end();

@@ -222,4 +222,100 @@ Mesh partOf(const Mesh& mesh, const Mesh::Part& part) {
     return out;
 }
 
+namespace {
+
+// The body of a height field: its top's grid, one vertex a texel centre and a ring of them on the border, and
+// below each of those one of the bottom.
+class FieldBody {
+public:
+    explicit FieldBody(const HeightField& field)
+        : field_(field), texels_(field.texels()), across_(texels_ + 2), scale_(double(field.heightScale)) {
+        double lowest = 0;
+        for (int y = 0; y < texels_.y; ++y)
+            for (int x = 0; x < texels_.x; ++x)
+                if (!isHole(x, y)) lowest = std::min(lowest, double(*field.heights->at(x, y)));
+        bottom_ = lowest;
+    }
+
+    Mesh make() {
+        const auto cells = [this](auto visit) {
+            for (int j = 0; j + 1 < across_.y; ++j)
+                for (int i = 0; i + 1 < across_.x; ++i)
+                    visit(ivec2(i, j + 1), ivec2(i + 1, j + 1), ivec2(i + 1, j), ivec2(i, j));
+        };
+        const auto size = std::uint32_t(across_.x * across_.y);
+        for (const bool isTop : {true, false})
+            for (int j = 0; j < across_.y; ++j)
+                for (int i = 0; i < across_.x; ++i)
+                    builder_.vertex({place(i, j), scale_ * (isTop ? height(i, j) : bottom_)},
+                                    isTop ? normal(i, j) : dvec3(0, 0, -1));
+        const auto both = [&](ivec2 a, ivec2 b, ivec2 c) {
+            if (isHollow(a) && isHollow(b) && isHollow(c)) return;
+            builder_.triangle(number(a), number(b), number(c));
+            builder_.triangle(size + number(a), size + number(c), size + number(b));
+        };
+        cells([&](ivec2 a, ivec2 b, ivec2 c, ivec2 d) {
+            both(a, b, c);
+            both(a, c, d);
+        });
+        const ivec2 last = across_ - 1;
+        wall({0, last.y}, {1, 0}, last.x, {0, -1, 0});
+        wall({last.x, last.y}, {0, -1}, last.y, {1, 0, 0});
+        wall({last.x, 0}, {-1, 0}, last.x, {0, 1, 0});
+        wall({0, 0}, {0, 1}, last.y, {-1, 0, 0});
+        return builder_.take();
+    }
+
+private:
+    // Where the loader has dug (HeightField::alphaIsSolid).
+    bool isHole(int x, int y) const {
+        if (field_.alphaIsSolid || !field_.alpha) return false;
+        const Image& alpha = *field_.alpha;
+        return *alpha.at((2 * x + 1) * alpha.width / (2 * texels_.x),
+                         (2 * y + 1) * alpha.height / (2 * texels_.y)) < 0.5f;
+    }
+    ivec2 texel(int i, int j) const { return glm::clamp(ivec2(i - 1, j - 1), ivec2(0), texels_ - 1); }
+    double stored(int x, int y) const { return std::max(double(*field_.heights->at(x, y)), bottom_); }
+    double height(int i, int j) const {
+        const ivec2 at = texel(i, j);
+        return stored(at.x, at.y);
+    }
+    bool isHollow(ivec2 at) const { return height(at.x, at.y) == bottom_; }
+    std::uint32_t number(ivec2 at) const { return std::uint32_t(at.y * across_.x + at.x); }
+    dvec2 place(int i, int j) const {
+        const dvec2 along = glm::clamp(dvec2(i, j) - 0.5, dvec2(0), dvec2(texels_)) - 0.5 * dvec2(texels_);
+        return double(field_.texelSize()) * dvec2(along.x, -along.y);
+    }
+    // Central differences, one-sided at the border.
+    dvec3 normal(int i, int j) const {
+        const ivec2 at = texel(i, j), low = glm::max(at - 1, ivec2(0)), high = glm::min(at + 1, texels_ - 1);
+        const auto slope = [&](double from, double to, int steps) {
+            return steps > 0 ? scale_ * (to - from) / (steps * double(field_.texelSize())) : 0.0;
+        };
+        return glm::normalize(dvec3(-slope(stored(low.x, at.y), stored(high.x, at.y), high.x - low.x),
+                                    slope(stored(at.x, low.y), stored(at.x, high.y), high.y - low.y), 1));
+    }
+    // From a corner, counter-clockwise around the body seen from above.
+    void wall(ivec2 from, ivec2 step, int count, const dvec3& outside) {
+        std::uint32_t before[2] = {};
+        for (int k = 0; k <= count; ++k) {
+            const ivec2 at = from + k * step;
+            const dvec2 here = place(at.x, at.y);
+            const std::uint32_t now[2] = {builder_.vertex({here, scale_ * bottom_}, outside),
+                                          builder_.vertex({here, scale_ * height(at.x, at.y)}, outside)};
+            if (k > 0) builder_.quad(before[0], now[0], now[1], before[1]);
+            std::copy(std::begin(now), std::end(now), before);
+        }
+    }
+
+    const HeightField& field_;
+    ivec2 texels_, across_;
+    double scale_, bottom_ = 0;
+    Builder builder_;
+};
+
+} // namespace
+
+Mesh meshOf(const HeightField& field) { return FieldBody(field).make(); }
+
 } // namespace lucent::scene

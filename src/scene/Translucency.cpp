@@ -27,8 +27,8 @@ struct Reduced {
 
 using Colors = std::array<Reduced, 3>;
 
-Colors reducedOf(const Material& material) {
-    const vec3 absorption = material.absorption();
+Colors reducedOf(const Translucent& material) {
+    const vec3 absorption = material.absorption;
     Colors colors;
     for (int i = 0; i < 3; ++i)
         colors[std::size_t(i)] = {(1 - double(material.anisotropy)) * double(material.scattering[i]),
@@ -74,26 +74,26 @@ bool isSame(vec3 a, vec3 b) {
            isSame(double(a.z), double(b.z));
 }
 
-Measured presetOf(const Material& material) {
+Measured presetOf(const Translucent& material) {
     const std::span<const MaterialPreset> presets = materialPresets();
     for (std::size_t i = 0; i < presets.size(); ++i) {
-        Material measured = material;
+        Translucent measured = material;
         apply(presets[i], measured);
         if (isSame(measured.scattering, material.scattering) && measured.ior == material.ior &&
-            isSame(measured.absorption(), material.absorption()))
+            isSame(measured.absorption, material.absorption))
             return Measured(int(i) + 1);
     }
     return Measured::Own;
 }
 
-Material withBlur(Material material, double blur) {
+Translucent withBlur(Translucent material, double blur) {
     const double factor = kPerMm / (blur * meanExtinction(reducedOf(material)));
     material.scattering = vec3(dvec3(material.scattering) * factor);
-    material.attenuationDistance = float(double(material.attenuationDistance) / factor);
+    material.absorption = vec3(dvec3(material.absorption) * factor);
     return material;
 }
 
-Material withGlow(Material material, double glow) {
+Translucent withGlow(Translucent material, double glow) {
     const Colors colors = reducedOf(material);
     const double factor = glow < 1 ? factorFor(colors, glow) : 0;
     dvec3 scattering, absorption(0);
@@ -104,26 +104,35 @@ Material withGlow(Material material, double glow) {
         scattering[i] = albedo * color.extinction() / (1 - double(material.anisotropy));
     }
     material.scattering = vec3(scattering);
-    material.setAbsorption(vec3(absorption));
+    material.absorption = vec3(absorption);
     return material;
 }
 
+Translucency wordsOf(const Translucent& material) {
+    const Colors colors = reducedOf(material);
+    return {.preset = presetOf(material),
+            .blur = float(kPerMm / meanExtinction(colors)),
+            .glow = float(glowOf(colors, [](const Reduced& color) { return color.albedo(); })),
+            .scatteringPerMm = vec3(dvec3(material.scattering) / kPerMm),
+            .absorptionPerMm = vec3(dvec3(material.absorption) / kPerMm)};
+}
+
 // Whether the material is what the member says, to the float: then nothing changes, not by rounding either.
-bool isAlready(const Translucency& wanted, std::string_view id, const Material& material) {
-    const Translucency now = translucencyOf(material);
+bool isAlready(const Translucency& wanted, std::string_view id, const Translucent& material) {
+    const Translucency now = wordsOf(material);
     if (id == "blur") return wanted.blur == now.blur;
     if (id == "glow") return wanted.glow == now.glow;
     if (id == "scatteringPerMm") return wanted.scatteringPerMm == now.scatteringPerMm;
     return id == "absorptionPerMm" && wanted.absorptionPerMm == now.absorptionPerMm;
 }
 
-Result<Material> made(const Translucency& wanted, std::string_view id, Material material) {
+Result<Translucent> made(const Translucency& wanted, std::string_view id, Translucent material) {
     if (id == "blur") return withBlur(material, double(wanted.blur));
     if (id == "glow") return withGlow(material, double(wanted.glow));
     if (id == "scatteringPerMm") {
         material.scattering = vec3(kPerMm * dvec3(wanted.scatteringPerMm));
     } else if (id == "absorptionPerMm") {
-        material.setAbsorption(vec3(kPerMm * dvec3(wanted.absorptionPerMm)));
+        material.absorption = vec3(kPerMm * dvec3(wanted.absorptionPerMm));
     } else {
         if (wanted.preset == Measured::Own) return Error{"is own; must be a measured material"};
         apply(materialPresets()[std::size_t(wanted.preset) - 1], material);
@@ -139,12 +148,7 @@ double halfSpaceAlbedo(double albedo) {
 }
 
 Translucency translucencyOf(const Material& material) {
-    const Colors colors = reducedOf(material);
-    return {.preset = presetOf(material),
-            .blur = float(kPerMm / meanExtinction(colors)),
-            .glow = float(glowOf(colors, [](const Reduced& color) { return color.albedo(); })),
-            .scatteringPerMm = vec3(dvec3(material.scattering) / kPerMm),
-            .absorptionPerMm = vec3(dvec3(material.absorption()) / kPerMm)};
+    return material.isScattering() ? wordsOf(material.translucent()) : Translucency{};
 }
 
 const ParamTable& translucencyParams() {
@@ -218,14 +222,15 @@ const ParamTable& translucencyParams() {
 }
 
 Status store(const Translucency& wanted, std::string_view id, Material& material) {
-    if (isAlready(wanted, id, material)) return Done{};
-    const Result<Material> result = made(wanted, id, material);
+    const Translucent now = material.isScattering() ? material.translucent() : Translucent{};
+    if (material.isScattering() && isAlready(wanted, id, now)) return Done{};
+    Result<Translucent> result = made(wanted, id, now);
     if (!result) return result.error();
     const vec3 s = result->scattering;
     if (!(std::max({s.x, s.y, s.z}) <= float(kFar)))
         return Error{"asks for a scattering of " + shortest(std::max({s.x, s.y, s.z})) +
                      " 1/m; must be at most " + shortest(float(kFar))};
-    material = *result;
+    material.kind = std::move(*result);
     return Done{};
 }
 

@@ -26,13 +26,14 @@ struct Translucency {
 /// @param albedo  reduced, of one collision, [0,1]
 double halfSpaceAlbedo(double albedo);
 
-/// @param material  which scatters
+/// Of a material that is not translucent: nobody's.
 Translucency translucencyOf(const Material& material);
 
 /// In the order of the struct.
 const ParamTable& translucencyParams();
 
-/// Makes the material what one member says; one that it says already changes nothing.
+/// Makes the material what one member says, translucent where it was not; what it says already changes
+/// nothing.
 /// - preset: apply() of MaterialPresets.h; Own is no material.
 /// - blur: scattering and absorption change by one factor, so that every length inside does and no colour.
 /// - glow: sigma_t' of each colour stays; the number of collisions before light is absorbed changes by one

@@ -88,22 +88,23 @@ void writeShape(JsonWriter& json, const Shape& shape) {
 void writeMaterial(JsonWriter& json, const Object& object) {
     const Material& material = object.material;
     json.key("material").beginObject();
-    // A colour of attenuation stands beside its distance.
-    const std::string_view always = material.attenuationColor == vec3(1) ? "" : "attenuationDistance";
-    for (const ParamTable* table : materialTables(object))
-        writeParams(json, *table, &material, always);
-    if (material.isScattering() && !material.layers.empty()) {
+    json.key("kind").value(materialKinds()[material.kind.index()].type);
+    for (const ParamTable* table : materialKeysOf(object).tables)
+        if (table != &attenuationParams()) writeParams(json, *table, structOf(material, *table));
+    if (material.isScattering() && !material.translucent().layers.empty()) {
         json.key("layers").beginArray();
-        for (const MediumLayer& layer : material.layers) {
+        for (const MediumLayer& layer : material.translucent().layers) {
             json.beginObject();
             writeParams(json, layerParams(), &layer);
             json.end();
         }
         json.end();
     }
-    writeText(json, "baseMap", material.baseMapFile);
-    writeText(json, "diffuseMap", material.diffuseMapFile);
-    writeText(json, "specularMap", material.specularMapFile);
+    if (material.isRelief()) {
+        writeText(json, "baseMap", material.baseMapFile);
+        writeText(json, "diffuseMap", material.diffuseMapFile);
+        writeText(json, "specularMap", material.specularMapFile);
+    }
     json.end();
 }
 

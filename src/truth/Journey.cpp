@@ -95,7 +95,7 @@ private:
 
     bool reflectOnMirror(const Hit& hit) {
         if (mirrors_++ == limits_.mirrors) return finish(Arrival::At::Lost);
-        const dvec3 share(optics_.object(hit.shape).material.reflectance);
+        const dvec3 share(optics_.object(hit.shape).material.mirror().reflectance);
         end_.absorbed += (1.0 - share) * beam_.weight;
         beam_.weight *= share;
         beam_.direction = mirrored(beam_.direction, facingNormal(hit, beam_.direction));
@@ -123,7 +123,8 @@ private:
             beam_.direction = mirrored(beam_.direction, normal);
             return true;
         }
-        const double back = material.fresnel ? reflectance(-glm::dot(beam_.direction, normal), relative) : 0;
+        const double back =
+            material.clear().fresnel ? reflectance(-glm::dot(beam_.direction, normal), relative) : 0;
         if (branching_ == Branching::Tree) {
             if (random_.next() < back) {
                 beam_.direction = mirrored(beam_.direction, normal);
@@ -135,7 +136,7 @@ private:
         beam_.direction = *onwards;
         beam_.media = after;
         if (there == later) { // entered
-            const double kept = double(material.transmission);
+            const double kept = double(material.clear().transmission);
             end_.absorbed += (1 - kept) * beam_.weight;
             beam_.weight *= kept;
         }
@@ -190,7 +191,7 @@ dvec3 straightTransmittance(const Optics& optics, WorldRay ray, const Leaving& l
         media = behind(hits, ray.direction, media);
         const int there = media.medium();
         if (changes(optics, here, there)) return dvec3(0);
-        if (there > here) kept *= double(optics.object(there).material.transmission);
+        if (there > here) kept *= double(optics.object(there).material.clear().transmission);
         ray.begin = hits.at[0].distance + optics.rays().gap();
     }
     if (ray.length < std::numeric_limits<double>::infinity()) absorb(ray.length);

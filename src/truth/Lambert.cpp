@@ -78,7 +78,7 @@ Pixel LambertEstimator::solve(ivec2 pixel) const {
     }
     const scene::Material& material = object.object->material;
     const dvec2 place = object.field.placeOnMap(sight.point.position);
-    const double matt = 1 - double(material.specularity);
+    const double matt = 1 - double(material.relief().specularity);
     const dvec3 diffuse = matt * dvec3(material.diffuse) * sampleMap(material.diffuseMap.get(), place);
     const dvec3 base = matt * dvec3(material.base) * sampleMap(material.baseMap.get(), place);
     return {base + diffuse * light, diffuse * diffuse * estimate.varianceOfMean(), sight.coverage};

@@ -206,7 +206,7 @@ dvec3 Illumination::ofRelief(const FieldBlock& block, const Hit& hit, const dvec
     const scene::Object& object = optics_->object(hit.shape);
     const SurfacePoint point{block.placement.pointFromWorld(hit.position),
                              block.placement.directionFromWorld(hit.normal)};
-    const dvec3 below = hit.position - double(object.material.depth) * hit.normal;
+    const dvec3 below = hit.position - double(object.material.relief().depth) * hit.normal;
     const dvec3 eye = away < kInfinity ? glm::normalize(below - (hit.position + away * viewer)) : -viewer;
     Lighting lighting;
     const auto add = [&](const LightPath& way, const dvec3& irradiance) {
@@ -280,8 +280,8 @@ dvec3 shownBy(const Optics& optics, const Hit& hit, const dvec3& irradiance) {
         const dvec2 place = block->field->placeOnMap(block->placement.pointFromWorld(hit.position));
         base *= sampleMap(material.baseMap.get(), place);
         diffuse *= sampleMap(material.diffuseMap.get(), place);
-        matt = 1 - double(material.specularity);
     }
+    if (material.isRelief()) matt = 1 - double(material.relief().specularity);
     return matt * (base + diffuse * irradiance / std::numbers::pi);
 }
 

@@ -137,7 +137,7 @@ struct TrianglesOf {
     Triangles operator()(const scene::Torus& torus) const { return trianglesOf(meshOf(torus)); }
     Triangles operator()(const scene::Cylinder& cylinder) const { return trianglesOf(meshOf(cylinder)); }
     Triangles operator()(const scene::Water&) const { return {}; }
-    Triangles operator()(const scene::HeightField&) const { return {}; }
+    Triangles operator()(const scene::HeightField& field) const { return trianglesOf(meshOf(field)); }
 };
 
 /// Solid angle of a triangle seen from the origin, above 0 where its front looks away from there (van
@@ -188,7 +188,7 @@ void Media::leave(int object) {
     if (place != inside_.end() && *place == object) inside_.erase(place);
 }
 
-double iorOf(const scene::Material& material, int channel) {
+double iorOf(const scene::Clear& material, int channel) {
     const double ior = double(material.ior);
     if (material.dispersion == 0 || channel == 1) return ior;
     const auto inverseSquare = [](double nanometres) { return 1 / (nanometres * nanometres); };
@@ -237,8 +237,8 @@ Optics::Optics(const scene::Scene& scene, RayScene rays) : scene_(&scene), rays_
         if (isOpaque(i)) continue;
         optical_.push_back(i);
         if (!object(i).material.isRefractive()) continue;
-        disperses_ |= object(i).material.dispersion > 0;
-        const bool one = object(i).material.ior == 1; // whatever its dispersion
+        disperses_ |= object(i).material.clear().dispersion > 0;
+        const bool one = object(i).material.clear().ior == 1; // whatever its dispersion
         hasIndexOfOne_ |= one;
         bendsNothing_ &= one;
     }
@@ -246,18 +246,18 @@ Optics::Optics(const scene::Scene& scene, RayScene rays) : scene_(&scene), rays_
 
 bool Optics::isOpaque(int number) const {
     const scene::Object& known = object(number);
-    return known.isField() || (!known.material.isRefractive() && !known.material.isMirror());
+    return !known.material.isRefractive() && !known.material.isMirror();
 }
 
 double Optics::ior(int medium, int channel) const {
-    return medium == Media::kVacuum ? 1 : iorOf(object(medium).material, channel);
+    return medium == Media::kVacuum ? 1 : iorOf(object(medium).material.clear(), channel);
 }
 
 dvec3 Optics::absorption(int medium) const {
     if (medium == Media::kVacuum) return dvec3(0);
     const scene::Material& material = object(medium).material;
-    if (material.attenuationDistance <= 0) return dvec3(0);
-    return -glm::log(dvec3(material.attenuationColor)) / double(material.attenuationDistance);
+    if (material.isScattering()) return dvec3(material.translucent().absorption);
+    return material.isRefractive() ? dvec3(material.clear().absorption) : dvec3(0);
 }
 
 Media Optics::mediaAt(const dvec3& place, bool meetsHidden) const {

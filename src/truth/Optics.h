@@ -28,8 +28,8 @@ private:
 
 /// The objects of a scene in world space; an object's number is that of its shape.
 ///
-/// Spheres and tori are exact, water is the formula of its sine as it begins and a Basin afterwards, height
-/// fields are exact blocks, all else is triangles. Meshes are morphed, skinned (glTF 2.0, 3.7.3) and waved
+/// Spheres and tori are exact, water is the formula of its sine as it begins and a Basin afterwards, reliefs
+/// are exact blocks, all else is triangles. Meshes are morphed, skinned (glTF 2.0, 3.7.3) and waved
 /// here in double precision, normals by the inverse transpose of each motion's derivative; what a wave bends
 /// are the vertices of scene::meshOf(), flat sides in kWavedCells squares along each edge.
 ///
@@ -79,7 +79,7 @@ private:
 /// as KHR_materials_dispersion has it.
 ///
 /// @param channel  0, 1, 2: red, green, blue
-double iorOf(const scene::Material& material, int channel);
+double iorOf(const scene::Clear& material, int channel);
 
 /// The surface of an object in world space at a time [s]; the object is no height field.
 Shape surfaceOf(const scene::Object& object, double time);

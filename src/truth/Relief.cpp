@@ -108,7 +108,7 @@ double illumination(const Field& field, const SurfacePoint& point, double depth,
 }
 
 double depthInObject(const scene::Object& object) {
-    return double(object.material.depth) / double(object.transform.scale);
+    return double(object.material.relief().depth) / double(object.transform.scale);
 }
 
 namespace {
@@ -117,16 +117,16 @@ class Gathering {
 public:
     Gathering(const Field& field, const scene::Object& object, const SurfacePoint& point,
               const dvec3& eyeDirection, Attenuation attenuation)
-        : field_(field), material_(object.material), point_(point), eyeDirection_(eyeDirection),
+        : field_(field), relief_(object.material.relief()), point_(point), eyeDirection_(eyeDirection),
           reflected_(eyeDirection - 2 * glm::dot(point.normal, eyeDirection) * point.normal),
           depth_(depthInObject(object)), scale_(double(object.transform.scale)), attenuation_(attenuation) {
         const dvec2 place = field.placeOnMap(point.position);
-        diffuse_ = dvec3(material_.diffuse) * sampleMap(material_.diffuseMap.get(), place);
-        specular_ = dvec3(material_.specular) * sampleMap(material_.specularMap.get(), place);
-        base_ = dvec3(material_.base) * sampleMap(material_.baseMap.get(), place);
+        diffuse_ = dvec3(object.material.diffuse) * sampleMap(object.material.diffuseMap.get(), place);
+        specular_ = dvec3(relief_.specular) * sampleMap(object.material.specularMap.get(), place);
+        base_ = dvec3(object.material.base) * sampleMap(object.material.baseMap.get(), place);
     }
 
-    dvec3 unlit() const { return (1 - double(material_.specularity)) * base_; }
+    dvec3 unlit() const { return (1 - double(relief_.specularity)) * base_; }
 
     void add(const LightSource& light) {
         sum_ += arriving(light);
@@ -171,9 +171,9 @@ private:
     glm::dvec4 arriving(const LightSource& light) const {
         const LightPath path = lightPath(point_, depth_, light);
         const double d = illumination(field_, point_, depth_, light, attenuation_);
-        const double f = remap(glm::dot(eyeDirection_, path.direction), material_.scatterFalloff);
-        const double s = remap(glm::dot(reflected_, path.direction), material_.specularFalloff);
-        const double ks = double(material_.specularity), kf = double(material_.forwardScatter);
+        const double f = remap(glm::dot(eyeDirection_, path.direction), relief_.scatterFalloff);
+        const double s = remap(glm::dot(reflected_, path.direction), relief_.specularFalloff);
+        const double ks = double(relief_.specularity), kf = double(relief_.forwardScatter);
         const double distance = scale_ * path.distance;
         const dvec3 color = light.inverseSquare ? light.color / (distance * distance) : light.color;
         return {color * ((1 - ks) * ((1 - kf) + kf * f) * d * diffuse_ + ks * s * specular_),
@@ -181,7 +181,7 @@ private:
     }
 
     const Field& field_;
-    const scene::Material& material_;
+    const scene::Relief& relief_;
     const SurfacePoint& point_;
     dvec3 eyeDirection_, reflected_;
     double depth_, scale_;

@@ -25,13 +25,13 @@ Result<Body> bodyOf(const Optics& optics, int number, double time) {
     std::vector<Shape> shapes = {optics.rays().shape(number)};
     Result<RayScene> alone = RayScene::create(std::move(shapes));
     if (!alone) return alone.error();
-    const auto ior = double(material.surfaceIor());
+    const auto ior = double(material.translucent().surfaceIor());
     Body body{.object = number,
               .alone = std::move(*alone),
               .insides = {},
               .layers = {},
               .surfaceIor = ior,
-              .thickness = double(material.thickness),
+              .thickness = double(material.translucent().thickness),
               .meanTransmittance = meanTransmittance(ior),
               .painted = nullptr};
     if (optics.object(number).painting) {
@@ -41,10 +41,10 @@ Result<Body> bodyOf(const Optics& optics, int number, double time) {
     }
     const dvec3 absorption = optics.absorption(number);
     for (int channel = 0; channel < 3; ++channel)
-        body.insides[std::size_t(channel)] = {double(material.scattering[channel]),
-                                              double(material.anisotropy), absorption[channel],
-                                              double(material.ior)};
-    for (const scene::MediumLayer& layer : material.stackedLayers())
+        body.insides[std::size_t(channel)] = {double(material.translucent().scattering[channel]),
+                                              double(material.translucent().anisotropy), absorption[channel],
+                                              double(material.translucent().ior)};
+    for (const scene::MediumLayer& layer : material.translucent().stackedLayers())
         for (int channel = 0; channel < 3; ++channel)
             body.layers[std::size_t(channel)].push_back(
                 {{double(layer.scattering[channel]), double(layer.anisotropy),
@@ -130,8 +130,8 @@ Pixel Surroundings::ofSurface(const Bodies::Place& place, ivec2 pixel) const {
     if (!light_) return {dvec3(0), dvec3(0), 1};
     const double matt = 1 - place.body->paintAt(place.hit.position).translucency;
     const scene::Material& material = bodies_->optics().object(place.body->object).material;
-    const Facets facets(normalTowards(place.hit, place.viewer), place.viewer, double(material.roughness),
-                        place.body->surfaceIor);
+    const Facets facets(normalTowards(place.hit, place.viewer), place.viewer,
+                        double(material.translucent().roughness), place.body->surfaceIor);
     const auto index = std::uint64_t(pixel.y) * std::uint64_t(size_.x) + std::uint64_t(pixel.x);
     Estimate estimate;
     for (int i = 0; i < (light_->isSampled() ? samples_ : 1); ++i) {

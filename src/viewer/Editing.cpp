@@ -28,6 +28,12 @@ bool isClouded(const scene::Scene& scene, std::string_view path) {
     });
 }
 
+bool kindsDiffer(const std::vector<scene::Material>& a, const std::vector<scene::Material>& b) {
+    return !std::equal(a.begin(), a.end(), b.begin(), [](const scene::Material& x, const scene::Material& y) {
+        return x.kind.index() == y.kind.index();
+    });
+}
+
 } // namespace
 
 void Viewer::State::changed() {
@@ -92,7 +98,7 @@ void Viewer::State::bind() {
 void Viewer::State::offerChoices(Control& control) const {
     if (control.bound.data == &scene->view.show) control.choices = viewsOf(mode.mode, scene->view.show);
     const std::string chosen = getText(*control.bound.param, control.bound.data);
-    if (control.bound.isComputed() && !control.choices.empty() && chosen != control.choices.front())
+    if (control.bound.isDerived() && !control.choices.empty() && chosen != control.choices.front())
         control.choices.erase(control.choices.begin()); // own
 }
 
@@ -142,8 +148,11 @@ Status Viewer::State::change(const std::string& path, const std::string& value, 
         setMaterials(held);
         return set;
     }
-    bool any = false;
-    for (std::size_t i = 0; i < controls.size(); ++i) {
+    const bool converted = kindsDiffer(held, materials());
+    if (converted) history.record(step, {"materials", "", "", Conversion{held, materials()}});
+    bool any = converted;
+    // What another kind had is gone, and with it what the controls point to.
+    for (std::size_t i = 0; i < controls.size() && !converted; ++i) {
         if (controls[i].bound.isComputed() || textOf(controls[i]) == before[i]) continue;
         history.record(step, {controls[i].bound.path, before[i], textOf(controls[i])});
         any = true;
@@ -223,7 +232,9 @@ void Viewer::State::assign(const void* member, float value) { assign(member, vec
 void Viewer::State::apply(const std::vector<Change>& changes, bool back) {
     for (const Change& one : changes) {
         const std::string& value = back ? one.before : one.after;
-        if (!one.path.starts_with(kStrokesOn))
+        if (one.conversion)
+            setMaterials(back ? one.conversion->before : one.conversion->after);
+        else if (!one.path.starts_with(kStrokesOn))
             (void)scene::setParam(*scene, one.path, value);
         else
             for (scene::Object& object : scene->objects)

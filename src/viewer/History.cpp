@@ -18,9 +18,10 @@ void History::record(std::uint64_t gesture, Change change) {
     std::vector<Change>& changes = steps_.back().changes;
     const auto same = std::find_if(changes.begin(), changes.end(),
                                    [&](const Change& old) { return old.path == change.path; });
-    if (same != changes.end())
+    if (same != changes.end()) {
         same->after = std::move(change.after);
-    else
+        if (same->conversion) same->conversion->after = std::move(change.conversion->after);
+    } else
         changes.push_back(std::move(change));
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 /// What was changed, so that it can be taken back.
 
+#include "scene/Scene.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,9 +10,15 @@
 
 namespace lucent::viewer {
 
+/// What an object's kind of material takes with it: all materials before and after.
+struct Conversion {
+    std::vector<scene::Material> before, after;
+};
+
 /// One parameter's value before and after.
 struct Change {
     std::string path, before, after;
+    std::optional<Conversion> conversion = {}; ///< then in place of the values
 };
 
 /// Undo and redo. Changes of one gesture (a drag, a burst of typing) are one step; the oldest steps are

@@ -135,7 +135,7 @@ scene::Stroke everywhere(const scene::Brush& brush) {
 scene::Stroke opaqueStart() { return everywhere({.map = scene::PaintMap::Translucency, .value = vec3(0)}); }
 
 bool isPaintable(const scene::Object& object) {
-    return object.material.isScattering() && !object.isField() &&
+    return object.material.isScattering() && !std::holds_alternative<scene::HeightField>(object.shape) &&
            !std::holds_alternative<scene::Water>(object.shape);
 }
 

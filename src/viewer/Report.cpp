@@ -73,7 +73,7 @@ std::string changesJson(std::span<const Control> controls, const void* leftOut) 
     json.beginObject();
     for (const Control& control : controls) {
         const std::string now = getText(*control.bound.param, control.bound.data);
-        if (control.bound.isComputed() || control.bound.data == leftOut) continue;
+        if (control.bound.isDerived() || control.bound.data == leftOut) continue;
         if (now != control.loaded) json.key(control.bound.path).value(now);
     }
     json.end();

@@ -35,8 +35,7 @@ Bounds waterBounds(const scene::Water& water) {
 }
 
 Bounds localBounds(const scene::Object& object) {
-    if (const auto* field = std::get_if<scene::HeightField>(&object.shape))
-        return fieldBounds(*field, object.kept);
+    if (object.isField()) return fieldBounds(object.field(), object.kept);
     if (const auto* water = std::get_if<scene::Water>(&object.shape)) return waterBounds(*water);
     const std::shared_ptr<const scene::Mesh> mesh = meshOf(object);
     Bounds bounds = object.kept.of<Bounds>(mesh, [&] { return meshBounds(*mesh); });

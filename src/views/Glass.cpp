@@ -5,10 +5,11 @@
 namespace lucent::views {
 
 GlassBlock glassBlock(const scene::Material& material) {
-    return {vec4(iorsOf(material), material.fresnel), vec4(material.absorption(), material.transmission)};
+    const scene::Clear& clear = material.clear();
+    return {vec4(iorsOf(clear), clear.fresnel), vec4(clear.absorption, clear.transmission)};
 }
 
-vec3 iorsOf(const scene::Material& material) {
+vec3 iorsOf(const scene::Clear& material) {
     const auto inverseSquare = [](float micrometres) { return 1 / (micrometres * micrometres); };
     const float c = inverseSquare(0.6563f), d = inverseSquare(0.5876f), f = inverseSquare(0.4861f);
     const float b = (material.ior - 1) * material.dispersion / 20 / (f - c);
@@ -16,8 +17,9 @@ vec3 iorsOf(const scene::Material& material) {
 }
 
 bool disperses(const std::vector<PosedMesh>& glass) {
-    return std::any_of(glass.begin(), glass.end(),
-                       [](const PosedMesh& mesh) { return mesh.drawn.object->material.dispersion > 0; });
+    return std::any_of(glass.begin(), glass.end(), [](const PosedMesh& mesh) {
+        return mesh.drawn.object->material.clear().dispersion > 0;
+    });
 }
 
 } // namespace lucent::views

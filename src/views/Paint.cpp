@@ -9,9 +9,7 @@ namespace lucent::views {
 
 using graph::Format;
 
-bool isPainted(const scene::Object& object) {
-    return object.painting && !object.isField() && object.material.isScattering();
-}
+bool isPainted(const scene::Object& object) { return object.painting && object.material.isScattering(); }
 
 PaintMap::PaintMap(gl::Device& device, const Image& map)
     : texture_(device, {.size = map.size(), .format = Format::RGBA32F}, "views.paint"), least_(map.pixels[3]),

@@ -54,7 +54,7 @@ Outlook outlookFrom(const scene::Scene& scene, int object) {
     return {.name = one.name,
             .place = boundsOf(one).center(),
             .object = one.material.isMirror() ? object : -1,
-            .reflectance = one.material.reflectance,
+            .reflectance = one.material.isMirror() ? one.material.mirror().reflectance : vec3(0),
             .hidden = {object}};
 }
 

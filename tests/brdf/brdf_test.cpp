@@ -157,7 +157,7 @@ TEST_F(Brdf, ASlabShutsTheSkyOut) {
 TEST_F(Brdf, AMirrorShowsTheSurroundingInTheMirroredDirection) {
     scene::Scene scene;
     scene.objects = {matt(scene::Plane{{4, 4}})};
-    scene.objects[0].material.reflectance = {1, 0.5f, 0.25f};
+    scene.objects[0].material.kind = scene::Mirror{{1, 0.5f, 0.25f}};
     scene.objects[0].material.base = vec3(9); // of no meaning for mirrors
     scene.camera = {.type = scene::Camera::Type::Perspective, .eye = {0.3f, 2, 1}, .fov = 30};
     scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
@@ -176,7 +176,8 @@ TEST_F(Brdf, AMirrorShowsTheSurroundingInTheMirroredDirection) {
             // Half floats: 1e-3 of 2; the map's pixels are 0.006 wide, whose chord is 5e-6 off.
             for (int channel = 0; channel < 3; ++channel)
                 EXPECT_NEAR(image.at(x, y)[channel],
-                            (1 + onMap[channel]) * scene.objects[0].material.reflectance[channel], 2e-3);
+                            (1 + onMap[channel]) * scene.objects[0].material.mirror().reflectance[channel],
+                            2e-3);
         }
     EXPECT_EQ(shade(scene, size).at(3, 3)[1], -1); // no matt surface that receives anything
 }
@@ -227,10 +228,10 @@ TEST(Need, NamesTheFirstObjectThatIsSeenAndNeitherClearNorAField) {
     scene::Scene scene;
     EXPECT_FALSE(brdf::Brdf::need(scene));
     scene.objects = {matt(scene::Sphere{}), matt(scene::Sphere{})};
-    scene.objects[0].material.transmission = 1;
+    scene.objects[0].material.kind = scene::Clear{};
     scene.objects[1].name = "ball";
     EXPECT_EQ(brdf::Brdf::need(scene), "object \"ball\" is an opaque surface");
-    scene.objects[1].material.reflectance = vec3(1);
+    scene.objects[1].material.kind = scene::Mirror{};
     EXPECT_EQ(brdf::Brdf::need(scene), "object \"ball\" is a mirror");
     scene.objects[1].visible = false;
     EXPECT_FALSE(brdf::Brdf::need(scene));

@@ -163,7 +163,7 @@ TEST_F(Brdf, HiddenAndClearObjectsCastShadows) {
     scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
     scene.objects[1].visible = false;
     EXPECT_EQ(atMiddle(scene), 0);
-    scene.objects[1].material.transmission = 1;
+    scene.objects[1].material.kind = scene::Clear{};
     EXPECT_EQ(atMiddle(scene), 0);
     scene.objects.pop_back();
     EXPECT_NEAR(atMiddle(scene), 1, 1e-6);

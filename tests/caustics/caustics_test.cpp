@@ -355,7 +355,7 @@ TEST_F(Caustics, ManyWavelengthsMakeASpectrumBetweenThoseOfThreeChannels) {
     // A prism throws light aside, blue the farthest.
     scene::Scene scene = floorUnder(glass(scene::Cylinder{0.5f, 1}, 1.6f, {0, 1.5f, 0}), 4);
     scene.objects[1].transform.rotate = {90, 0, 0};
-    scene.objects[1].material.dispersion = 5;
+    scene.objects[1].material.clear().dispersion = 5;
     const Shown three = show(scene, {64, 64}, {.grid = 64});
     const Shown many = show(scene, {64, 64}, {.grid = 64, .wavelengths = 12});
     EXPECT_NEAR(total(many.energy.met) / total(three.energy.met), 1, 1e-4); // what floats round

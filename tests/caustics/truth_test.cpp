@@ -43,11 +43,24 @@ TEST_F(Caustics, EveryKindOfLampAgreesWithTruth) {
     }
 }
 
+TEST_F(Caustics, AReliefOfGlassThrowsTheCausticsOfItsHeights) {
+    scene::Object relief = test::glassRelief(64, 1.5f, [](double x, double y) {
+        return 0.01 + 4e-4 * (std::cos(110 * x) + std::cos(90 * y + 40 * x)); // waves of 6 cm
+    });
+    relief.transform.translate = {0, 0.15f, 0};
+    const scene::Scene scene = floorUnder(std::move(relief), 0.18f);
+    const Image truth = truthOf(scene, {50, 50}, 400000);
+    const Shown shown = show(scene, {50, 50});
+    std::printf("relief of glass: misplaced %.4f\n", misplaced(shown.light, truth));
+    EXPECT_LT(misplaced(shown.light, truth), 0.02);
+    expectClosed(shown.energy);
+}
+
 TEST_F(Caustics, AbsorptionDispersionAndTotalReflectionAgreeWithTruth) {
     scene::Scene scene = floorUnder(glass(scene::Torus{0.6f, 0.25f}, 1.5f, {0, 0.8f, 0}), 3);
     scene.objects[1].transform.rotate = {50, 0, 20};
-    scene.objects[1].material.setAbsorption(vec3(0.5f, 2, 4));
-    scene.objects[1].material.dispersion = 2;
+    scene.objects[1].material.clear().absorption = vec3(0.5f, 2, 4);
+    scene.objects[1].material.clear().dispersion = 2;
     const Shown shown = show(scene, {60, 60});
     const Image truth = truthOf(scene, {60, 60}, 400000);
     EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.01);
@@ -146,7 +159,7 @@ TEST_F(Caustics, WaterThatMovesBetweenWallsAndUnderDropsAgreesWithTruth) {
 TEST_F(Caustics, FlatWaterLightsTheFloorEvenlyUpToTheEdgeOfThePicture) {
     // Of what enters, e^(-absorption * depth) is left.
     scene::Scene scene = floorUnder(glass(scene::Water{.size = {3, 3}}, 1.33f, {0, 0.5f, 0}), 1);
-    scene.objects[1].material.setAbsorption(vec3(0.5f));
+    scene.objects[1].material.clear().absorption = vec3(0.5f);
     const Shown shown = show(scene, {64, 64});
     expectClosed(shown.energy);
     const double wanted = (1 - std::pow(0.33 / 2.33, 2)) * std::exp(-0.5 * 0.5);

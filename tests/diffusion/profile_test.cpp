@@ -139,11 +139,10 @@ TEST(Profile, FewPolesStandForAllOfThem) {
 
 TEST(Profile, AnisotropyCountsOnlyInTheReducedCoefficient) {
     scene::Material plain, forward;
-    plain.scattering = vec3(1000, 2000, 3000);
-    plain.setAbsorption(vec3(1, 2, 3));
+    plain.kind = scene::Translucent{.scattering = {1000, 2000, 3000}, .absorption = {1, 2, 3}};
     forward = plain;
-    forward.anisotropy = 0.99f;
-    forward.scattering = vec3(1000, 2000, 3000) / (1 - forward.anisotropy);
+    forward.translucent().anisotropy = 0.99f;
+    forward.translucent().scattering /= 1 - forward.translucent().anisotropy;
     for (std::size_t i = 0; i < 3; ++i)
         for (const double r : {0.0, 1e-3})
             // The factor 1 / (1 - 0.99) is stored in floats: relative 6e-8 a hundred times over.

@@ -30,7 +30,7 @@ struct Composed : support::GlTest {
         scene::Object ball;
         ball.name = "ball";
         ball.shape = scene::Sphere{};
-        ball.material.transmission = 1;
+        ball.material.kind = scene::Clear{};
         scene.objects.push_back(ball);
     }
     void addFloor() {
@@ -74,7 +74,7 @@ TEST_F(Composed, AnIndexOfOneIsThePictureWithoutTheObject) {
     scene.lights.push_back(scene::PointLight{.position = {0.4f, 1.8f, 0.3f}});
     const Image without = picture();
     addBall();
-    scene.objects.back().material.ior = 1;
+    scene.objects.back().material.clear().ior = 1;
     const Image within = picture();
     for (std::size_t i = 0; i < without.pixels.size(); ++i)
         if (i % 4 != 3 && without.pixels[i - i % 4 + 3] > 0) {
@@ -82,6 +82,54 @@ TEST_F(Composed, AnIndexOfOneIsThePictureWithoutTheObject) {
         }
     for (const char* pass : {"caustics.photon", "caustics.lookup"})
         EXPECT_EQ(runs(pass), 0) << pass;
+}
+
+// Heights of any material but relief are drawn as their body.
+TEST_F(Composed, AReliefOfNoDepthIsTheMattBodyOfItsHeights) {
+    scene = support::sceneOf(support::waves({64, 48}), 0.05f, 1e-6f);
+    scene.lights.push_back(scene::DistantLight{.direction = {-0.3f, 0.2f, -1}});
+    const Image relief = picture();
+    scene.objects[0].material.kind = scene::Matt{};
+    EXPECT_EQ(runs("relief.light"), 0);
+    EXPECT_EQ(runs("brdf.light"), 1);
+    const Image body = picture();
+    for (int y = 2; y < 46; ++y)
+        for (int x = 2; x < 62; ++x)
+            ASSERT_NEAR(body.at(x, y)[1], relief.at(x, y)[1], 1e-3) << x << " " << y;
+}
+
+TEST_F(Composed, AFlatFieldIsABoxOfWhateverItIsMadeOf) {
+    addFloor();
+    scene.lights.push_back(scene::PointLight{.position = {0.4f, 1.8f, 0.3f}});
+    scene::Object thing;
+    thing.name = "thing";
+    thing.transform.translate = {0, 0.2f, 0};
+    for (const scene::MaterialKinds& kind :
+         {scene::MaterialKinds(scene::Matt{}), scene::MaterialKinds(scene::Mirror{vec3(0.5f)}),
+          scene::MaterialKinds(scene::Clear{.absorption = {1, 0.2f, 0}}),
+          scene::MaterialKinds(scene::Translucent{.scattering = vec3(30), .absorption = vec3(1)})}) {
+        thing.material.kind = kind;
+        thing.shape = scene::Box{{1, 0.3f, 0.5f}};
+        scene.objects.push_back(thing);
+        const Image box = picture();
+        scene::Object& field = scene.objects.back();
+        scene::HeightField flat;
+        flat.heights = support::heights({8, 4}, [](int, int) { return 0.3f; });
+        flat.heightScale = 1;
+        field.shape = flat;
+        field.transform.rotate = {-90, 0, 0};
+        field.transform.translate = {0, 0.05f, 0};
+        const Image body = picture();
+        scene.objects.pop_back();
+        double apart = 0, sum = 0;
+        for (std::size_t i = 1; i < box.pixels.size(); i += 4) {
+            apart += std::abs(double(box.pixels[i] - body.pixels[i]));
+            sum += double(box.pixels[i]);
+        }
+        EXPECT_GT(sum, 0);
+        // Edges fall on other sides of pixels' middles, and splats and rays of light on other triangles.
+        EXPECT_LT(apart / sum, 0.01) << kind.index();
+    }
 }
 
 TEST_F(Composed, ABallOfGlassRunsItsTwoLayersAndTheTraceOnly) {
@@ -164,7 +212,7 @@ TEST_F(Composed, TrianglesAreMadeAnewOnlyWhereSomethingMoved) {
     EXPECT_EQ(passes(), first - 1);
     scene.objects[0].transform.translate.x = 0.1f;
     EXPECT_EQ(passes(), first);
-    scene.objects[0].material.ior = 1.2f;
+    scene.objects[0].material.clear().ior = 1.2f;
     EXPECT_EQ(passes(), 2); // what is behind, and the rays
     // What moves by itself is where a fresh renderer shows it.
     scene.objects[0].wave.amplitude = {0, 0.05f, 0};
@@ -201,7 +249,7 @@ TEST_F(Composed, LayersAreDrawnAnewOnlyWhereTheEyeOrASurfaceMoved) {
     };
     scene.environment->rotation.y = 180;
     expectSameAsAnew(still, "a turned map");
-    scene.objects[0].material.ior = 1.3f;
+    scene.objects[0].material.clear().ior = 1.3f;
     expectSameAsAnew(still, "other glass");
     scene.camera.eye.y += 0.1f;
     expectSameAsAnew(still + kLayerPasses + 1, "another eye"); // and the surfaces that it sees
@@ -285,7 +333,7 @@ TEST_F(Composed, RaysOutOfGlassMeetTheTableRightBelowIt) {
     for (std::size_t i = 2; i < sky->pixels.size(); i += 3)
         sky->pixels[i] = 1;
     scene.environment->map = sky;
-    scene.objects[0].material.fresnel = false;
+    scene.objects[0].material.clear().fresnel = false;
     const Image color = picture(), direction = picture(scene::Aov::Direction);
     int steep = 0, missed = 0;
     for (int y = 0; y < 360; ++y)
@@ -344,8 +392,8 @@ TEST_F(Composed, ALayerIsShownByItsDepthItsNormalAndAColourForItsObject) {
 TEST_F(Composed, ACausticMapOfAnIndexNearOneIsAsBrightAsTheUndisturbedLight) {
     addFloor();
     addBall();
-    scene.objects.back().material.ior = 1.0001f; // at 1 no caustic is made
-    scene.objects.back().material.fresnel = false;
+    scene.objects.back().material.clear().ior = 1.0001f; // at 1 no caustic is made
+    scene.objects.back().material.clear().fresnel = false;
     scene.size = {48, 48};
     scene.camera.eye = {0, 3, 7}; // all of the floor that the light reaches by way of the ball
     Renderer renderer(*context);

@@ -163,9 +163,7 @@ TEST_F(Pixels, GlassIsTheMeanOfWhatItsShiftedViewsShow) {
     ball.name = "ball";
     ball.shape = scene::Sphere{};
     ball.transform.translate = {0, 0, 1.7f};
-    ball.material.transmission = 1;
-    ball.material.ior = 1.0001f; // next to nothing is bent
-    ball.material.fresnel = false;
+    ball.material.kind = scene::Clear{.ior = 1.0001f, .fresnel = false}; // next to nothing is bent
     scene.objects.push_back(ball);
     scene.objects[0].transform.translate = {-4, 0, -1}; // half of what is behind
     scene.objects[0].material.base = vec3(1);

@@ -42,7 +42,7 @@ struct Surroundings : support::GlTest {
         material.diffuse = vec3(0);
     }
     void addMirror(scene::Shape shape, vec3 place, vec3 rotate = vec3(0), vec3 reflectance = vec3(0.9f)) {
-        add(std::move(shape), place, rotate).material.reflectance = reflectance;
+        add(std::move(shape), place, rotate).material.kind = scene::Mirror{reflectance};
     }
     void addSky(vec3 radiance) {
         auto map = std::make_shared<Image>(8, 4, 3);
@@ -190,7 +190,7 @@ TEST_F(Surroundings, RaysThatLeaveGlassForWhatTheCameraDoesNotSeeMeetIt) {
     // A ball fills the picture; the floor below and the wall behind the eye are beside it.
     scene.camera = {.type = scene::Camera::Type::Perspective, .eye = {0, 0, 3}, .fov = 36};
     addSky({0.1f, 0.1f, 0.2f});
-    add(scene::Sphere{1}, {0, 0, 0}).material.transmission = 1;
+    add(scene::Sphere{1}, {0, 0, 0}).material.kind = scene::Clear{};
     addGlowing(scene::Plane{{8, 8}}, {0, -1.3f, 0}, {0.9f, 0.5f, 0.2f});
     addGlowing(scene::Box{{8, 8, 0.1f}}, {0, 0, 5}, {0.1f, 0.6f, 0.1f});
     const Image exact = truth(), image = picture();
@@ -246,8 +246,7 @@ TEST_F(Surroundings, AreNotDrawnWhereNoRayLooksForThem) {
     EXPECT_NE(explained().find("from \"object 2\": "), std::string::npos);
     scene.objects[0].visible = scene.objects[1].visible = false; // there is only the mirror to be seen
     EXPECT_NE(explained().find(none), std::string::npos);
-    scene.objects[2].material.reflectance = vec3(0);
-    scene.objects[2].material.transmission = 1;
+    scene.objects[2].material.kind = scene::Clear{};
     EXPECT_NE(explained().find(none), std::string::npos);
     scene.objects[1].visible = true;
     EXPECT_NE(explained().find("from \"object 2\": "), std::string::npos);

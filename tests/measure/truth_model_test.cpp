@@ -36,7 +36,7 @@ TEST(UsualTruth, OfGlassBesideMattThingsIsGlassUntilALampShinesThroughIt) {
 
 TEST(UsualTruth, OfLightInsideIsTheDipole) {
     scene::Scene scene = sceneOf({matt(scene::Sphere{})});
-    scene.objects[0].material.scattering = vec3(1000);
+    scene.objects[0].material.kind = scene::Translucent{};
     EXPECT_EQ(usualTruth(scene), TruthModel::Dipole);
     scene.view.show = scene::Aov::Depth;
     EXPECT_EQ(usualTruth(scene), TruthModel::Glass);

@@ -179,8 +179,8 @@ TEST_F(Methods, LostRaysAreThoseWithoutADirection) {
 TEST_F(Methods, TheOpticalLengthAbsorbsByTheIndexOfRefraction) {
     // Straight through 0.3 m of n = 1.5: exp(-sigma 0.3) by the way, exp(-sigma 0.45) by the thesis's length.
     scene::Scene scene = seenStraight(0.5f, {glass(scene::Box{{1, 1, 0.3f}}, 1.5f)});
-    scene.objects[0].material.fresnel = false;
-    scene.objects[0].material.setAbsorption({0.5f, 2, 0});
+    scene.objects[0].material.clear().fresnel = false;
+    scene.objects[0].material.clear().absorption = {0.5f, 2, 0};
     test::addSky(scene, vec3(1));
     for (Settings settings : {Settings{}, kStored, kVoxels})
         for (const PathLength length : {PathLength::Geometric, PathLength::Optical}) {

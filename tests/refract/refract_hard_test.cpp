@@ -138,7 +138,7 @@ TEST_F(HardRefraction, LightThatCannotLeaveIsMarked) {
     scene.camera.target = {1, 1, 1};
     EXPECT_GE(lostOf(trace(scene, kSize)), 0.996 * kSize.x * kSize.y);
     // With 1.2 the critical angle is 56.4, and the middle of the picture looks out.
-    scene.objects[0].material.ior = 1.2f;
+    scene.objects[0].material.clear().ior = 1.2f;
     EXPECT_EQ(trace(scene, kSize).at(70, 60)[3], 1);
 }
 

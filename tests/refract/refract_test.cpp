@@ -54,7 +54,7 @@ TEST_F(Refraction, ASlabShiftsWhatLiesBehindIt) {
         1.5f, {glass(scene::Box{{1, 1, 0.3f}}, 1.5f, {2, 2, 3}), matt(scene::Plane{{3, 3}}, {2, 2, 2})});
     scene.camera.eye = {2, 2, 5};
     scene.camera.target = {2, 2, 0};
-    scene.objects[0].material.fresnel = false;
+    scene.objects[0].material.clear().fresnel = false;
     scene.objects[0].transform.rotate = {0, 40, 0};
     scene.objects[1].transform.rotate = {90, 0, 0};
     const Image found = trace(scene, kSize, scene::Aov::Color);
@@ -76,9 +76,9 @@ TEST_F(Refraction, ASlabShiftsWhatLiesBehindIt) {
 TEST_F(Refraction, ASlabAbsorbsByTheWayThroughIt) {
     scene::Scene scene = seenStraight(1.5f, {glass(scene::Box{{1, 1, 0.3f}}, 1.5f)});
     scene.objects[0].transform.rotate = {0, 40, 0};
-    scene.objects[0].material.fresnel = false;
-    scene.objects[0].material.transmission = 0.8f;
-    scene.objects[0].material.setAbsorption({0.5f, 2, 0});
+    scene.objects[0].material.clear().fresnel = false;
+    scene.objects[0].material.clear().transmission = 0.8f;
+    scene.objects[0].material.clear().absorption = {0.5f, 2, 0};
     test::addSky(scene, vec3(1));
     // 0.3 / cos b metres of glass, and its own transmission once.
     const double way = 0.3 / std::cos(std::asin(std::sin(glm::radians(40.0)) / 1.5));
@@ -166,8 +166,8 @@ TEST_F(Refraction, ColoursPartByTheirOwnIndices) {
     // Each channel leaves the slanting side of a 30 degree wedge under asin(n sin 30) - 30 degrees. The sky's
     // radiance grows with the azimuth, a number for each channel that says where it looked.
     scene::Scene scene = seenStraight(0.2f, {wedge(30, 1.5f)});
-    scene.objects[0].material.dispersion = 2; // an Abbe number of 10
-    scene.objects[0].material.fresnel = false;
+    scene.objects[0].material.clear().dispersion = 2; // an Abbe number of 10
+    scene.objects[0].material.clear().fresnel = false;
     scene.objects[0].transform.rotate = {0, 15, 0};
     scene.objects[0].transform.translate = {-0.5f, 0, 0};
     Image map(720, 360, 3);
@@ -179,7 +179,7 @@ TEST_F(Refraction, ColoursPartByTheirOwnIndices) {
     scene.environment->map = std::make_shared<Image>(map);
     const vec3 seen = rgb(trace(scene, {32, 32}, scene::Aov::Color), {16, 16});
     for (int channel = 0; channel < 3; ++channel) {
-        const double ior = truth::iorOf(scene.objects[0].material, channel);
+        const double ior = truth::iorOf(scene.objects[0].material.clear(), channel);
         const double expected = degrees(std::asin(ior * std::sin(glm::radians(30.0)))) - 30;
         EXPECT_NEAR(std::abs(double(seen[channel])), expected, 0.02)
             << channel; // the map is half floats: 11 bits

@@ -122,8 +122,8 @@ TEST_F(Hard, TerracesOfEightBitsAreReportedAgainstTheOriginal) {
 
 TEST_F(Hard, EqualFalloffBoundsAreAStep) {
     auto scene = sceneOf(support::waves({16, 16}), 0.2f, 0.05f);
-    scene.objects[0].material.specularity = 1;
-    scene.objects[0].material.specularFalloff = {0.8f, 0.8f};
+    scene.objects[0].material.relief().specularity = 1;
+    scene.objects[0].material.relief().specularFalloff = {0.8f, 0.8f};
     scene.lights.push_back(distantLight(60, 0));
     const Image color = render(scene, scene::Aov::Color);
     for (std::size_t i = 0; i < color.pixels.size(); i += 4)

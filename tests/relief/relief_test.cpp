@@ -20,8 +20,8 @@ TEST_F(Relief, LampsWithASizeAgreeWithTheTruth) {
     scene::PointLight bulb;
     bulb.radius = 0.25f;
     bulb.falloff = scene::LightFalloff::InverseSquare;
-    scene.objects[0].material.specularity = 0.3f;
-    scene.objects[0].material.forwardScatter = 0.5f;
+    scene.objects[0].material.relief().specularity = 0.3f;
+    scene.objects[0].material.relief().forwardScatter = 0.5f;
     scene.lights = {sun, bulb};
     views::samplingOf(scene).lamp = 1024;
     // 256 points of the truth and 1024 of ours err by about 1e-3 of a light together; hard edges would miss
@@ -85,10 +85,10 @@ struct Scenes : Relief, testing::WithParamInterface<int> {
         const auto map = GetParam() % 2 ? support::waves({96, 64}) : support::noise({64, 96});
         auto scene = sceneOf(map, GetParam() % 3 ? 0.15f : 0.6f, GetParam() % 5 < 2 ? 0.05f : 0.3f);
         auto& material = scene.objects[0].material;
-        material.specularity = 0.4f;
-        material.forwardScatter = 0.5f;
-        material.specularFalloff = {0.2f, 0.9f};
-        material.scatterFalloff = {-1, 0.5f};
+        material.relief().specularity = 0.4f;
+        material.relief().forwardScatter = 0.5f;
+        material.relief().specularFalloff = {0.2f, 0.9f};
+        material.relief().scatterFalloff = {-1, 0.5f};
         switch (GetParam() % 4) {
         case 0:
             scene.lights.push_back(distantLight(15, 70));

@@ -81,9 +81,9 @@ TEST_F(Transfer, ScattersForwardAndShinesLikeTheSum) {
         setEnvironment(scene, named("rainbow"));
         scene.camera.type = type;
         scene.camera.eye = {0.3f, -0.8f, 1.2f}; // walls are seen
-        scene.objects[0].material.forwardScatter = 0.7f;
-        scene.objects[0].material.specularity = 0.3f;
-        scene.objects[0].material.specularFalloff = {0.2f, 1};
+        scene.objects[0].material.relief().forwardScatter = 0.7f;
+        scene.objects[0].material.relief().specularity = 0.3f;
+        scene.objects[0].material.relief().specularFalloff = {0.2f, 1};
         scene.objects[0].transform.rotate = {20, -30, 10};
         // From an oblique eye a pixel lies between texels, where light is interpolated; the facets of the
         // bilinear surface, which are steeper or flatter than its texels' normals, then cost about a percent.

@@ -14,8 +14,7 @@ namespace {
 Mesh twoParts() {
     Mesh mesh{.positions = {{1, 2, 3}, {3, 2, 3}, {1, 6, 7}, {3, 6, 7}}, .indices = {0, 1, 2, 1, 3, 2}};
     Material glass;
-    glass.transmission = 1;
-    glass.ior = 1.7f;
+    glass.kind = Clear{.ior = 1.7f};
     mesh.parts = {{"paper", 0, 3, {}}, {"window.pane", 3, 3, glass}};
     return mesh;
 }
@@ -28,7 +27,7 @@ TEST(SceneFromMesh, KeepsTheMaterialsOfItsFile) {
     ASSERT_EQ(scene->objects.size(), 2u);
     EXPECT_EQ(scene->objects[0].name, "mesh/paper");
     EXPECT_FALSE(scene->objects[0].material.isRefractive());
-    EXPECT_EQ(scene->objects[1].material.ior, 1.7f);
+    EXPECT_EQ(scene->objects[1].material.clear().ior, 1.7f);
     EXPECT_TRUE(scene->objects[1].material.isRefractive());
     EXPECT_EQ(scene->title, "model.glb");
     EXPECT_EQ(scene->environment->source, "sky");
@@ -59,7 +58,7 @@ TEST(SceneFromMesh, WhatIsNoMeshOrHasNoExtentIsRefused) {
     const Result<Scene> none = sceneFromMesh("model.glb", Bytes(9), {});
     ASSERT_FALSE(none.ok());
     EXPECT_EQ(none.error().message,
-              "model.glb: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM2");
+              "model.glb: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM4");
     const Result<Scene> point = opened(Mesh{.positions = {vec3(1)}, .indices = {0, 0, 0}});
     ASSERT_FALSE(point.ok());
     EXPECT_EQ(point.error().message, "model.glb: is a single point; must have some extent");

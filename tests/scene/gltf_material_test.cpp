@@ -1,3 +1,4 @@
+#include "scene/Keys.h"
 #include "tests/scene/Gltf.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +53,7 @@ TEST(GltfMaterial, DefaultsAreThoseOfTheFormat) {
     const Material m = materialOf("", &said);
     EXPECT_EQ(m.diffuse, vec3(1));
     EXPECT_EQ(m.base, vec3(0));
-    EXPECT_EQ(m.ior, 1.5f);
+    EXPECT_TRUE(std::holds_alternative<Matt>(m.kind));
     EXPECT_EQ(said, "");
 }
 
@@ -63,13 +64,13 @@ TEST(GltfMaterial, GlassHasItsVolume) {
                                         R"(, "KHR_materials_ior": { "ior": 1.33 },
                                            "KHR_materials_dispersion": { "dispersion": 0.36 })"),
                                   &said);
-    EXPECT_EQ(m.transmission, 0.75f);
-    EXPECT_EQ(m.ior, 1.33f);
-    EXPECT_EQ(m.dispersion, 0.36f);
-    EXPECT_EQ(m.attenuationColor, vec3(0.5f, 0.25f, 1));
-    EXPECT_EQ(m.attenuationDistance, 2);
+    EXPECT_EQ(m.clear().transmission, 0.75f);
+    EXPECT_EQ(m.clear().ior, 1.33f);
+    EXPECT_EQ(m.clear().dispersion, 0.36f);
+    EXPECT_EQ(m.clear().absorption, absorptionOf({2, {0.5f, 0.25f, 1}}));
+    EXPECT_EQ(m.clear().attenuationDistance, 2);
     EXPECT_EQ(said, "");
-    EXPECT_EQ(materialOf(glass(kVolume)).attenuationDistance, 0); // glTF's infinity: nothing is absorbed
+    EXPECT_EQ(materialOf(glass(kVolume)).clear().absorption, vec3(0)); // glTF's infinity: nothing is absorbed
 }
 
 TEST(GltfMaterial, ThinWallsBendNothingAndSayWhatIsMissing) {
@@ -77,10 +78,10 @@ TEST(GltfMaterial, ThinWallsBendNothingAndSayWhatIsMissing) {
         std::string said;
         const Material m =
             materialOf(glass(volume, R"(, "KHR_materials_dispersion": { "dispersion": 1 })"), &said);
-        EXPECT_EQ(m.transmission, 0.75f);
-        EXPECT_EQ(m.ior, 1);
-        EXPECT_EQ(m.dispersion, 0);
-        EXPECT_EQ(m.attenuationDistance, 0);
+        EXPECT_EQ(m.clear().transmission, 0.75f);
+        EXPECT_EQ(m.clear().ior, 1);
+        EXPECT_EQ(m.clear().dispersion, 0);
+        EXPECT_EQ(m.clear().absorption, vec3(0));
         EXPECT_EQ(said, "not read: the reflection of thin walls (KHR_materials_volume.thicknessFactor 0)\n");
     }
 }
@@ -98,21 +99,21 @@ TEST(GltfMaterial, ScatteringVolumesAreReadInPhysicalTerms) {
         R"("thicknessFactor": 1, "attenuationColor": [0.5, 0.25, 0.5], "attenuationDistance": 0.01)";
     const Material m = scattering(R"("multiscatterColor": [0, 0.5, 1])", volume);
     EXPECT_EQ(said, "");
-    EXPECT_EQ(m.roughness, 0.25f);
+    EXPECT_EQ(m.translucent().roughness, 0.25f);
     EXPECT_FALSE(m.isRefractive());
     // The fit at a half space's albedo of 0, 1/2 and 1: s = 1, sqrt(0.1598), 0.
     const double extinction = std::log(2) / 0.01;
-    EXPECT_NEAR(double(m.scattering.x), 0, 1e-3 * extinction);
-    EXPECT_NEAR(double(m.absorption().x), extinction, 1e-3 * extinction);
+    EXPECT_NEAR(double(m.translucent().scattering.x), 0, 1e-3 * extinction);
+    EXPECT_NEAR(double(m.translucent().absorption.x), extinction, 1e-3 * extinction);
     const double s = 4.09712 + 4.20863 / 2 - std::sqrt(9.59217 + 41.6808 / 2 + 17.7126 / 4);
-    EXPECT_NEAR(double(m.scattering.y), (1 - s * s) * 2 * extinction, 1e-4 * extinction);
-    EXPECT_NEAR(double(m.absorption().y), s * s * 2 * extinction, 1e-4 * extinction);
-    EXPECT_NEAR(double(m.scattering.z), extinction, 1e-3 * extinction);
+    EXPECT_NEAR(double(m.translucent().scattering.y), (1 - s * s) * 2 * extinction, 1e-4 * extinction);
+    EXPECT_NEAR(double(m.translucent().absorption.y), s * s * 2 * extinction, 1e-4 * extinction);
+    EXPECT_NEAR(double(m.translucent().scattering.z), extinction, 1e-3 * extinction);
     // As much light comes back whatever the anisotropy: s² = (1 - a) / (1 - g a).
     const Material forward =
         scattering(R"("multiscatterColor": [0, 0.5, 1], "scatterAnisotropy": 0.5)", volume);
-    EXPECT_EQ(forward.anisotropy, 0.5f);
-    const double albedo = double(forward.scattering.y) / (2 * extinction);
+    EXPECT_EQ(forward.translucent().anisotropy, 0.5f);
+    const double albedo = double(forward.translucent().scattering.y) / (2 * extinction);
     EXPECT_NEAR((1 - albedo) / (1 - 0.5 * albedo), s * s, 1e-4);
 
     EXPECT_FALSE(scattering(R"("multiscatterColor": [1, 1, 1])", R"("thicknessFactor": 1)").isScattering());
@@ -122,13 +123,11 @@ TEST(GltfMaterial, ScatteringVolumesAreReadInPhysicalTerms) {
 
 TEST(GltfMaterial, InfiniteIorAndSmoothMetalAreMirrors) {
     const Material infinite = materialOf(glass(kVolume, R"(, "KHR_materials_ior": { "ior": 0 })"));
-    EXPECT_EQ(infinite.reflectance, vec3(1));
-    EXPECT_FALSE(infinite.isRefractive());
-    EXPECT_GT(infinite.ior, 0);
+    EXPECT_EQ(infinite.mirror().reflectance, vec3(1));
     std::string said;
     const Material metal = materialOf(
         R"(, "pbrMetallicRoughness": { "roughnessFactor": 0, "baseColorFactor": [1, 0.5, 0.25, 1] })", &said);
-    EXPECT_EQ(metal.reflectance, vec3(1, 0.5f, 0.25f));
+    EXPECT_EQ(metal.mirror().reflectance, vec3(1, 0.5f, 0.25f));
     EXPECT_EQ(said, "");
 }
 
@@ -139,7 +138,7 @@ TEST(GltfMaterial, MetalLetsNothingThrough) {
            "extensions": { "KHR_materials_transmission": { "transmissionFactor": 1 } )" +
             kVolume + " }",
         &said);
-    EXPECT_EQ(m.transmission, 0.5f);
+    EXPECT_EQ(m.clear().transmission, 0.5f);
     EXPECT_EQ(said, "not read: metallicFactor\n");
 }
 

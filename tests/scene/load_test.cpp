@@ -65,7 +65,7 @@ TEST(Load, SceneOfTheSpecificationIsRead) {
     EXPECT_NEAR(*coin.field().heights->at(3, 1), 223 / 255.0, 1e-6); // 7/8 in 8 bits
     EXPECT_EQ(coin.field().alpha->channels, 1);
     EXPECT_EQ(coin.material.diffuse, vec3(0.8f, 0.7f, 0.4f));
-    EXPECT_EQ(coin.material.scatterFalloff, vec2(0.2f, 0.6f));
+    EXPECT_EQ(coin.material.relief().scatterFalloff, vec2(0.2f, 0.6f));
     EXPECT_EQ(coin.transform.scale, 2);
     EXPECT_FALSE(coin.visible);
     EXPECT_EQ(scene->technique.at("demo").as<test::Demo>().method, test::Method::Plain);
@@ -384,7 +384,7 @@ TEST(Load, ReplacedHeightsDropWhatBelongedToTheOldPicture) {
     EXPECT_EQ(object.field().source.file, "new.png");
     EXPECT_FALSE(object.field().alpha);
     EXPECT_FALSE(object.material.baseMap);
-    EXPECT_EQ(object.material.depth, 0.2f);
+    EXPECT_EQ(object.material.relief().depth, 0.2f);
 
     Object ball;
     ball.name = "ball";

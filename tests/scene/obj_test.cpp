@@ -102,8 +102,8 @@ TEST(Obj, GroupsOfOneMaterialBecomeOnePart) {
     EXPECT_EQ(mesh.parts[0].material, "glass");
     EXPECT_EQ(mesh.parts[0].indexCount, 6u);
     EXPECT_EQ(mesh.parts[0].values.diffuse, vec3(0.1f, 0.2f, 0.3f));
-    EXPECT_EQ(mesh.parts[0].values.transmission, 0.75f);
-    EXPECT_EQ(mesh.parts[0].values.ior, 1.33f);
+    EXPECT_EQ(mesh.parts[0].values.clear().transmission, 0.75f);
+    EXPECT_EQ(mesh.parts[0].values.clear().ior, 1.33f);
     EXPECT_EQ(mesh.parts[1].firstIndex, 6u);
     EXPECT_EQ(mesh.parts[1].values.base, vec3(3, 2, 1));
     EXPECT_EQ(materialFilesOf(bytesOf("mtllib a b.mtl\n")), (std::vector<std::string>{"a b.mtl"}));

@@ -34,8 +34,8 @@ Scene fullScene() {
     add("ring", Torus{});
     add("can", Cylinder{});
     add("pool", Water{});
-    scene.objects[5].material.transmission = 1;         // the ball
-    scene.objects[6].material.reflectance = vec3(0.5f); // the ring
+    scene.objects[5].material.kind = Clear{};            // the ball
+    scene.objects[6].material.kind = Mirror{vec3(0.5f)}; // the ring
     return scene;
 }
 
@@ -66,8 +66,7 @@ TEST(Scene, EveryParameterReadsBackFromItsOwnText) {
         const Status status = setText(*bound.param, bound.data, text);
         ASSERT_TRUE(status) << bound.path << " " << status.error().message;
         EXPECT_EQ(getText(*bound.param, bound.data), text) << bound.path;
-        const bool changed = bound.path == "objects.ball.material.transmission" ||
-                             bound.path == "objects.ring.material.reflectance";
+        const bool changed = bound.param->id == "kind" || bound.path == "objects.ring.material.reflectance";
         EXPECT_EQ(getText(*bound.param, bound.defaults) == text, !changed) << bound.path;
         EXPECT_LT(bound.param->low, bound.param->high) << bound.path;
         EXPECT_GE(bound.param->low, bound.param->min) << bound.path;
@@ -125,8 +124,8 @@ TEST(Scene, ParametersAreSetByPathWithNamesOrNumbers) {
     EXPECT_EQ(set("technique.demo.method", "plain"), "plain");
     Scene scene = fullScene();
     ASSERT_TRUE(setParam(scene, "objects.1.material.depth", "0.25"));
-    EXPECT_EQ(scene.objects[1].material.depth, 0.25f);
-    EXPECT_EQ(scene.objects[0].material.depth, Material().depth);
+    EXPECT_EQ(scene.objects[1].material.relief().depth, 0.25f);
+    EXPECT_EQ(scene.objects[0].material.relief().depth, Relief().depth);
     ASSERT_TRUE(setParam(scene, "camera.type", "perspective"));
     ASSERT_TRUE(setParam(scene, "camera.fov", "25"));
     EXPECT_EQ(scene.camera.fov, 25);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <set>
 #include <tuple>
 
@@ -176,6 +177,53 @@ TEST(Shapes, OpenEdgesAreFoundAndFlippedTrianglesToo) {
     EXPECT_EQ(openEdges(mesh), 3u);
 }
 
+HeightField fieldOf(ivec2 size, const std::function<float(int, int)>& height) {
+    auto map = std::make_shared<Image>(size.x, size.y, 1);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x)
+            *map->at(x, y) = height(x, y);
+    HeightField field;
+    field.width = 2;
+    field.heightScale = 0.5f;
+    field.heights = std::move(map);
+    return field;
+}
+
+TEST(Shapes, TheBodyOfAHeightFieldIsClosedAndHoldsWhatLiesUnderItsHeights) {
+    const Mesh flat = meshOf(fieldOf({4, 2}, [](int, int) { return 0.8f; }));
+    expectSoundTriangles(flat);
+    EXPECT_EQ(openEdges(flat), 0u);
+    EXPECT_NEAR(volumeOf(flat), 2 * 1 * 0.4, 1e-6);
+    // A ramp along x is level in the outer half texels: the mean of its heights stays.
+    const Mesh ramp = meshOf(fieldOf({8, 4}, [](int x, int) { return 0.2f + 0.1f * float(x); }));
+    EXPECT_EQ(openEdges(ramp), 0u);
+    EXPECT_NEAR(volumeOf(ramp), 2 * 1 * 0.5 * 0.55, 1e-6);
+    EXPECT_NEAR(glm::length(ramp.normals[25] - glm::normalize(vec3(-0.2f, 0, 1))), 0, 1e-6); // 0.05 over 0.25
+    // Below 0 the bottom goes along.
+    EXPECT_NEAR(volumeOf(meshOf(fieldOf({4, 4}, [](int x, int) { return x < 2 ? -1.0f : 1.0f; }))),
+                2 * 2 * 0.5 * 1, 1e-6);
+}
+
+TEST(Shapes, WhereHeightsTouchTheirBottomTheBodyHasNone) {
+    // One texel of 16 stands up: a frustum over four cells, each a quarter of a texel's height on the mean.
+    const Mesh bump = meshOf(fieldOf({5, 5}, [](int x, int y) { return x == 2 && y == 2 ? 1.0f : 0.0f; }));
+    EXPECT_EQ(openEdges(bump), 0u);
+    EXPECT_EQ(bump.indices.size(), 3 * 2 * 6u); // of each cell the triangles that have the texel, twice
+    // A hole that the loader has dug, and one in a map of alpha that is solid.
+    HeightField field =
+        fieldOf({6, 6}, [](int x, int y) { return x / 2 == 1 && y / 2 == 1 ? -12.0f : 1.0f; });
+    auto alpha = std::make_shared<Image>(3, 3, 1);
+    std::fill(alpha->pixels.begin(), alpha->pixels.end(), 1.0f);
+    *alpha->at(1, 1) = 0;
+    field.alpha = alpha;
+    field.alphaIsSolid = false;
+    const Mesh ring = meshOf(field);
+    EXPECT_EQ(openEdges(ring), 0u);
+    for (const vec3& place : ring.positions)
+        EXPECT_GE(place.z, 0);
+    EXPECT_NEAR(volumeOf(ring), 2 * 2 * 0.5 * 32 / 36, 1e-6);
+}
+
 TEST(Shapes, PartKeepsItsTrianglesWithTheirVertices) {
     Mesh mesh = meshOf(Box{});
     mesh.joints.assign(24, {0, 0, 0, 0});
@@ -187,7 +235,7 @@ TEST(Shapes, PartKeepsItsTrianglesWithTheirVertices) {
     mesh.rig.weights = {0.5f};
     mesh.rig.duration = 3;
     Material glass;
-    glass.transmission = 1;
+    glass.kind = Clear{};
     mesh.parts = {{"stone", 0, 30, {}}, {"glass", 30, 6, glass}};
     const Mesh part = partOf(mesh, mesh.parts[1]);
     ASSERT_EQ(part.positions.size(), 4u);
@@ -196,7 +244,7 @@ TEST(Shapes, PartKeepsItsTrianglesWithTheirVertices) {
         EXPECT_EQ(part.positions[part.indices[i]], mesh.positions[mesh.indices[30 + i]]);
         EXPECT_EQ(part.rig.targets[0].normals[part.indices[i]], mesh.normals[mesh.indices[30 + i]]);
     }
-    EXPECT_EQ(part.parts[0].values.transmission, 1);
+    EXPECT_EQ(part.parts[0].values.clear().transmission, 1);
     const Result<Mesh> sound = decodeMesh(encodeMesh(part), "part"); // every list fits the others
     EXPECT_TRUE(sound) << sound.error().message;
     EXPECT_TRUE(part.moves());

@@ -16,7 +16,7 @@ Result<Json> parse(std::string_view text) {
 // What makes a material clear, translucent or a mirror, and others act or not.
 bool decidesWhatActs(const BoundParam& bound) {
     const std::string_view id = bound.param->id;
-    return id == "transmission" || id == "reflectance" || id == "scattering";
+    return id == "kind" || id == "transmission" || id == "reflectance" || id == "scattering";
 }
 
 // Moves every other parameter away from its default, within its range.
@@ -58,6 +58,7 @@ TEST(ToJson, LoadsBackToTheSameValues) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(getText(*a[i].param, a[i].data), getText(*b[i].param, b[i].data)) << a[i].path;
+        if (a[i].isComputed()) continue;
         EXPECT_NE(getText(*a[i].param, a[i].data), getText(*a[i].param, a[i].defaults)) << a[i].path;
     }
     EXPECT_EQ(toJson(copy), toJson(*scene)); // names, files, sizes and flags as well
@@ -108,12 +109,12 @@ TEST(ToJson, WritesNothingThatWouldBeRefused) {
     // As a person does it: clear, absorbing, then opaque again.
     Object& ball = scene->objects[0];
     ASSERT_TRUE(setParam(*scene, "objects.ball.material.transmission", "1"));
+    ASSERT_TRUE(setParam(*scene, "objects.ball.material.attenuationDistance", "2"));
     ASSERT_TRUE(setParam(*scene, "objects.ball.material.attenuationColor", "0.5 0.5 0.5"));
     const Result<Scene> clear = test::load({}, toJson(*scene));
-    ASSERT_TRUE(clear) << clear.error().message; // though the colour stands without a distance
-    EXPECT_EQ(clear->objects[0].material.attenuationColor, vec3(0.5f));
-    EXPECT_EQ(clear->objects[0].material.attenuationDistance, 0);
-    ball.material.transmission = 0;
+    ASSERT_TRUE(clear) << clear.error().message;
+    EXPECT_EQ(clear->objects[0].material.clear().absorption, ball.material.clear().absorption);
+    ASSERT_TRUE(setParam(*scene, "objects.ball.material.kind", "matt"));
     const Result<Scene> opaque = test::load({}, toJson(*scene));
     ASSERT_TRUE(opaque) << opaque.error().message;
     EXPECT_EQ(opaque->objects[0].material.diffuse, vec3(1, 0, 0));

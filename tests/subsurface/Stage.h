@@ -18,9 +18,7 @@ inline constexpr double kPi64 = std::numbers::pi;
 /// Coefficients of Jensen et al. 2001, 1/m.
 inline scene::Material marble() {
     scene::Material material;
-    material.scattering = {2190, 2620, 3000};
-    material.setAbsorption({2.1f, 4.1f, 7.1f});
-    material.ior = 1.5f;
+    material.kind = scene::Translucent{.scattering = {2190, 2620, 3000}, .absorption = {2.1f, 4.1f, 7.1f}};
     return material;
 }
 
@@ -163,7 +161,7 @@ inline scene::Scene sheet(const scene::Material& material, float width, float he
 /// Absorbs so much that light reaches a few millimetres only: a small plane is a half space.
 inline scene::Material dense() {
     scene::Material material = marble();
-    material.setAbsorption({200, 200, 200});
+    material.translucent().absorption = {200, 200, 200};
     return material;
 }
 } // namespace lucent::subsurface::stage

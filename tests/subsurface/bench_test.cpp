@@ -21,8 +21,8 @@ TEST(SubsurfaceTruth, AHalfSpaceOfMarbleIsAsBrightAsTheClosedFormSays) {
     EXPECT_NEAR(leaving.r / 0.96, 0.8302, 5e-5); // four digits
     EXPECT_NEAR(leaving.g / 0.96, 0.7910, 5e-5);
     EXPECT_NEAR(leaving.b / 0.96, 0.7526, 5e-5);
-    stone.anisotropy = 0.5f; // what counts is (1 - g) sigma_s
-    stone.scattering *= 2.0f;
+    stone.translucent().anisotropy = 0.5f; // what counts is (1 - g) sigma_s
+    stone.translucent().scattering *= 2.0f;
     EXPECT_NEAR(radiosityOfHalfSpace(stone).g, leaving.g, 1e-6);
 }
 

@@ -94,7 +94,7 @@ TEST_F(SubsurfaceTest, DiffusionShowsNoCells) {
 TEST_F(SubsurfaceTest, DiffusionLosesNoLightInABodyThatAbsorbsNone) {
     // What enters leaves. Around the sphere B depends on the angle alone: its sum over rings of the picture.
     scene::Material material = marble();
-    material.setAbsorption(vec3(0));
+    material.translucent().absorption = vec3(0);
     const Image image = draw(sphereFromTheSide(0.01, material), {96, 96}, with(Method::Diffusion));
     double left = 0, entered = 0;
     for (double degrees = 5; degrees < 180; degrees += 10) {
@@ -112,8 +112,8 @@ TEST_F(SubsurfaceTest, DiffusionShinesThroughSheetsThinnerThanACell) {
     // path of 2 mm, it leaves on either side half of what entered, whichever side is lit and however it lies
     // among the cells.
     scene::Material material = marble();
-    material.setAbsorption(vec3(0));
-    material.scattering = vec3(500);
+    material.translucent().absorption = vec3(0);
+    material.translucent().scattering = vec3(500);
     for (const float thickness : {0.0002f, 0.0005f})
         for (const float turned : {0.0f, 25.0f})
             for (const float side : {-1.0f, 1.0f}) {

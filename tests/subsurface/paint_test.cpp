@@ -19,10 +19,9 @@ using subsurface::Method;
 /// Absorbs so much that light reaches a few millimetres only: a small plane is a half space.
 scene::Material dense() {
     scene::Material material;
-    material.scattering = {2190, 2620, 3000};
-    material.setAbsorption({200, 200, 200});
-    material.ior = 1.5f;
-    material.roughness = 0; // shows no lamp that is a point
+    material.kind = scene::Translucent{.scattering = {2190, 2620, 3000},
+                                       .absorption = {200, 200, 200},
+                                       .roughness = 0}; // shows no lamp that is a point
     return material;
 }
 
@@ -172,7 +171,7 @@ TEST_F(Painted, AnUnpaintedObjectRunsNoPassOfPaint) {
     EXPECT_NE(text.find("\n  subsurface.matt:"), std::string::npos);
     EXPECT_NE(text.find("brdf: object \"body 0\" is painted"), std::string::npos);
     // Paint on what is opaque does nothing.
-    scene.objects[0].material.scattering = vec3(0);
+    scene.objects[0].material.translucent().scattering = vec3(0);
     EXPECT_EQ(explained().find("views.paint"), std::string::npos);
 }
 
@@ -211,10 +210,10 @@ TEST_F(Painted, ALayerOfPaintNeedsNoLight) {
 }
 
 TEST_F(Painted, OnesAreTheUnpaintedPictureBitForBit) {
-    add(scene::Sphere{0.008f}).material.roughness = 0.4f;
+    add(scene::Sphere{0.008f}).material.translucent().roughness = 0.4f;
     add(scene::Box{vec3(0.006f)}).transform = {.translate = {0.007f, 0.004f, 0.004f}, .rotate = {20, 30, 0}};
     scene::Object& floor = add(scene::Plane{{0.03f, 0.03f}});
-    floor.material.scattering = vec3(0);
+    floor.material.translucent().scattering = vec3(0);
     floor.transform = {.translate = {0, -0.009f, 0}, .rotate = {40, 0, 0}};
     scene.lights = {scene::DistantLight{.direction = {-0.3f, -0.6f, -0.5f}},
                     scene::PointLight{.position = {0.02f, 0.01f, 0.02f},
@@ -305,7 +304,7 @@ TEST_F(Painted, TranslucencyMixesWithTheMattSurface) {
     ball.material.diffuse = {0.7f, 0.5f, 0.3f};
     shineAround(0);
     const Image scattered = picture(scene::Aov::Color);
-    ball.material.scattering = vec3(0);
+    ball.material.translucent().scattering = vec3(0);
     const Image matt = picture(scene::Aov::Color);
     ball.material = dense();
     ball.material.diffuse = {0.7f, 0.5f, 0.3f};

@@ -22,8 +22,8 @@ struct Scattering : support::GlTest {
         scene.camera.height = 0.05f;
         technique::addSettings(scene);
         scene.lights = {scene::DistantLight{.direction = {-0.3f, -1, -0.5f}}};
-        add("ball", scene::Sphere{0.01f}).material.scattering = vec3(2000);
-        scene.objects[0].material.setAbsorption(vec3(100));
+        add("ball", scene::Sphere{0.01f}).material.translucent().scattering = vec3(2000);
+        scene.objects[0].material.translucent().absorption = vec3(100);
     }
     scene::Object& add(const char* name, scene::Shape shape, vec3 centre = vec3(0)) {
         scene::Object object;
@@ -104,7 +104,7 @@ TEST_F(Scattering, LayersFollowEveryEdit) {
     };
     const float plain = light();
     EXPECT_GT(plain, 0);
-    scene::Material& material = scene.objects[0].material;
+    scene::Translucent& material = scene.objects[0].material.translucent();
     material.layers = {{.thickness = 5e-4f, .scattering = vec3(2000), .absorption = vec3(100), .ior = 1.5f}};
     EXPECT_NEAR(light() / plain, 1,
                 1e-3); // of the same medium; splats are 1e-2 apart, but at the same places
@@ -139,8 +139,7 @@ TEST_F(Scattering, TwoMaterialsAtOnceAreEachAsTheyAreAlone) {
     scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
     scene.objects[0].transform.translate = {-0.012f, 0, 0};
     scene::Object& other = add("other", scene::Box{vec3(0.016f)}, {0.012f, 0, 0});
-    other.material.scattering = {500, 1500, 4000};
-    other.material.setAbsorption({300, 50, 10});
+    other.material.kind = scene::Translucent{.scattering = {500, 1500, 4000}, .absorption = {300, 50, 10}};
     const Image both = picture();
     scene.objects.pop_back();
     const Image ball = picture();
@@ -153,7 +152,7 @@ TEST_F(Scattering, TwoMaterialsAtOnceAreEachAsTheyAreAlone) {
 TEST_F(Scattering, LambertLeavesTheWholeProfileWhereLightEnteredAndSplatsNothing) {
     scene::Object& box = scene.objects[0];
     box.shape = scene::Box{{0.02f, 0.02f, 0.004f}};
-    box.material.scattering = {500, 1500, 4000};
+    box.material.translucent().scattering = {500, 1500, 4000};
     subsurface::Settings lambert;
     lambert.method = subsurface::Method::Lambert;
     *static_cast<subsurface::Settings*>(scene.technique.at("subsurface").data()) = lambert;
@@ -200,7 +199,7 @@ TEST_F(Scattering, HighlightsAreThoseOfTheTruth) {
     scene.camera.height = 0.03f;
     scene.lights.push_back(scene::PointLight{.position = {0.01f, 0.02f, 0.03f}, .intensity = 1e-3f});
     const auto solved = [&](float roughness) {
-        scene.objects[0].material.roughness = roughness;
+        scene.objects[0].material.translucent().roughness = roughness;
         auto dipole = truth::DipoleEstimator::create(scene, scene.size, {.samples = 48});
         EXPECT_TRUE(dipole.ok());
         std::vector<double> values;
@@ -212,7 +211,7 @@ TEST_F(Scattering, HighlightsAreThoseOfTheTruth) {
     const std::vector<double> exact = solved(0.3f),
                               exactMatt = solved(0); // their dipoles are the same to the bit
     const auto drawn = [&](float roughness) {
-        scene.objects[0].material.roughness = roughness;
+        scene.objects[0].material.translucent().roughness = roughness;
         return picture(scene::Aov::Color);
     };
     const Image shown = drawn(0.3f), shownMatt = drawn(0);
@@ -283,14 +282,14 @@ TEST_F(Scattering, CausticsEnterWhatScatters) {
         const dvec2 without = sums();
         scene::Object& ball = add("ball of glass", scene::Sphere{0.006f}, {0, 0, 0.014f});
         ball.visible = false;
-        ball.material.transmission = 1;
+        ball.material.kind = scene::Clear{};
         const dvec2 within = sums();
         // The ball takes away what it mirrors, 0.08 of its 0.11 of the light.
         EXPECT_LT(within.x, 0.999 * without.x) << int(method);
         EXPECT_NEAR(within.y / without.y, within.x / without.x, 0.02) << int(method);
         const scene::Material marble = scene.objects[0].material;
         const Image onMarble = picture(scene::Aov::Irradiance);
-        scene.objects[0].material.scattering = vec3(0);
+        scene.objects[0].material.kind = scene::Matt{};
         const Image onMatt = picture(scene::Aov::Irradiance);
         for (std::size_t i = 1; i < onMatt.pixels.size(); i += 4)
             ASSERT_NEAR(onMarble.pixels[i], onMatt.pixels[i], 1e-3 + 1e-3 * double(onMatt.pixels[i])) << i;
@@ -387,7 +386,7 @@ TEST_F(Turning, APictureThatFollowsNoneOrItsLikeIsAsItIsWithoutTheOneBefore) {
     const Image first = next(renderer);
     scene.objects[0].transform.rotate.y = 1;
     const Image moved = next(renderer), again = next(renderer);
-    scene.objects[0].material.scattering = vec3(1500);
+    scene.objects[0].material.translucent().scattering = vec3(1500);
     const Image other = next(renderer);
     scene.lights = {scene::DistantLight{.direction = {1, -0.5f, -0.5f}}};
     const Image jumped = next(renderer);
@@ -395,7 +394,7 @@ TEST_F(Turning, APictureThatFollowsNoneOrItsLikeIsAsItIsWithoutTheOneBefore) {
     EXPECT_EQ(jumped.pixels, picture().pixels);
     scene.lights = {scene::DistantLight{.direction = {-1, -0.5f, -0.5f}}};
     EXPECT_EQ(other.pixels, picture().pixels);
-    scene.objects[0].material.scattering = vec3(2000);
+    scene.objects[0].material.translucent().scattering = vec3(2000);
     const Image alone = picture();
     EXPECT_NE(moved.pixels, alone.pixels);
     EXPECT_EQ(again.pixels, alone.pixels);
@@ -452,7 +451,7 @@ TEST_F(Scattering, DiffusionIsSolvedAnewOnlyWhereSomethingElseThanTheCameraHasCh
         [&] {
             scene.lights = {scene::DistantLight{.direction = {0.3f, -1, -0.5f}}};
         },
-        [&] { scene.objects[0].material.scattering = vec3(1500); },
+        [&] { scene.objects[0].material.translucent().scattering = vec3(1500); },
         [&] {
             scene.objects[0].transform.translate = {0.001f, 0, 0};
         },

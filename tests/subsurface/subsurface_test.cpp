@@ -164,23 +164,23 @@ TEST_F(SubsurfaceTest, TouchingObjectsGetNothingOfEachOther) {
 
 TEST_F(SubsurfaceTest, WhereNothingIsAbsorbedLightEndsWithTheObject) {
     scene::Material material = marble();
-    material.setAbsorption(vec3(0));
+    material.translucent().absorption = vec3(0);
     const Image image = draw(sphereFromTheSide(0.01, material), {48, 48});
     EXPECT_LT(misplaced(image, 0.01, 0.022, sphereTruth(0.01, material)).share, 0.02);
 }
 
 TEST_F(SubsurfaceTest, AMeanFreePathOfAHundredObjectsLightsThemEvenly) {
     scene::Material material = marble();
-    material.scattering = vec3(1);
-    material.setAbsorption(vec3(0.1f));
+    material.translucent().scattering = vec3(1);
+    material.translucent().absorption = vec3(0.1f);
     const Image image = draw(sphereFromTheSide(0.01, material), {48, 48});
     EXPECT_LT(misplaced(image, 0.01, 0.022, sphereTruth(0.01, material)).share, 0.02);
 }
 
 TEST_F(SubsurfaceTest, AMeanFreePathOfAHundredthOfAPixelLeavesLightWhereItEntered) {
     scene::Material material = marble();
-    material.scattering = vec3(1e7f);
-    material.setAbsorption(vec3(1e4f));
+    material.translucent().scattering = vec3(1e7f);
+    material.translucent().absorption = vec3(1e4f);
     const Image image = draw(sheet(material, 0.1f, 0.02f), {8, 8});
     const double expected = entering(1) * diffusion::totalReflectance(diffusion::mediaOf(material)[1],
                                                                       diffusion::Shape::Dipole, 0);
@@ -193,7 +193,7 @@ TEST_F(SubsurfaceTest, WhatScattersNothingIsBlack) {
     float before = 0;
     for (const float scattering : {1e-2f, 1e-5f, 1e-30f}) {
         scene::Material material = marble();
-        material.scattering = vec3(scattering);
+        material.translucent().scattering = vec3(scattering);
         const Image image = draw(sphereFromTheSide(0.01, material), {16, 16});
         const float value = image.at(12, 8)[1];
         EXPECT_TRUE(std::isfinite(value)) << scattering;
@@ -207,8 +207,8 @@ TEST_F(SubsurfaceTest, WhatScattersNothingIsBlack) {
 
 TEST_F(SubsurfaceTest, AnisotropyEntersByTheReducedCoefficientOnly) {
     scene::Material forward = marble();
-    forward.anisotropy = 0.99f;
-    forward.scattering /= 1 - forward.anisotropy;
+    forward.translucent().anisotropy = 0.99f;
+    forward.translucent().scattering /= 1 - forward.translucent().anisotropy;
     const Image even = draw(sphereFromTheSide(0.01, marble()), {32, 32}),
                 ahead = draw(sphereFromTheSide(0.01, forward), {32, 32});
     for (std::size_t i = 0; i < even.pixels.size(); ++i)
@@ -218,7 +218,7 @@ TEST_F(SubsurfaceTest, AnisotropyEntersByTheReducedCoefficientOnly) {
 TEST_F(SubsurfaceTest, ASurfaceOfIndexOneMirrorsNothing) {
     // A is that of F_dr = -1.440 + 0.710 + 0.668 + 0.0636, and everything enters.
     scene::Material material = dense();
-    material.ior = 1;
+    material.translucent().ior = 1;
     const Image image = draw(sheet(material, 0.04f, 0.002f), {8, 8});
     const double albedo = 2620.0 / 2820, s = std::sqrt(3 * (1 - albedo)), a = (1 + 0.0016) / (1 - 0.0016);
     const double expected = 0.5 * albedo * (1 + std::exp(-4.0 / 3 * a * s)) * std::exp(-s);
@@ -368,7 +368,7 @@ TEST_F(SubsurfaceTest, WhatLeavesIsSeenFromSomewhere) {
     // Radiance times cosine over all directions is B: without the highlight, L = B F_t / (pi mean F_t)
     // head-on.
     scene::Scene scene = sheet(dense(), 0.04f, 0.002f);
-    scene.objects[0].material.roughness = 0; // shows no lamp that is a point
+    scene.objects[0].material.translucent().roughness = 0; // shows no lamp that is a point
     const float radiosity = atMiddle(draw(scene, {8, 8})),
                 radiance = atMiddle(draw(scene, {8, 8}, {}, false));
     EXPECT_NEAR(radiance, radiosity * entering(1) / (kPi64 * diffusion::meanTransmittance(1.5)), 1e-5);

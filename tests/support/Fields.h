@@ -59,7 +59,7 @@ inline scene::Scene sceneOf(std::shared_ptr<const Image> map, float heightScale,
     object.name = "field";
     object.field().heights = std::move(map);
     object.field().heightScale = heightScale;
-    object.material.depth = depth;
+    object.material.relief().depth = depth;
     object.material.diffuse = vec3(1);
     scene.size = object.field().texels();
     scene.camera.height = object.field().footprint().y;

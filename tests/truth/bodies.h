@@ -19,7 +19,11 @@ inline scene::Object marble(scene::Shape shape, vec3 centre = vec3(0)) {
     scene::Object object = matt(std::move(shape), centre);
     object.name = "marble";
     for (const scene::MaterialPreset& preset : scene::materialPresets())
-        if (preset.name == "marble") apply(preset, object.material);
+        if (preset.name == "marble") {
+            scene::Translucent inside;
+            apply(preset, inside);
+            object.material.kind = inside;
+        }
     return object;
 }
 

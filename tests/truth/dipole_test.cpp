@@ -110,7 +110,7 @@ TEST(Dipole, MarbleSphereGivesBackTheKnownSharesByEitherGeometry) {
 
 TEST(Dipole, AnisotropyCountsOnlyInTheReducedCoefficient) {
     scene::Scene even = test::marbleSphere(), forward = test::marbleSphere();
-    scene::Material& material = forward.objects[0].material;
+    scene::Translucent& material = forward.objects[0].material.translucent();
     material.anisotropy = 0.99f;
     material.scattering /= 1 - material.anisotropy;
     const Estimate a = onSphere(estimator(even, {}), 1), b = onSphere(estimator(forward, {}), 1);
@@ -120,7 +120,7 @@ TEST(Dipole, AnisotropyCountsOnlyInTheReducedCoefficient) {
 
 TEST(Dipole, LayerOfGreatThicknessIsAHalfSpace) {
     scene::Scene scene = test::marbleSphere();
-    scene.objects[0].material.thickness = 1; // 117 or more diffusion lengths
+    scene.objects[0].material.translucent().thickness = 1; // 117 or more diffusion lengths
     for (const DipoleGeometry geometry : {DipoleGeometry::Planar, DipoleGeometry::Offset})
         EXPECT_NEAR(
             onSphere(estimator(scene, {.profile = Diffusion::Multipole, .geometry = geometry}), 2).mean().x,
@@ -130,8 +130,8 @@ TEST(Dipole, LayerOfGreatThicknessIsAHalfSpace) {
 TEST(Dipole, ThinLayerReflectsAsDiffusionInASlabDoes) {
     // Without absorption R = 1 - (l + z_b) / (d + 2 z_b), z_b = 2 A / (3 sigma'): tests/diffusion.
     scene::Scene scene = test::marbleHalfSpace();
-    scene::Material& material = scene.objects[0].material;
-    material.setAbsorption(vec3(0));
+    scene::Translucent& material = scene.objects[0].material.translucent();
+    material.absorption = vec3(0);
     material.scattering = vec3(2000);
     material.thickness = 0.004f; // 8 mean free paths
     const double internal = 0.5967333, boundary = 2 * (1 + internal) / (1 - internal) / 6000;
@@ -168,7 +168,7 @@ TEST(Dipole, LeavingLightIsSeenWhole) {
 
 TEST(Dipole, PixelsShowRadiosityOrItsLobe) {
     scene::Scene scene = test::marbleHalfSpace();
-    scene.objects[0].material.roughness = 0; // mirrors no lamp
+    scene.objects[0].material.translucent().roughness = 0; // mirrors no lamp
     scene.camera.type = scene::Camera::Type::Orthographic;
     scene.camera.eye = {0, 1, 1};
     scene.camera.up = {0, 1, 0};
@@ -189,9 +189,9 @@ TEST(Dipole, HardCasesStayFinite) {
     const auto sphereOf = [](float scattering, float absorption, float ior, float radius) {
         scene::Scene scene = test::marbleSphere();
         std::get<scene::Sphere>(scene.objects[0].shape).radius = radius;
-        scene::Material& material = scene.objects[0].material;
+        scene::Translucent& material = scene.objects[0].material.translucent();
         material.scattering = vec3(scattering, scattering, 0); // the last colour does not scatter
-        material.setAbsorption(vec3(absorption));
+        material.absorption = vec3(absorption);
         material.ior = ior;
         return scene;
     };

@@ -59,7 +59,7 @@ TEST(Glass, TheChainShowsTransmittedLightAndTheFirstReflection) {
     // is reflected inside.
     const dvec3 expected = dvec3(1, 2, 4) * (0.96 * 0.96 + 0.04);
     EXPECT_NEAR(glm::distance(middle(scene, scene::Aov::Color).value, expected), 0, 1e-12);
-    scene.objects[0].material.fresnel = false;
+    scene.objects[0].material.clear().fresnel = false;
     EXPECT_EQ(middle(scene, scene::Aov::Color).value, dvec3(1, 2, 4));
     EXPECT_EQ(middle(scene, scene::Aov::Color).variance, dvec3(0));
 }
@@ -164,9 +164,8 @@ TEST(Glass, WhatBendsNothingCastsTheShadowOfWhatItAbsorbs) {
     scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
     EXPECT_NEAR(middle(scene, scene::Aov::Color).value.g, unshadowed, 1e-12);
     // Half of the light is left after 1 m, the ball's diameter, and of that `transmission`.
-    scene.objects[1].material.attenuationColor = vec3(0.5f);
-    scene.objects[1].material.attenuationDistance = 1;
-    scene.objects[1].material.transmission = 0.25f;
+    scene.objects[1].material.clear().absorption = vec3(std::log(2.0f));
+    scene.objects[1].material.clear().transmission = 0.25f;
     EXPECT_NEAR(middle(scene, scene::Aov::Color).value.g, 0.125 * unshadowed, 1e-12);
     // A wall above it shadows as before.
     scene.objects.push_back(matt(scene::Box{{1, 0.1f, 1}}, {0, 4, 0}));

@@ -19,7 +19,7 @@ scene::Scene matt(const scene::HeightField& shape) {
     object.name = "field";
     object.shape = shape;
     object.material.diffuse = vec3(1);
-    object.material.depth = 1e-9f;
+    object.material.relief().depth = 1e-9f;
     scene.objects.push_back(object);
     return scene;
 }
@@ -195,8 +195,8 @@ TEST(Lambert, LeavesHighlightAndScatteringOutAndKeepsTheirShare) {
     scene::Material& material = scene.objects[0].material;
     material.base = vec3(0.5f);
     material.diffuse = {0.25f, 0.5f, 1};
-    material.specularity = 0.5f;
-    material.forwardScatter = 1;
+    material.relief().specularity = 0.5f;
+    material.relief().forwardScatter = 1;
     scene.lights = {scene::DistantLight{.irradiance = float(std::numbers::pi)}};
     const Picture picture = lambert(scene, {1, 1}, scene::Aov::Color, 1);
     for (int channel = 0; channel < 3; ++channel) // (1 - ks) (cB + cD 1)

@@ -23,9 +23,9 @@ Picture walks(const scene::Scene& scene, const WalkOptions& options, ivec2 size 
 /// Green marble on red and blue skin, of one index of refraction.
 scene::Scene marbleOnSkin() {
     scene::Scene scene = test::marbleHalfSpace();
-    scene::Material& material = scene.objects[0].material;
+    scene::Translucent& material = scene.objects[0].material.translucent();
     material.scattering = vec3(880);
-    material.setAbsorption(vec3(170));
+    material.absorption = vec3(170);
     material.ior = 1.3f;
     scene::MediumLayer layer;
     layer.thickness = 5e-4f;
@@ -76,11 +76,11 @@ TEST(Layered, DipoleOfAHalfSpaceGivesBackTheShareOfTheStack) {
 TEST(Layered, WalksKnowTheLayerByItsDepth) {
     // Layers of the sphere's own medium change nothing but the numbers drawn.
     scene::Scene sphere = test::marbleSphere();
-    scene::Material& material = sphere.objects[0].material;
+    scene::Translucent& material = sphere.objects[0].material.translucent();
     scene::MediumLayer same;
     same.thickness = 1e-3f;
     same.scattering = material.scattering;
-    same.absorption = material.absorption();
+    same.absorption = material.absorption;
     material.layers = {same, same};
     const EnergyBook whole = *walks(sphere, {.photons = 45000}).energy;
     const double known[] = {0.853, 0.813, 0.769};
@@ -101,10 +101,10 @@ TEST(Layered, WalksKnowTheLayerByItsDepth) {
 TEST(Layered, WalksAreCountedByHowOftenLightWasScattered) {
     // Index 1, even scattering, light straight from above: scattered once, (a / 2) (1 - ln 2) comes back.
     scene::Scene scene = test::marbleHalfSpace();
-    scene::Material& material = scene.objects[0].material;
+    scene::Translucent& material = scene.objects[0].material.translucent();
     material.ior = 1;
     material.scattering = vec3(0.9e5f);
-    material.setAbsorption(vec3(0.1e5f));
+    material.absorption = vec3(0.1e5f);
     scene.camera.eye = {0, 1, 0};
     scene.camera.up = {0, 0, 1};
     scene.camera.height = 0.6f;

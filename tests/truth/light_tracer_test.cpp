@@ -1,3 +1,4 @@
+#include "scene/Keys.h"
 #include "truth/LightTracer.h"
 
 #include "truth/Part.h"
@@ -113,7 +114,7 @@ TEST(LightTracer, AGlassBallLightsTheFloorAsTheSumOverItsBranches) {
 /// Light that passes it comes by rays, and in direction and strength hardly changed.
 scene::Object almostNothing(scene::Shape shape, vec3 centre) {
     scene::Object object = glass(std::move(shape), 1.0001f, centre);
-    object.material.fresnel = false;
+    object.material.clear().fresnel = false;
     return object;
 }
 
@@ -292,10 +293,9 @@ TEST(LightTracer, SineWaterLightsTheFloorAsTheSumOverItsRoots) {
 
 TEST(LightTracer, FluxClosesWithAbsorptionDispersionAndRaysThatGetNowhere) {
     scene::Object ball = glass(scene::Sphere{0.5f}, 1.5f, {0, 1, 0});
-    ball.material.attenuationDistance = 1;
-    ball.material.attenuationColor = vec3(0.9f, 0.5f, 0.1f);
-    ball.material.dispersion = 0.5f;
-    ball.material.transmission = 0.9f;
+    ball.material.clear().absorption = scene::absorptionOf({1, {0.9f, 0.5f, 0.1f}});
+    ball.material.clear().dispersion = 0.5f;
+    ball.material.clear().transmission = 0.9f;
     for (const Branching branching : {Branching::Chain, Branching::Tree}) {
         scene::Scene scene = floorUnder(ball, 2);
         scene.objects.push_back(mirror(scene::Box{{0.2f, 0.2f, 0.2f}}, {0.7f, 0.4f, 0}));

@@ -114,9 +114,9 @@ TEST(Paint, SharpnessKeepsTheLightOfAHalfSpace) {
 TEST(Paint, SharpnessIsADenserMedium) {
     // Of the whole body, the scaled profile is that of scaled coefficients; twice is exact in floats.
     scene::Scene denser = litSphere();
-    scene::Material& material = denser.objects[0].material;
+    scene::Translucent& material = denser.objects[0].material.translucent();
     material.scattering *= 2;
-    material.attenuationDistance /= 2;
+    material.absorption *= 2;
     const scene::Scene sharp = painted(litSphere(), {1, 1, 1, 2});
     const double one =
         estimator(denser, {.aov = scene::Aov::Radiosity, .samples = 2048}).solve({4, 4}).value.x;
@@ -132,8 +132,8 @@ TEST(Paint, SharpnessIsADenserMedium) {
 TEST(Paint, OpaqueSurfacesAreMatt) {
     scene::Scene scene = painted(litSphere(), vec4(1), {1, 1, 1, 0});
     scene.objects[0].material.diffuse = {0.5f, 0.25f, 0.75f};
-    scene.objects[0].material.roughness = 0; // mirrors no lamp
-    scene.camera.height = 0.001f;            // its pole, where light comes from straight above
+    scene.objects[0].material.translucent().roughness = 0; // mirrors no lamp
+    scene.camera.height = 0.001f;                          // its pole, where light comes from straight above
     for (int by = 0; by < 2; ++by) {
         dvec3 value;
         if (by == 0) {

@@ -150,7 +150,7 @@ TEST(Fingerprint, ChangesWithEveryTexelAndParameter) {
     EXPECT_EQ(before.size(), 16u);
     EXPECT_EQ(fingerprint(scene), before);
     scene::Scene deeper = scene;
-    deeper.objects[0].material.depth += 1e-6f;
+    deeper.objects[0].material.relief().depth += 1e-6f;
     EXPECT_NE(fingerprint(deeper), before);
     scene::Scene bumped = scene;
     bumped.objects[0].shape =

@@ -308,15 +308,15 @@ scene::Object flatObject() {
     object.shape = test::shapeOf(4, 4, 1, 0.1f, [](int, int) { return 0.5f; });
     object.material.base = {0.1f, 0.2f, 0.3f};
     object.material.diffuse = {0.5f, 0.25f, 1};
-    object.material.specular = {1, 0.5f, 0.25f};
-    object.material.depth = 0.25f;
+    object.material.relief().specular = {1, 0.5f, 0.25f};
+    object.material.relief().depth = 0.25f;
     return object;
 }
 constexpr dvec3 kDown{0, 0, -1};
 
 TEST(ReliefShading, AddsBaseDiffuseAndSpecularWithTheirWeights) {
     scene::Object object = flatObject();
-    object.material.specularity = 0.25f;
+    object.material.relief().specularity = 0.25f;
     const Field field(object.field());
     LightSource light = distant({0, 0, 1});
     light.color = {2, 2, 2};
@@ -332,7 +332,7 @@ TEST(ReliefShading, AddsBaseDiffuseAndSpecularWithTheirWeights) {
 
 TEST(ReliefShading, SpecularIsOneWhereTheNormalIsHalfway) {
     scene::Object object = flatObject();
-    object.material.specularity = 1;
+    object.material.relief().specularity = 1;
     // The plane z = x / 2 under a light in the mirror direction of the eye: s = 1 and nothing else is left.
     object.shape = test::shapeOf(64, 64, 1, 0.5f, [](int x, int) { return float(x) / 64; });
     const Field field(object.field());
@@ -347,7 +347,7 @@ TEST(ReliefShading, SpecularIsOneWhereTheNormalIsHalfway) {
 TEST(ReliefShading, ForwardScatterFollowsTheAngleBetweenEyeAndLight) {
     scene::Object object = flatObject();
     object.material.base = vec3(0);
-    object.material.forwardScatter = 0.5f;
+    object.material.relief().forwardScatter = 0.5f;
     const Field field(object.field());
     // A lamp straight below: f = v . l = 1, so the factor (1 - kf) + kf f is 1; at 30 degrees under the
     // horizon f = 1/2 and the factor 3/4. Both are half a metre of ground away from a point 0.25 m deep: d =
@@ -364,11 +364,11 @@ TEST(ReliefShading, ForwardScatterFollowsTheAngleBetweenEyeAndLight) {
 
 TEST(ReliefShading, FalloffsRemapAndAStepNeedsNoDivision) {
     scene::Object object = flatObject();
-    object.material.specularity = 1;
+    object.material.relief().specularity = 1;
     const Field field(object.field());
     const LightSource light = distant(elevated(30)); // s = sin(30 degrees) = 1/2
     const auto specular = [&](vec2 falloff) {
-        object.material.specularFalloff = falloff;
+        object.material.relief().specularFalloff = falloff;
         return shade(field, object, field.pointAbove({0, 0}), kDown, {{light}, {}}, Attenuation::Ratio)
             .color.r;
     };

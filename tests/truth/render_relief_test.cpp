@@ -167,8 +167,8 @@ scene::Scene roughScene() {
     object.name = "field";
     object.shape = test::shapeOf(16, 16, 1, 0.2f, test::noise(3));
     object.material.base = vec3(0.1f);
-    object.material.depth = 0.04f;
-    object.material.specularity = 0.3f;
+    object.material.relief().depth = 0.04f;
+    object.material.relief().specularity = 0.3f;
     scene.objects.push_back(object);
     scene.lights.push_back(scene::PointLight{});
     return scene;
@@ -217,7 +217,7 @@ TEST(RenderRelief, ScalingEverythingTheDepthTooChangesNothing) {
     scene.camera.type = scene::Camera::Type::Perspective;
     const Image before = rendered(scene, {20, 12}, scene::Aov::Color);
     scene.objects[0].transform.scale = 4;
-    scene.objects[0].material.depth *= 4;
+    scene.objects[0].material.relief().depth *= 4;
     scene.objects[0].transform.translate = {1, 2, 3};
     scene.camera.eye = 4.f * scene.camera.eye + vec3(1, 2, 3);
     scene.camera.target = vec3(1, 2, 3);

@@ -20,9 +20,25 @@ inline scene::Object glass(scene::Shape shape, float ior, vec3 centre = vec3(0))
     scene::Object object;
     object.name = "glass";
     object.shape = std::move(shape);
-    object.material.transmission = 1;
-    object.material.ior = ior;
+    object.material.kind = scene::Clear{.ior = ior};
     object.transform.translate = centre;
+    return object;
+}
+
+/// Heights [m] of a place in x and z, in texels of 2 mm, as a field of glass on y = 0 whose top faces +y.
+template <class Height>
+scene::Object glassRelief(int texels, float ior, Height height) {
+    auto map = std::make_shared<Image>(texels, texels, 1);
+    scene::HeightField field;
+    field.width = 0.002f * float(texels);
+    field.heightScale = 1;
+    for (int y = 0; y < texels; ++y)
+        for (int x = 0; x < texels; ++x)
+            *map->at(x, y) =
+                float(height(0.002 * (x - 0.5 * (texels - 1)), 0.002 * (y - 0.5 * (texels - 1))));
+    field.heights = std::move(map);
+    scene::Object object = glass(field, ior);
+    object.transform.rotate = {-90, 0, 0};
     return object;
 }
 
@@ -36,7 +52,7 @@ inline scene::Object matt(scene::Shape shape, vec3 centre = vec3(0)) {
 
 inline scene::Object mirror(scene::Shape shape, vec3 centre = vec3(0)) {
     scene::Object object = matt(std::move(shape), centre);
-    object.material.reflectance = vec3(1);
+    object.material.kind = scene::Mirror{};
     return object;
 }
 

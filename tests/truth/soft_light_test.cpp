@@ -28,7 +28,7 @@ scene::Object flatObject(float depth) {
     scene::Object object;
     object.shape = test::shapeOf(64, 64, 8, 0.1f, [](int, int) { return 0.5f; });
     object.material.diffuse = vec3(1);
-    object.material.depth = depth;
+    object.material.relief().depth = depth;
     return object;
 }
 
@@ -220,7 +220,7 @@ scene::Scene softScene() {
     scene::Object object;
     object.name = "field";
     object.shape = test::shapeOf(16, 16, 1, 0.2f, noise(3));
-    object.material.depth = 0.04f;
+    object.material.relief().depth = 0.04f;
     scene.objects.push_back(object);
     scene::PointLight lamp;
     lamp.radius = 0.1f;
@@ -295,8 +295,8 @@ TEST(ReliefEstimator, ScalingEverythingTheLampsRadiusTooChangesNothing) {
     const Picture before = solved(scene, {12, 12}, options);
     EXPECT_GT(before.standardError(), 0);
     auto& lamp = std::get<scene::PointLight>(scene.lights[0]);
-    for (float* length : {&scene.objects[0].transform.scale, &scene.objects[0].material.depth, &lamp.radius,
-                          &scene.camera.height})
+    for (float* length : {&scene.objects[0].transform.scale, &scene.objects[0].material.relief().depth,
+                          &lamp.radius, &scene.camera.height})
         *length *= 4;
     lamp.position *= 4;
     scene.camera.eye *= 4;

@@ -57,10 +57,10 @@ TEST(Walk, MarbleSphereGivesBackTheKnownShares) {
 
 TEST(Walk, WithoutAbsorptionAllLightLeaves) {
     scene::Scene scene = fromAside();
-    scene.objects[0].material.setAbsorption(vec3(0));
-    scene.objects[0].material.scattering = vec3(300, 1000, 1e-6f);
+    scene.objects[0].material.translucent().absorption = vec3(0);
+    scene.objects[0].material.translucent().scattering = vec3(300, 1000, 1e-6f);
     for (const float ior : {1.0f, 1.5f, 0.7f}) {
-        scene.objects[0].material.ior = ior;
+        scene.objects[0].material.translucent().ior = ior;
         const EnergyBook book = bookOf(scene, {.photons = 6000});
         for (int c = 0; c < 3; ++c) {
             // Roulette ends ways whose light others carry on: a spread of the few percent that were left.
@@ -97,11 +97,11 @@ TEST(Walk, HalfSpaceOfIsotropicScatterersReflectsByChandrasekharsFunction) {
     };
     // A mean free path is 1e-5 of the plane: nothing reaches its edge.
     scene::Scene scene = test::marbleHalfSpace();
-    scene::Material& material = scene.objects[0].material;
+    scene::Translucent& material = scene.objects[0].material.translucent();
     const dvec3 albedo(0.5, 0.9, 0.99);
     material.ior = 1;
     material.scattering = vec3(1e5 * albedo);
-    material.setAbsorption(vec3(1e5 * (1.0 - albedo)));
+    material.absorption = vec3(1e5 * (1.0 - albedo));
     const EnergyBook book = bookOf(scene, {.photons = 300000});
     for (int c = 0; c < 3; ++c)
         // Two thirds of the rays aimed at the ball around the square meet it; a share spreads by 0.4 at most.
@@ -112,7 +112,7 @@ TEST(Walk, ForwardScatteringSpreadsLightAsTheReducedCoefficientSays) {
     // Similarity, where light forgets its direction before it leaves: the sphere is 22 reduced free ways
     // thick.
     scene::Scene scene = fromAside();
-    scene::Material& material = scene.objects[0].material;
+    scene::Translucent& material = scene.objects[0].material.translucent();
     material.anisotropy = 0.8f;
     material.scattering /= 1 - material.anisotropy;
     const EnergyBook book = bookOf(scene, {.photons = 15000});
@@ -218,7 +218,7 @@ TEST(Walk, WhatStandsInTheLightsWayShadows) {
 
 TEST(Walk, RefusesSlabsThatAreNoBodies) {
     scene::Scene scene = test::marbleSphere();
-    scene.objects[0].material.thickness = 0.004f;
+    scene.objects[0].material.translucent().thickness = 0.004f;
     const Result<Picture> picture = traceWalks(scene, {2, 2}, {}, {}, {}, kNever);
     ASSERT_FALSE(picture);
     EXPECT_EQ(

@@ -64,7 +64,7 @@ inline scene::Mesh tentMesh() {
     scene::Mesh mesh{.positions = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}},
                      .indices = {0, 1, 2, 1, 3, 2}};
     scene::Material glass;
-    glass.transmission = 1;
+    glass.kind = scene::Clear{};
     mesh.parts = {{"cloth", 0, 3, {}}, {"pane", 3, 3, glass}};
     return mesh;
 }

@@ -44,7 +44,8 @@ protected:
         bool operator==(const Coefficients&) const = default;
     };
     Coefficients materialNow() const {
-        return {material().scattering, material().absorption(), material().ior};
+        return {material().translucent().scattering, material().translucent().absorption,
+                material().translucent().ior};
     }
     void set(const std::string& id, const std::string& value) {
         const Status done = viewer->set(kMaterial + id, value);
@@ -89,8 +90,8 @@ TEST_F(SubsurfaceTest, AMeasuredMaterialIsOneStepAndUndoneToTheBit) {
     EXPECT_EQ(viewer->get(kMaterial + "preset"), "marble");
     set("preset", "skin1");
     settle();
-    EXPECT_EQ(material().ior, 1.3f);
-    EXPECT_NEAR(material().scattering.z, 1010, 1e-3);
+    EXPECT_EQ(material().translucent().ior, 1.3f);
+    EXPECT_NEAR(material().translucent().scattering.z, 1010, 1e-3);
     EXPECT_GT(differences(before, window->read()), 5000);
     EXPECT_TRUE(viewer->undo());
     EXPECT_EQ(materialNow(), start);
@@ -110,10 +111,10 @@ TEST_F(SubsurfaceTest, ADragOnBlurMovesTheOthersAndIsOneStep) {
     const double wanted = 0.02 * std::pow(50 / 0.02, 0.75);
     EXPECT_NEAR(number(kMaterial + "blur"), wanted, 0.01 * wanted); // steps of a pixel
     EXPECT_NEAR(number(kMaterial + "glow"), glow, 1e-5);
-    const double factor = double(material().scattering.x) / double(start.scattering.x);
-    EXPECT_NEAR(material().absorption().y, factor * double(start.absorption.y),
+    const double factor = double(material().translucent().scattering.x) / double(start.scattering.x);
+    EXPECT_NEAR(material().translucent().absorption.y, factor * double(start.absorption.y),
                 1e-5 * factor * double(start.absorption.y));
-    EXPECT_NEAR(vector(kMaterial + "scatteringPerMm").x, material().scattering.x / 1000, 1e-6);
+    EXPECT_NEAR(vector(kMaterial + "scatteringPerMm").x, material().translucent().scattering.x / 1000, 1e-6);
     EXPECT_EQ(viewer->get(kMaterial + "preset"), "own");
     EXPECT_TRUE(viewer->undo());
     EXPECT_EQ(materialNow(), start);
@@ -140,7 +141,7 @@ TEST_F(SubsurfaceTest, ADragThatPassesAPlaceTwiceFindsTheSameNumbersThere) {
 TEST_F(SubsurfaceTest, GlowAndTheCoefficientsFollowEachOther) {
     set("glow", "0.5");
     EXPECT_NEAR(number(kMaterial + "blur"), 3 / 7.8233, 1e-5); // sigma_t' stays
-    EXPECT_GT(material().absorption().x, start.absorption.x);
+    EXPECT_GT(material().translucent().absorption.x, start.absorption.x);
     const std::string scattering = viewer->get(kMaterial + "scatteringPerMm");
     set("absorptionPerMm", "0 0 0");
     EXPECT_EQ(viewer->get(kMaterial + "scatteringPerMm"), scattering);
@@ -177,16 +178,18 @@ TEST_F(SubsurfaceTest, TheCurvesAreTheProfileThatIsDrawn) {
             EXPECT_GT(mm, last);
             last = mm;
             for (std::size_t c = 0; c < 3; ++c) {
-                const double exact =
-                    diffusion::reflectance(media[c], shape, double(material().thickness), mm / 1000);
+                const double exact = diffusion::reflectance(
+                    media[c], shape, double(material().translucent().thickness), mm / 1000);
                 // the numbers are floats, and so is the distance at which the curve is taken
                 EXPECT_NEAR(plot["values"][i][c].get<double>(), exact / 1e6, 2e-5 * exact / 1e6)
                     << name << " at " << mm;
             }
         }
         for (std::size_t c = 0; c < 3; ++c)
-            EXPECT_NEAR(plot["whole"][c].get<double>(),
-                        diffusion::totalReflectance(media[c], shape, double(material().thickness)), 1e-6);
+            EXPECT_NEAR(
+                plot["whole"][c].get<double>(),
+                diffusion::totalReflectance(media[c], shape, double(material().translucent().thickness)),
+                1e-6);
     }
 }
 

@@ -387,7 +387,7 @@ TEST_F(Picture, AMeshDroppedOnTheViewerBecomesAScene) {
     const Status broken = viewer->openMesh("half.glb", Bytes(20, std::byte(7)));
     ASSERT_FALSE(broken.ok());
     EXPECT_EQ(broken.error().message,
-              "half.glb: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM2");
+              "half.glb: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM4");
     EXPECT_EQ(viewer->title(), "tent.glb");
 }
 

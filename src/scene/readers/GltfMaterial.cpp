@@ -1,6 +1,9 @@
 #include "scene/readers/GltfMaterial.h"
 
+#include "scene/Keys.h"
+
 #include <algorithm>
+#include <optional>
 
 namespace lucent::scene {
 namespace {
@@ -34,42 +37,35 @@ public:
         const vec3 color = rgb(pbr.baseColorFactor, vec3(1));
         Material m;
         m.diffuse = color;
-        m.ior = number(kIor, "ior", 1.5f);
-        m.transmission = number(kTransmission, "transmissionFactor", 0) * float(1 - pbr.metallicFactor);
-        m.dispersion = number(kDispersion, "dispersion", 0);
+        m.kind = kindOf(color);
         readEmission(m);
-
-        const bool smoothMetal = pbr.metallicFactor == 1 && pbr.roughnessFactor == 0;
-        if (m.ior == 0) {
-            m.reflectance = vec3(1);
-        } else if (smoothMetal) {
-            m.reflectance = color;
-        } else {
-            nameWhen(pbr.metallicFactor > 0 && !saysNothing(), "metallicFactor");
-            readScattering(m);
-            if (m.isScattering())
-                m.roughness = float(pbr.roughnessFactor);
-            else
-                nameWhen(m.isRefractive() ? pbr.roughnessFactor > 0 : pbr.roughnessFactor < 1,
-                         "roughnessFactor");
-        }
         nameWhen(!m.isScattering() && number(kDiffuse, "diffuseTransmissionFactor", 0) > 0,
                  "diffuseTransmissionFactor");
-        if (m.isMirror()) { // reflects everything: nothing gets inside
-            m.ior = Material{}.ior;
-            m.transmission = 0;
-        }
         if (m.isScattering()) nameWhen(color != vec3(1), "baseColorFactor of what light is scattered in");
-        if (m.isRefractive()) {
-            nameWhen(color != vec3(1), "baseColorFactor of what light passes through");
-            readVolume(m);
-        }
+        if (m.isRefractive()) nameWhen(color != vec3(1), "baseColorFactor of what light passes through");
         nameTextures();
         nameWhen(gltf_.alphaMode != "OPAQUE", "alphaMode " + gltf_.alphaMode);
         return m;
     }
 
 private:
+    MaterialKinds kindOf(vec3 color) {
+        const tinygltf::PbrMetallicRoughness& pbr = gltf_.pbrMetallicRoughness;
+        const float ior = number(kIor, "ior", 1.5f);
+        if (ior == 0) return Mirror{vec3(1)}; // reflects everything: nothing gets inside
+        if (pbr.metallicFactor == 1 && pbr.roughnessFactor == 0) {
+            if (color == vec3(0)) return Matt{};
+            return Mirror{color};
+        }
+        nameWhen(pbr.metallicFactor > 0 && !saysNothing(), "metallicFactor");
+        if (const std::optional<Translucent> inside = readScattering(ior)) return *inside;
+        const float transmission =
+            number(kTransmission, "transmissionFactor", 0) * float(1 - pbr.metallicFactor);
+        nameWhen(transmission > 0 ? pbr.roughnessFactor > 0 : pbr.roughnessFactor < 1, "roughnessFactor");
+        if (transmission > 0) return readVolume(transmission, ior);
+        return Matt{};
+    }
+
     void nameWhen(bool found, const std::string& property) {
         if (found) unread_.insert(property);
     }
@@ -103,37 +99,40 @@ private:
     }
 
     // The thickness itself, and its texture, are of use to rasterisers alone: here light takes its true way.
-    void readVolume(Material& m) {
-        if (!(number(kVolume, "thicknessFactor", 0) > 0)) {
-            m.ior = 1;
-            m.dispersion = 0;
+    Clear readVolume(float transmission, float ior) {
+        if (!isVolume()) {
             unread_.insert("the reflection of thin walls (KHR_materials_volume.thicknessFactor 0)");
-            return;
+            return {.transmission = transmission, .ior = 1};
         }
-        readAttenuation(m);
+        const Attenuation attenuation = readAttenuation();
+        return {.transmission = transmission,
+                .ior = ior,
+                .absorption = absorptionOf(attenuation),
+                .dispersion = number(kDispersion, "dispersion", 0),
+                .attenuationDistance = attenuation.distance};
     }
 
-    void readAttenuation(Material& m) {
-        m.attenuationDistance = number(kVolume, "attenuationDistance", 0); // not said: infinite, our 0
-        m.attenuationColor = color(kVolume, "attenuationColor", vec3(1));
+    bool isVolume() const { return number(kVolume, "thicknessFactor", 0) > 0; }
+
+    Attenuation readAttenuation() const { // a distance that is not said is infinite, our 0
+        return {number(kVolume, "attenuationDistance", 0), color(kVolume, "attenuationColor", vec3(1))};
     }
 
-    void readScattering(Material& m) {
+    std::optional<Translucent> readScattering(float ior) {
         const vec3 seen = color(kScatter, "multiscatterColor", vec3(0));
-        if (seen == vec3(0)) return;
-        Material volume;
-        readAttenuation(volume);
-        const dvec3 extinction(volume.absorption());
-        if (!(number(kVolume, "thicknessFactor", 0) > 0) || extinction == dvec3(0)) {
+        if (seen == vec3(0)) return {};
+        const dvec3 extinction(absorptionOf(readAttenuation()));
+        if (!isVolume() || extinction == dvec3(0)) {
             unread_.insert("multiscatterColor without a volume that attenuates light");
-            return;
+            return {};
         }
-        m.anisotropy = number(kScatter, "scatterAnisotropy", 0);
-        const dvec3 albedo = singleAlbedo(dvec3(seen), double(m.anisotropy));
-        m.scattering = vec3(albedo * extinction);
-        m.setAbsorption(vec3((1.0 - albedo) * extinction));
-        m.transmission = 0;
-        m.dispersion = 0;
+        const float anisotropy = number(kScatter, "scatterAnisotropy", 0);
+        const dvec3 albedo = singleAlbedo(dvec3(seen), double(anisotropy));
+        return Translucent{.scattering = vec3(albedo * extinction),
+                           .absorption = vec3((1.0 - albedo) * extinction),
+                           .ior = ior,
+                           .anisotropy = anisotropy,
+                           .roughness = float(gltf_.pbrMetallicRoughness.roughnessFactor)};
     }
 
     void nameTextures() {

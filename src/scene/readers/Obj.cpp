@@ -133,11 +133,16 @@ Status readMaterials(const std::string& name, std::span<const std::byte> bytes, 
                      Names& unread) {
     LineReader lines(name, bytes, false);
     Material* material = nullptr;
+    Clear clear;
+    const auto take = [&] {
+        material->kind = clear.transmission > 0 ? MaterialKinds(clear) : MaterialKinds(Matt{});
+    };
     std::string_view keyword, rest;
     while (lines.next(keyword, rest)) {
         if (keyword == "newmtl") {
             material = &materials[std::string(trimmed(rest))];
-            material->ior = 1; // the format's default
+            clear = {.transmission = 0, .ior = 1}; // the format's defaults
+            take();
         } else if (!material) {
             lines.fail("a line comes before a material; must follow newmtl");
         } else if (keyword == "Kd") {
@@ -145,14 +150,15 @@ Status readMaterials(const std::string& name, std::span<const std::byte> bytes, 
         } else if (keyword == "Ke") {
             material->base = lines.vector(keyword, rest);
         } else if (keyword == "Ni") {
-            material->ior = lines.number(keyword, rest);
-            if (!(material->ior > 0))
-                lines.fail("Ni is " + std::to_string(material->ior) + "; must be above 0");
+            clear.ior = lines.number(keyword, rest);
+            if (!(clear.ior > 0)) lines.fail("Ni is " + std::to_string(clear.ior) + "; must be above 0");
+            take();
         } else if (keyword == "d" || keyword == "Tr") { // how solid it is, or how clear
             const float part = lines.number(keyword, rest);
             if (!(part >= 0 && part <= 1))
                 lines.fail(std::string(keyword) + " is " + std::to_string(part) + "; must be in [0, 1]");
-            material->transmission = keyword == "d" ? 1 - part : part;
+            clear.transmission = keyword == "d" ? 1 - part : part;
+            take();
         } else if (keyword != "Ka" &&
                    keyword != "illum") { // light of renderers past, and their choice of terms
             unread.insert(nameOf(keyword));
@@ -335,9 +341,9 @@ private:
             if (indices.empty()) continue;
             const auto material = materials.find(name);
             if (hasMaterials_)
-                mesh_.parts.push_back({name, std::uint32_t(mesh_.indices.size()),
-                                       std::uint32_t(indices.size()),
-                                       material == materials.end() ? Material() : material->second});
+                mesh_.parts.push_back(
+                    {name, std::uint32_t(mesh_.indices.size()), std::uint32_t(indices.size()),
+                     material == materials.end() ? Material{.kind = Matt{}} : material->second});
             mesh_.indices.insert(mesh_.indices.end(), indices.begin(), indices.end());
         }
     }

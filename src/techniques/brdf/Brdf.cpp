@@ -17,7 +17,8 @@ MattBlock mattBlock(const Inputs& in, int first) {
         const int place = solid.drawn.index - first;
         if (place < 0 || place >= kMostMatter) continue;
         const scene::Material& material = solid.drawn.object->material;
-        block.matter[std::size_t(place)] = {vec4(material.base, 0), vec4(material.diffuse, 1)};
+        const float matt = material.isRelief() ? 1 - material.relief().specularity : 1;
+        block.matter[std::size_t(place)] = {vec4(matt * material.base, 0), vec4(matt * material.diffuse, 1)};
     }
     return block;
 }
@@ -25,7 +26,7 @@ MattBlock mattBlock(const Inputs& in, int first) {
 MirrorBlock mirrorBlock(const MirrorInputs& in, const views::PosedMesh& mesh) {
     MirrorBlock block{.view = views::viewBlock(in.eye, in.size),
                       .around = views::aroundBlock(in.surroundings),
-                      .reflectance = vec4(mesh.drawn.object->material.reflectance, 0),
+                      .reflectance = vec4(mesh.drawn.object->material.mirror().reflectance, 0),
                       .object = mesh.drawn.index,
                       .cube = -1};
     if (in.surroundings) {

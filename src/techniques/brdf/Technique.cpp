@@ -14,8 +14,9 @@ using scene::Aov;
 
 bool isMatt(const scene::Object& object) {
     const scene::Material& material = object.material;
-    return object.visible && !object.isField() && !material.isRefractive() && !material.isMirror() &&
-           (!material.isScattering() || views::isPainted(object));
+    if (!object.visible || object.isField()) return false;
+    return material.isRelief() || std::holds_alternative<scene::Matt>(material.kind) ||
+           views::isPainted(object);
 }
 
 bool isShownMirror(const scene::Object& object) {
@@ -114,6 +115,13 @@ private:
     Brdf brdf_;
 };
 
+bool isShinyMesh(const scene::Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
+        if (!object.visible || object.isField() || !object.material.isRelief()) return false;
+        const scene::Relief& relief = object.material.relief();
+        return relief.specularity > 0 || relief.forwardScatter > 0;
+    });
+}
 bool hasMirror(const scene::Scene& scene) { return countVisible(scene, isShownMirror) > 0; }
 bool isAlone(const scene::Scene& scene) { return countVisible(scene, isAnything) < 2; }
 bool shows(const scene::Scene& scene, views::Around around) {
@@ -136,6 +144,8 @@ const technique::NotDrawn kLimits[] = {
          };
          return shows(scene, views::Around::Surroundings) && countVisible(scene, isCurved) > 0;
      }},
+    {"highlight and forward scattering of a relief material on other shapes than height fields",
+     "without heights of its own a surface is drawn as the model's matt part", isShinyMesh},
 };
 
 } // namespace

@@ -124,7 +124,7 @@ MirrorBlock LightPasses::mirrorBlock(const Plan::View& view) const {
         .view = views::viewBlock(view.eye, viewSize()), .lamp = lampBlock(), .border = view.border};
     for (const views::PosedMesh& mesh : mirrorsOf(in_.solids))
         block.mirrors[std::size_t(block.count++)] =
-            vec4(objectOf(mesh).material.reflectance, float(mesh.drawn.index));
+            vec4(objectOf(mesh).material.mirror().reflectance, float(mesh.drawn.index));
     return block;
 }
 

@@ -44,11 +44,6 @@ RefractBlock blockOf(const Inputs& in, ivec2 size) {
     return block;
 }
 
-bool sameOptics(const scene::Material& a, const scene::Material& b) {
-    return a.ior == b.ior && a.absorption() == b.absorption() && a.dispersion == b.dispersion &&
-           a.transmission == b.transmission && a.fresnel == b.fresnel;
-}
-
 bool looksAround(const Inputs& in, const Settings& settings) {
     return in.surroundings && in.surroundings->hasCubes() && in.show == scene::Aov::Color &&
            settings.surroundings == views::Around::Surroundings && settings.trace == Trace::Pyramid;
@@ -61,7 +56,7 @@ void warnOfLimits(const Inputs& in, const Settings& settings) {
     const auto& glass = in.glass;
     if (settings.layers != LayerMethod::Peel &&
         std::any_of(glass.begin(), glass.end(), [&](const views::PosedMesh& mesh) {
-            return !sameOptics(mesh.drawn.object->material, glass[0].drawn.object->material);
+            return mesh.drawn.object->material.clear() != glass[0].drawn.object->material.clear();
         }))
         warnOnce("refract: layers " + std::string(kLayers[int(settings.layers)]) +
                  " tell objects not apart; light goes on in the one that it meets first");

@@ -15,7 +15,7 @@ std::vector<std::string> defines(const views::DrawnObject& drawn, const Settings
     constexpr auto none = graph::TextureHandle::None;
     std::vector<std::string> list;
     if (!in.transferred.empty()) list.push_back("USE_TRANSFER");
-    const bool shines = !in.transferred.empty() && drawn.object->material.specularity > 0;
+    const bool shines = !in.transferred.empty() && drawn.object->material.relief().specularity > 0;
     if (in.first == in.end && !shines) list.push_back("LIGHTLESS");
     if (settings.method == Method::March) list.push_back("METHOD_MARCH");
     if (settings.method == Method::Counting) list.push_back("METHOD_COUNTING");
@@ -52,13 +52,14 @@ ReliefBlock blockOf(const views::DrawnObject& drawn, const Inputs& in, const Set
 ReliefBlock makeBlock(const views::DrawnObject& drawn, const Settings& settings) {
     const scene::Object& object = *drawn.object;
     const scene::Material& material = object.material;
+    const scene::Relief& relief = material.relief();
     const float scale = object.transform.scale;
     ReliefBlock block{};
     block.field = drawn.field->block(object.field());
-    block.base = vec4(material.base, material.specularity);
-    block.diffuse = vec4(material.diffuse, material.forwardScatter);
-    block.specular = vec4(material.specular, material.depth / scale);
-    block.falloffs = vec4(material.specularFalloff, material.scatterFalloff);
+    block.base = vec4(material.base, relief.specularity);
+    block.diffuse = vec4(material.diffuse, relief.forwardScatter);
+    block.specular = vec4(relief.specular, relief.depth / scale);
+    block.falloffs = vec4(relief.specularFalloff, relief.scatterFalloff);
     block.objectFromWorld = block.worldFromObject = mat4(1);
     block.share = block.factor = 1;
     block.metres = scale;

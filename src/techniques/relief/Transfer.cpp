@@ -80,7 +80,7 @@ std::vector<SmallLight> smallLights(const scene::Scene& scene, const Settings& s
 
 Transfer::Key Transfer::keyOf(const scene::Object& object, const Settings& settings) {
     return {object.field().heights,     object.field().width,
-            object.field().heightScale, object.material.depth / object.transform.scale,
+            object.field().heightScale, object.material.relief().depth / object.transform.scale,
             settings.attenuation,       roundUp(settings.terms, 4)};
 }
 
@@ -246,9 +246,10 @@ std::vector<Transfer::CellLight> Transfer::cellLights(const std::vector<SmallLig
 std::vector<vec4> Transfer::fluxOf(const std::vector<CellLight>& lights, const scene::Material& material,
                                    vec3 view) const {
     std::vector<vec4> flux(std::size_t(cells_.count()), vec4(0));
-    const float kf = material.forwardScatter;
+    const float kf = material.relief().forwardScatter;
     for (const auto& [light, cell] : lights) {
-        const float f = kf > 0 ? falloff(glm::dot(view, light.direction), material.scatterFalloff) : 0;
+        const float f =
+            kf > 0 ? falloff(glm::dot(view, light.direction), material.relief().scatterFalloff) : 0;
         flux[std::size_t(cell)] += vec4(((1 - kf) + kf * f) * light.color, light.weight);
     }
     return flux;
@@ -257,7 +258,7 @@ std::vector<vec4> Transfer::fluxOf(const std::vector<CellLight>& lights, const s
 void Transfer::setEnvironment(const scene::Object& object, const std::vector<SmallLight>& lights,
                               const std::vector<vec3>& views, float error) {
     const auto inCells = cellLights(lights, glm::transpose(rotationFromDegrees(object.transform.rotate)));
-    const std::size_t nodes = object.material.forwardScatter == 0 ? 1 : views.size();
+    const std::size_t nodes = object.material.relief().forwardScatter == 0 ? 1 : views.size();
     light_.assign(nodes * kMostTerms, vec4(0));
     termsUsed_ = basis_.terms();
     for (std::size_t node = 0; node < nodes; ++node) {
@@ -310,7 +311,7 @@ void Transfer::drawGloss(const scene::Material& material, const std::vector<Cell
     if (!gloss_)
         gloss_ = graph::Texture(context_.device(), {.size = kGlossSize, .format = Format::RGBA32F},
                                 "relief.gloss");
-    if (material.specularity == 0) return;
+    if (material.relief().specularity == 0) return;
     Image table(kGlossSize.x, kGlossSize.y, 4);
     const std::vector<vec4> flux = fluxOf(lights, scene::Material{}, vec3(0));
     for (int y = 0; y < kGlossSize.y; ++y) {
@@ -321,7 +322,8 @@ void Transfer::drawGloss(const scene::Material& material, const std::vector<Cell
             const vec3 r(radius * std::cos(azimuth), radius * std::sin(azimuth), z);
             vec3 sum(0);
             for (std::size_t i = 0; i < flux.size(); ++i)
-                sum += falloff(glm::dot(r, cells_.directions()[i]), material.specularFalloff) * vec3(flux[i]);
+                sum += falloff(glm::dot(r, cells_.directions()[i]), material.relief().specularFalloff) *
+                       vec3(flux[i]);
             std::copy_n(&sum[0], 3, table.at(x, y));
         }
     }

@@ -21,8 +21,8 @@ vec3 wholeOf(const scene::Material& material, const Settings& settings) {
     const std::array<diffusion::Medium, 3> media = diffusion::mediaOf(material);
     vec3 whole;
     for (int i = 0; i < 3; ++i)
-        whole[i] = float(
-            diffusion::totalReflectance(media[std::size_t(i)], settings.profile, double(material.thickness)));
+        whole[i] = float(diffusion::totalReflectance(media[std::size_t(i)], settings.profile,
+                                                     double(material.translucent().thickness)));
     return whole;
 }
 
@@ -99,8 +99,8 @@ EnteredKey keyOf(const Arriving& in, const Plan::State& plan) {
     for (const views::DrawnObject& field : in.fields)
         key.objects.push_back(views::objectKey(*field.object, time));
     for (const Plan::State::Object& object : plan.objects)
-        key.bodies.push_back(
-            {in.scene.objects[std::size_t(object.index)].material.surfaceIor(), object.layers, object.sizes});
+        key.bodies.push_back({in.scene.objects[std::size_t(object.index)].material.translucent().surfaceIor(),
+                              object.layers, object.sizes});
     return key;
 }
 
@@ -158,14 +158,15 @@ Status Entering::addTo(graph::FrameGraph& graph, gl::Context& context, const Arr
             graph, context, {eye, size, surface}, std::span(in.samples).subspan(from, count),
             std::span(in.occlusion.shadows).subspan(from - std::size_t(in.first), count));
         if (!occlusion) return occlusion.error();
-        const EnterBlock block{.view = views::viewBlock(eye, size),
-                               .share = vec4(1),
-                               .object = object.index,
-                               .ior = in.scene.objects[std::size_t(object.index)].material.surfaceIor(),
-                               .firstLight = first,
-                               .endLight = end,
-                               .placed = in.placed,
-                               .columns = occlusion->columns};
+        const EnterBlock block{
+            .view = views::viewBlock(eye, size),
+            .share = vec4(1),
+            .object = object.index,
+            .ior = in.scene.objects[std::size_t(object.index)].material.translucent().surfaceIor(),
+            .firstLight = first,
+            .endLight = end,
+            .placed = in.placed,
+            .columns = occlusion->columns};
         Result<TextureId> flux = first == 0 && in.fluxOn ? in.fluxOn({eye, size, surface}) : TextureId{};
         if (!flux) return flux.error();
         if (Status s = recordEnter(graph, context, layer.entered, surface, in.table, *occlusion, *flux,
@@ -181,15 +182,16 @@ Status Entering::addSeen(graph::FrameGraph& graph, gl::Context& context, const A
     std::vector<EnterBlock> blocks;
     for (const views::PosedMesh& mesh : in.solids) {
         const scene::Material& material = mesh.drawn.object->material;
-        blocks.push_back({.view = views::viewBlock(in.eye, in.size),
-                          .share = vec4(in.irradiance ? vec3(1) : wholeOf(material, settings), 0),
-                          .object = mesh.drawn.index,
-                          .ior = in.irradiance ? 1 : material.surfaceIor(), // at 1 all of it enters
-                          .roughness = material.roughness,
-                          .firstLight = in.first,
-                          .endLight = in.end,
-                          .placed = in.placed,
-                          .columns = in.occlusion.columns});
+        blocks.push_back(
+            {.view = views::viewBlock(in.eye, in.size),
+             .share = vec4(in.irradiance ? vec3(1) : wholeOf(material, settings), 0),
+             .object = mesh.drawn.index,
+             .ior = in.irradiance ? 1 : material.translucent().surfaceIor(), // at 1 all of it enters
+             .roughness = material.translucent().roughness,
+             .firstLight = in.first,
+             .endLight = in.end,
+             .placed = in.placed,
+             .columns = in.occlusion.columns});
     }
     if (blocks.empty()) return Done{};
     return recordEnter(graph, context, *seen_, in.surface, in.table, in.occlusion,

@@ -28,7 +28,7 @@ Moment momentOf(const Inputs& in, const Plan::State& plan, const Settings& setti
     for (const Plan::State::Object& object : plan.objects) {
         const scene::Object& body = in.scene.objects[std::size_t(object.index)];
         moment.bodies.push_back({object.index, views::objectKey(body, in.scene.view.time), body.painting,
-                                 diffusion::mediaOf(body.material), body.material.thickness});
+                                 diffusion::mediaOf(body.material), body.material.translucent().thickness});
     }
     if (in.environment != graph::TextureHandle::None) {
         moment.map = in.scene.environment->map;

@@ -99,7 +99,7 @@ FluxBlock blockOf(const views::Eye& eye, ivec2 size, const views::PosedMesh& obj
     FluxBlock block{.view = views::viewBlock(eye, size)};
     block.sharpness = {sharpness.most, sharpness.spread, sharpness.blur, float(sharpness.paper)};
     block.object = object.drawn.index;
-    block.ior = object.drawn.object->material.surfaceIor();
+    block.ior = object.drawn.object->material.translucent().surfaceIor();
     return block;
 }
 

@@ -46,12 +46,13 @@ SubsurfaceShadeBlock shadeBlock(const Inputs& in, const views::PosedMesh& mesh, 
                                 const Settings& settings) {
     const scene::Material& material = mesh.drawn.object->material;
     SubsurfaceShadeBlock block{.view = views::viewBlock(in.eye, in.size),
-                               .ior = material.surfaceIor(),
-                               .roughness = material.roughness,
+                               .ior = material.translucent().surfaceIor(),
+                               .roughness = material.translucent().roughness,
                                .mean = 1,
                                .object = mesh.drawn.index,
                                .unit = unit};
-    if (settings.exit == Exit::Whole) block.mean = float(diffusion::meanTransmittance(material.surfaceIor()));
+    if (settings.exit == Exit::Whole)
+        block.mean = float(diffusion::meanTransmittance(material.translucent().surfaceIor()));
     if (in.environment != graph::TextureHandle::None) {
         block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.scene.environment->rotation)));
         block.intensity = in.scene.environment->intensity;
@@ -144,7 +145,7 @@ Wanted wantedOf(const views::DrawnMesh& mesh, const Settings& settings) {
     Wanted wanted{.media = diffusion::mediaOf(object.material), .wish = {}};
     KernelWish& wish = wanted.wish;
     wish.shape = settings.profile;
-    wish.thickness = object.material.thickness;
+    wish.thickness = object.material.translucent().thickness;
     wish.epsilon = settings.epsilon;
     wish.size = 2 * views::boundsOf(unmoved(object)).radius();
     // In octaves, so that tables stay while someone paints.

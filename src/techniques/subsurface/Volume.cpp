@@ -129,8 +129,8 @@ VolumeBlock Body::block() const {
         block.extinction[c] = float(medium.extinction());
         block.albedo[c] = float(medium.albedo());
     }
-    block.diffusion.a = float(mixedCondition(material.ior));
-    block.extinction.a = material.ior;
+    block.diffusion.a = float(mixedCondition(material.translucent().ior));
+    block.extinction.a = material.translucent().ior;
     block.albedo.a = (block.extinction.r + block.extinction.g + block.extinction.b) / 3;
     block.object = mesh_.drawn.index;
     return block;

@@ -77,9 +77,7 @@ scene::Object& addHidden(scene::Scene& scene, const std::string& name, scene::Sh
 }
 
 void addGlass(scene::Scene& scene, const std::string& name, scene::Shape shape, float ior, vec3 place) {
-    scene::Material& material = addHidden(scene, name, std::move(shape), place).material;
-    material.transmission = 1;
-    material.ior = ior;
+    addHidden(scene, name, std::move(shape), place).material.kind = scene::Clear{.ior = ior};
 }
 
 constexpr float kBallIor = 1.5f;
@@ -103,7 +101,7 @@ scene::Scene waterScene(int size) {
 
 scene::Scene ringScene(int size) {
     scene::Scene scene = floorScene(size, 3);
-    addHidden(scene, "ring", scene::Cylinder{1, 0.4f, true}, {0, 0.2f, 0}).material.reflectance = vec3(1);
+    addHidden(scene, "ring", scene::Cylinder{1, 0.4f, true}, {0, 0.2f, 0}).material.kind = scene::Mirror{};
     scene.lights = {scene::DistantLight{.direction = {1, -0.5f, 0}, .irradiance = 2}};
     return scene;
 }
@@ -112,8 +110,7 @@ scene::Scene ringScene(int size) {
 scene::Scene meshScene(const BenchMesh& mesh, int size) {
     scene::Scene scene = floorScene(size, 4);
     scene::Object object = objectOf(mesh);
-    object.material.transmission = 1;
-    object.material.ior = 1.5f;
+    object.material.kind = scene::Clear{};
     float lowest = 1e30f;
     for (const vec3& position : mesh.mesh->positions)
         lowest = std::min(lowest, position.y);
@@ -137,8 +134,7 @@ scene::Scene wallScene(int size) {
 // What bends light becomes opaque: the same light falls straight on the floor, and none by way of anything.
 void blockLight(scene::Scene& scene) {
     for (scene::Object& object : scene.objects) {
-        object.material.transmission = 0;
-        object.material.reflectance = vec3(0);
+        object.material.kind = scene::Matt{};
     }
 }
 

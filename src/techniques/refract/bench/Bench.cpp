@@ -71,18 +71,13 @@ scene::Scene emptyScene(int size) {
     return scene;
 }
 
-void makeGlass(scene::Object& object, float ior) {
-    object.material.transmission = 1;
-    object.material.ior = ior;
-}
-
 void addGlass(scene::Scene& scene, const std::string& name, scene::Shape shape, float ior = kIor,
               vec3 rotate = vec3(0)) {
     scene::Object& object = scene.objects.emplace_back();
     object.name = name;
     object.shape = std::move(shape);
     object.transform.rotate = rotate;
-    makeGlass(object, ior);
+    object.material.kind = scene::Clear{.ior = ior};
 }
 
 // Shapes whose exact surface is known. The inner ball of "nested" is of thinner glass than what is around it.
@@ -111,7 +106,7 @@ scene::Scene nestedScene(int size) {
 scene::Scene glassScene(const BenchMesh& mesh, int size) {
     scene::Scene scene = emptyScene(size);
     scene.objects = {objectOf(mesh)};
-    makeGlass(scene.objects.front(), kIor);
+    scene.objects.front().material.kind = scene::Clear{.ior = kIor};
     return scene;
 }
 

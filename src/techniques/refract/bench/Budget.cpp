@@ -18,8 +18,7 @@ using namespace measure;
 scene::Object glass(scene::Shape shape, float ior, vec3 translate = vec3(0), vec3 rotate = vec3(0)) {
     scene::Object object;
     object.shape = std::move(shape);
-    object.material.transmission = 1;
-    object.material.ior = ior;
+    object.material.kind = scene::Clear{.ior = ior};
     object.transform.translate = translate;
     object.transform.rotate = rotate;
     return object;

@@ -91,7 +91,7 @@ Case reliefCase(const BenchField& field, bool quick) {
                       double(size.x) * size.y* kLights},
             .settings = reliefSettings(quick),
             // An opaque surface: Lambert's law with exact shadows is the model's own limit for no depth.
-            .toPhysics = [](scene::Scene& scene) { scene.objects[0].material.depth = 1e-6f; }};
+            .toPhysics = [](scene::Scene& scene) { scene.objects[0].material.relief().depth = 1e-6f; }};
 }
 
 Case environmentCase(const BenchEnvironment& environment, int texels, int directions, bool quick) {

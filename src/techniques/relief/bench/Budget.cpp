@@ -285,8 +285,8 @@ Result<Proof> proveBudget(const BenchRun& run) {
             const vec2 footprint = scene.objects[0].field().footprint();
             scene.size = ivec2(kSide, std::max(1, int(float(kSide) * footprint.y / footprint.x)));
             scene.view.show = scene::Aov::Color;
-            scene.objects[0].material.forwardScatter = j % 3 == 1 ? 0.6f : 0;
-            scene.objects[0].material.specularity = (i + j) % 4 == 2 ? 0.4f : 0;
+            scene.objects[0].material.relief().forwardScatter = j % 3 == 1 ? 0.6f : 0;
+            scene.objects[0].material.relief().specularity = (i + j) % 4 == 2 ? 0.4f : 0;
             lights[j].light(scene);
             const std::string name = fields[i].name + " under " + lights[j].name;
             run.say(name);

@@ -470,8 +470,8 @@ Finding exponential(Studio& studio) {
 
 Finding emptyFalloff(Studio& studio) {
     Scene scene = sceneOf(waves({16, 16}), 0.2f, 0.05f);
-    scene.objects[0].material.specularity = 1;
-    scene.objects[0].material.specularFalloff = {0.8f, 0.8f};
+    scene.objects[0].material.relief().specularity = 1;
+    scene.objects[0].material.relief().specularFalloff = {0.8f, 0.8f};
     scene.lights.push_back(lampAt(60, 0));
     const Image color = studio.draw(scene, Aov::Color);
     Finding finding;

@@ -204,10 +204,10 @@ scene::Scene extinctScene(double extinction, int size) {
     scene::Scene scene = marbleBall(size);
     std::get<scene::Sphere>(scene.objects[0].shape).radius *= kLarge;
     scene.camera.height *= kLarge;
-    scene::Material& material = scene.objects[0].material;
-    const float denser = float(extinction * 1000) / (material.scattering.g + material.absorption().g);
-    material.scattering *= denser;
-    material.setAbsorption(denser * material.absorption());
+    scene::Translucent& inside = scene.objects[0].material.translucent();
+    const float denser = float(extinction * 1000) / (inside.scattering.g + inside.absorption.g);
+    inside.scattering *= denser;
+    inside.absorption *= denser;
     return scene;
 }
 

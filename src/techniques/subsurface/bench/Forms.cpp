@@ -17,8 +17,9 @@ Finding halfSpace(Studio& studio) {
     Scene scene = sceneOf({objectOf(scene::Plane{vec2(0.02f)})}, 0.002f);
     scene::Material& material = scene.objects[0].material;
     material = marble();
-    material.scattering = {2000, 3000, 4000};
-    material.setAbsorption(vec3(100)); // no colour goes farther than 1.3 mm: the plane is without end
+    material.translucent().scattering = {2000, 3000, 4000};
+    material.translucent().absorption =
+        vec3(100); // no colour goes farther than 1.3 mm: the plane is without end
     addSun(scene);
     Finding finding;
     takeAll(finding, studio.draw(scene, Aov::Radiosity), radiosityOfHalfSpace(material));
@@ -55,21 +56,24 @@ constexpr Check kChecks[] = {
 } // namespace
 
 scene::Material marble() {
-    scene::Material material;
+    scene::Translucent inside;
     for (const scene::MaterialPreset& preset : scene::materialPresets())
-        if (preset.name == "marble") apply(preset, material);
+        if (preset.name == "marble") apply(preset, inside);
+    scene::Material material;
+    material.kind = inside;
     return material;
 }
 
 dvec3 radiosityOfHalfSpace(const scene::Material& material) {
-    const double ior = double(material.ior);
+    const scene::Translucent& inside = material.translucent();
+    const double ior = double(inside.ior);
     const double entering = 1 - std::pow((ior - 1) / (ior + 1), 2);
     const double reflected = -1.440 / (ior * ior) + 0.710 / ior + 0.668 + 0.0636 * ior; // Fresnel's, diffuse
     const double a = (1 + reflected) / (1 - reflected);
-    const dvec3 absorption(material.absorption());
+    const dvec3 absorption(inside.absorption);
     dvec3 leaving;
     for (int c = 0; c < 3; ++c) {
-        const double scattering = double(material.scattering[c]) * (1 - double(material.anisotropy));
+        const double scattering = double(inside.scattering[c]) * (1 - double(inside.anisotropy));
         const double albedo = scattering / (scattering + absorption[c]);
         const double root = std::sqrt(3 * (1 - albedo));
         leaving[c] = entering * 0.5 * albedo * (1 + std::exp(-4.0 / 3 * a * root)) * std::exp(-root);

@@ -17,15 +17,14 @@ HardCase ballWith(const std::string& name, Change change) {
     return {name, {[=]() -> Result<scene::Scene> { return scene; }, double(kSize) * kSize}, {}};
 }
 
-scene::Material& materialOf(scene::Scene& scene) { return scene.objects.front().material; }
+scene::Translucent& materialOf(scene::Scene& scene) { return scene.objects.front().material.translucent(); }
 
 // Of marble's colours, with another mean free path [m].
 void setPath(scene::Scene& scene, float path) {
-    scene::Material& material = materialOf(scene);
-    const float denser = 1 / (path * (material.scattering.g + material.absorption().g));
-    const vec3 absorption = denser * material.absorption();
+    scene::Translucent& material = materialOf(scene);
+    const float denser = 1 / (path * (material.scattering.g + material.absorption.g));
     material.scattering *= denser;
-    material.setAbsorption(absorption);
+    material.absorption *= denser;
 }
 
 } // namespace
@@ -34,7 +33,7 @@ HardTable hardCases() {
     // Twice the error that splats are asked for, of light of 1 W/m².
     HardTable table{"subsurface", {}, {{"multires"}, {"splat"}}, 0.02};
     table.cases = {
-        ballWith("nothing is absorbed", [](scene::Scene& s) { materialOf(s).setAbsorption(vec3(0)); }),
+        ballWith("nothing is absorbed", [](scene::Scene& s) { materialOf(s).absorption = vec3(0); }),
         ballWith("nearly nothing scatters", [](scene::Scene& s) { materialOf(s).scattering = vec3(1e-6f); }),
         ballWith("mean free path of 100 balls", [](scene::Scene& s) { setPath(s, 100 * 0.02f); }),
         ballWith("mean free path of 1/100 pixel", [](scene::Scene& s) { setPath(s, kPixel / 100); }),

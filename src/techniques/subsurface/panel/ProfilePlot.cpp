@@ -52,7 +52,7 @@ ProfilePlot plotOf(const scene::Object& object, const Settings& settings) {
     for (const Param& param : table.params)
         if (param.id == "profile") plot.profile = param.choices[std::size_t(settings.profile)];
     const std::array<diffusion::Medium, 3> media = diffusion::mediaOf(object.material);
-    const double thickness = double(object.material.thickness);
+    const double thickness = double(object.material.translucent().thickness);
     const double most = 2 * double(views::boundsOf(object).radius());
     for (std::size_t c = 0; c < 3; ++c) {
         plot.reach[c] =
