@@ -40,7 +40,7 @@ TEST_F(Caustics, PointsOfALampLieOnTheDiscThatFacesTheGlass) {
                                       .falloff = scene::LightFalloff::InverseSquare,
                                       .radius = 0.5f}};
     double expected = 0;
-    const auto points = views::lampPoints(scene, views::samplingOf(scene).lamp);
+    const auto points = views::lampPoints(scene, views::samplingOf(std::as_const(scene)).lamp);
     ASSERT_GT(points.size(), 1u);
     for (const views::LampPoint& point : points) {
         const double square =
