@@ -34,8 +34,6 @@ StepTimes timeSteps(gl::Context& context, const std::string& name, const scene::
             return times;
         }
         const bool isNew = progress->complete || progress->samples > samples;
-        if (isNew)
-            if (Status shown = renderer.present(scene); !shown) times.message = shown.error().message;
         ++times.steps;
         if (const double took = now() - before; took > times.longest) {
             times.longest = took;
