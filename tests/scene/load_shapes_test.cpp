@@ -155,7 +155,7 @@ TEST(LoadShapes, KeysOfAnotherKindOfMaterialAreRefused) {
     refused(sphereWith(R"("material": { "transmission": 1, "reflectance": [0, 0, 1] })"),
             "reflectance makes another kind of material than transmission; must stand without it");
     refused(sphereWith(R"("material": { "kind": "glass" })"),
-            "kind is \"glass\"; must be one of relief, matt, mirror, clear, translucent");
+            "kind is \"glass\"; must be relief, matt, mirror, clear or translucent");
 }
 
 TEST(LoadShapes, TheKindFollowsFromTheKeysAndTheShape) {

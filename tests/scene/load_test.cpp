@@ -91,7 +91,7 @@ TEST(Load, UnknownKeysAreRefusedWithTheNearestKnownOne) {
               "\"specularity\"");
     EXPECT_EQ(messageOf(around(R"("material": { "sigmaSPrime": 1 })")),
               "scenes/a.json:5: objects.coin.material.sigmaSPrime is an unknown key; the nearest is "
-              "\"specularity\"");
+              "\"scattering\"");
     EXPECT_EQ(
         messageOf(around("", R"("heights": "h.pfm", "heightscale": 1)")),
         "scenes/a.json:4: objects.coin.shape.heightscale is an unknown key; the nearest is \"heightScale\"");

@@ -20,7 +20,7 @@ Object ball(float radius = 0.5f) {
     MeshShape shape;
     shape.mesh = std::make_shared<const Mesh>(meshOf(Sphere{radius}, 64));
     object.shape = shape;
-    object.material.translucent().scattering = vec3(1000);
+    object.material.kind = Translucent{};
     return object;
 }
 

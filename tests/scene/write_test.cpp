@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace lucent::scene {
 namespace {
 
@@ -148,9 +150,10 @@ TEST(JsonSchema, IsJsonAndListsEveryKey) {
         ASSERT_TRUE(place);
         const Json* properties = place->find("properties");
         ASSERT_TRUE(properties);
-        for (const std::string_view id : keys.ids())
+        const std::vector<std::string_view> ids = keys.ids(); // kinds of a material share some
+        for (const std::string_view id : ids)
             EXPECT_TRUE(properties->find(id)) << id;
-        EXPECT_EQ(properties->keys.size(), keys.ids().size());
+        EXPECT_EQ(properties->keys.size(), std::set<std::string_view>(ids.begin(), ids.end()).size());
         EXPECT_FALSE(place->find("additionalProperties")->boolean);
     };
     const Json& properties = *schema->find("properties");

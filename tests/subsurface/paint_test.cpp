@@ -171,7 +171,7 @@ TEST_F(Painted, AnUnpaintedObjectRunsNoPassOfPaint) {
     EXPECT_NE(text.find("\n  subsurface.matt:"), std::string::npos);
     EXPECT_NE(text.find("brdf: object \"body 0\" is painted"), std::string::npos);
     // Paint on what is opaque does nothing.
-    scene.objects[0].material.translucent().scattering = vec3(0);
+    scene.objects[0].material.kind = scene::Matt{};
     EXPECT_EQ(explained().find("views.paint"), std::string::npos);
 }
 
@@ -213,7 +213,7 @@ TEST_F(Painted, OnesAreTheUnpaintedPictureBitForBit) {
     add(scene::Sphere{0.008f}).material.translucent().roughness = 0.4f;
     add(scene::Box{vec3(0.006f)}).transform = {.translate = {0.007f, 0.004f, 0.004f}, .rotate = {20, 30, 0}};
     scene::Object& floor = add(scene::Plane{{0.03f, 0.03f}});
-    floor.material.translucent().scattering = vec3(0);
+    floor.material.kind = scene::Matt{};
     floor.transform = {.translate = {0, -0.009f, 0}, .rotate = {40, 0, 0}};
     scene.lights = {scene::DistantLight{.direction = {-0.3f, -0.6f, -0.5f}},
                     scene::PointLight{.position = {0.02f, 0.01f, 0.02f},
@@ -304,7 +304,7 @@ TEST_F(Painted, TranslucencyMixesWithTheMattSurface) {
     ball.material.diffuse = {0.7f, 0.5f, 0.3f};
     shineAround(0);
     const Image scattered = picture(scene::Aov::Color);
-    ball.material.translucent().scattering = vec3(0);
+    ball.material.kind = scene::Matt{};
     const Image matt = picture(scene::Aov::Color);
     ball.material = dense();
     ball.material.diffuse = {0.7f, 0.5f, 0.3f};

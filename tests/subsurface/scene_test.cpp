@@ -22,7 +22,7 @@ struct Scattering : support::GlTest {
         scene.camera.height = 0.05f;
         technique::addSettings(scene);
         scene.lights = {scene::DistantLight{.direction = {-0.3f, -1, -0.5f}}};
-        add("ball", scene::Sphere{0.01f}).material.translucent().scattering = vec3(2000);
+        add("ball", scene::Sphere{0.01f}).material.kind = scene::Translucent{.scattering = vec3(2000)};
         scene.objects[0].material.translucent().absorption = vec3(100);
     }
     scene::Object& add(const char* name, scene::Shape shape, vec3 centre = vec3(0)) {
