@@ -10,13 +10,13 @@
 namespace lucent::measure {
 
 /// A picture as a viewer makes it: a look, then the light, then samples of the pixels, step by step; a step
-/// is a call of frame::Renderer::advance() and, where there is something new, of present(). ms of a clock.
+/// is a call of frame::Renderer::advance(). ms of a clock.
 struct StepTimes {
     std::string scene;
     int steps = 0;
     double longest = 0;  ///< step
     std::string where;   ///< it was: "look", "light" or "samples", and its number
-    double look = 0;     ///< until the first look is shown
+    double look = 0;     ///< until the first look is there
     double complete = 0; ///< until all light is there
     std::string message; ///< why nothing was measured
 };
