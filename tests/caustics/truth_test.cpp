@@ -147,7 +147,7 @@ TEST_F(Caustics, WaterThatMovesBetweenWallsAndUnderDropsAgreesWithTruth) {
     scene::Scene scene = floorUnder(glass(water, 1.33f, {0, 0.4f, 0}), 0.6f);
     scene.view.time = 1.2f;
     const Shown shown = show(scene, {60, 60}, {.grid = 256});
-    const Image truth = truthOf(scene, {60, 60}, 1000000);
+    const Image truth = truthOf(scene, {60, 60}, 2000000);
     EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.01);
     EXPECT_LT(misplaced(shown.light, truth), 0.02);
     // What it began as, travelling on without walls, is another picture.
