@@ -454,7 +454,7 @@ private:
                                                       " materials; must stand beside a part or a material");
         return read[0].material.isScattering() ||
                fail(place.at(*json, "paint"),
-                    " does nothing where nothing scatters; must stand beside a translucent material");
+                    " does nothing where nothing scatters; must stand on a translucent object");
     }
 
     // --- meshes

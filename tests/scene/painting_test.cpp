@@ -463,9 +463,8 @@ TEST(Painting, ComplaintsSayWhatIsWrong) {
         messageOf(two, R"({ "strokes": 3 })", marble),
         "scenes/a.json:3: objects.ball.paint.strokes is 3; must be the name of a file or a list of strokes");
     EXPECT_EQ(messageOf(two, fill, R"({ "diffuse": [1, 0, 0] })"),
-              "scenes/a.json:2: objects.ball.paint does nothing where nothing scatters; must stand beside a "
-              "scattering "
-              "above 0");
+              "scenes/a.json:2: objects.ball.paint does nothing where nothing scatters; must stand on a "
+              "translucent object");
     EXPECT_EQ(messageOf(two, fill, R"({ "preset": "marble", "diffuse": [1, 0, 0] })"),
               "no complaint"); // the matt share
 }
