@@ -264,6 +264,7 @@ Status Splatter::splatPart(const Target& target, const Points& points, int coars
         block.view.right = vec4(side * vec3(block.view.right), block.view.right.w);
         block.view.up = vec4(side * vec3(block.view.up), block.view.up.w);
         block.view.size /= side;
+        block.view.middle /= side;
         const vec4 pixels = pixelsOf(in_.eye, target.bounds, in_.size) / side;
         block.bounds = vec4(glm::floor(vec2(pixels)), glm::ceil(vec2(pixels.z, pixels.w)));
         block.unit = unit_;

@@ -140,9 +140,11 @@ Status Body::columns(int axis) {
     // A line a pixel, half a cell apart, the first and the last on the outermost edges.
     const views::Eye eye = eyeAlong(cells_, axis, cells_.width / 4);
     const ivec2 size = 2 * ivec2(cells_.count[(axis + 1) % 3], cells_.count[(axis + 2) % 3]) + 1;
-    const int count = plan_.layers[std::size_t(axis)];
-    const TextureId images = graph_.create(
-        "subsurface.columns", {.size = size, .format = Format::RGBA32F, .layers = std::max(2, count)});
+    // Lines beside those that were counted may still hit the two sides of a sheet that is thinner than a
+    // pixel.
+    const int count = std::max(2, plan_.layers[std::size_t(axis)]);
+    const TextureId images =
+        graph_.create("subsurface.columns", {.size = size, .format = Format::RGBA32F, .layers = count});
     TextureId before;
     for (int layer = 0; layer < count; ++layer) {
         const gl::Program* program =
