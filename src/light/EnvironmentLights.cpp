@@ -37,9 +37,11 @@ double lightOf(glm::dvec3 radiance) { return glm::dot(radiance, glm::dvec3(0.212
 struct Band {
     double solidAngle; // of a pixel
     double cosine;     // of the polar angle, mean
-    glm::dvec3 direction(double u) const {
-        const double azimuth = (2 * u - 1) * std::numbers::pi, sine = std::sqrt(1 - cosine * cosine);
-        return {std::sin(azimuth) * sine, cosine, -std::cos(azimuth) * sine};
+    /// Mean over the part of the row between two of its places, [0,1].
+    glm::dvec3 direction(double from, double to) const {
+        const double azimuth = (from + to - 1) * std::numbers::pi, half = (to - from) * std::numbers::pi;
+        const double across = std::sqrt(1 - cosine * cosine) * (half > 0 ? std::sin(half) / half : 1);
+        return {std::sin(azimuth) * across, cosine, -std::cos(azimuth) * across};
     }
 };
 
@@ -53,7 +55,7 @@ void addPixel(Sums& sums, const Rings& rings, int row, double left, double right
         const double share = band.solidAngle * (end - at) / (right - left);
         const int cell = rings.first[row] + column;
         sums.radiance[cell] += share * color;
-        sums.towards[cell] += share * lightOf(color) * band.direction((at + end) / 2);
+        sums.towards[cell] += share * lightOf(color) * band.direction(at, end);
         sums.area[cell] += share;
         at = std::max(end, at + 1e-12);
     }
