@@ -1,4 +1,4 @@
-// caustics/gather.frag: irradiance by the rays that met what the pixels around show (image-space gathering, Wyman and
+// caustics/gather.frag: irradiance by the rays that hit what the pixels around show (image-space gathering, Wyman and
 // Davis 2006).
 //
 // in    uFlux [light.unit]  caustics/line.frag

@@ -186,7 +186,8 @@ Capability blendFloats(gl::Context& context) {
         "",
         "light adds up in caustic maps and, from inside of things, in the picture; where glass begins and "
         "ends, for voxels",
-        "caustic maps of 16-bit floats: a glass ball's caustic loses 0.7 % of its light; light inside is "
+        "caustic maps of 16-bit floats: a glass ball's caustic loses 0.7 % of its light; subsurface "
+        "scattering is "
         "gathered; voxels of glass take a pass more; layers of glass by peeling are the same",
         present ? blendDifference(context) : kUnknown,
         "largest relative difference between both sums of 64 terms"};

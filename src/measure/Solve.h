@@ -7,7 +7,7 @@
 namespace lucent::measure {
 
 /// By what the scene shows: directions and layers of glass, irradiance by way of glass and mirrors, radiosity
-/// of bodies that scatter light inside; else relief.
+/// of bodies that have subsurface scattering; else relief.
 ///
 /// @param directions  that stand for an environment
 /// @param part        rows of the picture; of what rays of light find, a whole picture by its own rays

@@ -1,6 +1,6 @@
 #pragma once
-/// What leaves bodies that scatter light inside, exactly: by the model that is drawn, and by the physics that
-/// it stands for.
+/// What leaves bodies that have subsurface scattering, exactly: by the model that is drawn, and by the
+/// physics that it stands for.
 
 #include "scene/Scene.h"
 #include "truth/Dipole.h"

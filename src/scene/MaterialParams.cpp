@@ -162,7 +162,7 @@ Param scatteringParam() {
          .max = kFar,
          .high = 5e3, // marble, milk and skin
          .group = Group::Material,
-         .doc = "How often light is scattered on a metre of its way inside, red, green and blue; above "
+         .doc = "How often light is scattered on a metre of its path inside, red, green and blue; above "
                 "0 the object is translucent.",
          .axes = "rgb"});
 }
@@ -231,8 +231,9 @@ const ParamTable& attenuationParams() {
                  .min = 0,
                  .max = 1e30,
                  .group = Group::Refraction,
-                 .doc = "Way inside after which white light has the attenuation colour; 0: nothing is "
-                        "absorbed."}),
+                 .doc =
+                     "Path length inside after which white light has the attenuation colour; 0: nothing is "
+                     "absorbed."}),
         declare(&Attenuation::color,
                 {.id = "attenuationColor",
                  .label = "Attenuation colour",
@@ -314,7 +315,7 @@ const ParamTable& layerParams() {
                  .max = kFar,
                  .high = 5e3,
                  .group = Group::Material,
-                 .doc = "How often light is scattered on a metre of its way, red, green and blue."}),
+                 .doc = "How often light is scattered on a metre of its path, red, green and blue."}),
         declare(&MediumLayer::absorption,
                 {.id = "absorption",
                  .label = "Absorption",

@@ -164,7 +164,7 @@ struct Clear {
     bool operator==(const Clear&) const = default;
 };
 
-/// What scatters light inside.
+/// What has subsurface scattering.
 struct Translucent {
     vec3 scattering{1000};  ///< sigma_s, 1/m, not 0
     vec3 absorption{0};     ///< sigma_a, 1/m

@@ -84,7 +84,7 @@ const ParamTable& meshParams() {
                 {.id = "flatNormals",
                  .label = "Flat normals",
                  .group = Group::Shape,
-                 .doc = "Light meets the triangles themselves instead of normals interpolated over them."}),
+                 .doc = "The normals of the triangles themselves instead of those interpolated over them."}),
     };
     static const ParamTable table = tableOf<MeshShape>("shape", params);
     return table;

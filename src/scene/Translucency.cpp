@@ -177,7 +177,7 @@ const ParamTable& translucencyParams() {
                  .high = 50,
                  .logarithmic = true,
                  .group = Group::Subsurface,
-                 .doc = "How far light spreads inside: the mean way between two collisions, over which it "
+                 .doc = "How far light spreads inside: the mean free path, over which it "
                         "forgets where it came from. Scattering and absorption change together, so that "
                         "colours stay."}),
         declare(&Translucency::glow,
@@ -202,7 +202,7 @@ const ParamTable& translucencyParams() {
                  .high = 20,
                  .logarithmic = true,
                  .group = Group::Subsurface,
-                 .doc = "How often light is scattered on a millimetre of its way inside.",
+                 .doc = "How often light is scattered on a millimetre of its path inside.",
                  .axes = "rgb"}),
         declare(&Translucency::absorptionPerMm,
                 {.id = "absorptionPerMm",
@@ -214,7 +214,7 @@ const ParamTable& translucencyParams() {
                  .high = 2,
                  .logarithmic = true,
                  .group = Group::Subsurface,
-                 .doc = "How often light ends on a millimetre of its way inside.",
+                 .doc = "How often light is absorbed on a millimetre of its path inside.",
                  .axes = "rgb"}),
     };
     static const ParamTable table = tableOf<Translucency>("material", params);

@@ -271,7 +271,8 @@ dvec3 DipoleEstimator::State::sample(const Body& body, const dvec3& to, const Li
                                      const Lines::Family& family, WorldRay line, Random& random) const {
     const Responses& own = responses[std::size_t(&body - bodies->all().data())];
     dvec3 sum(0);
-    for (Hits hits = body.alone.meet(line); hits.count > 0; hits = body.alone.meet(line)) {
+    for (Hits hits = body.alone.coincidentHits(line); hits.count > 0;
+         hits = body.alone.coincidentHits(line)) {
         for (Hit from : hits) {
             from.shape = body.object;
             const dvec3 light = illumination.irradiance(from, from.normal, random, body.surfaceIor);

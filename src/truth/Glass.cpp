@@ -102,7 +102,7 @@ Pixel GlassEstimator::color(ivec2 pixel) const {
 int GlassEstimator::layers(const Beam& beam) const {
     WorldRay ray{beam.origin, beam.direction, kInfinity, beam.begin, false};
     for (int count = 0;;) {
-        const Hits hits = optics_->rays().meet(ray);
+        const Hits hits = optics_->rays().coincidentHits(ray);
         if (hits.count == 0) return count;
         for (const Hit& hit : hits) {
             if (!optics_->object(hit.shape).material.isRefractive() || optics_->isOpaque(hit.shape))

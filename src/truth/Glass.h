@@ -3,8 +3,8 @@
 
 #include "base/Result.h"
 #include "scene/Scene.h"
-#include "truth/Journey.h"
 #include "truth/Lamps.h"
+#include "truth/LightPath.h"
 #include "truth/Optics.h"
 #include "truth/Picture.h"
 #include "truth/Sight.h"

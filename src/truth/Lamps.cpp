@@ -2,7 +2,7 @@
 
 #include "truth/ColorMap.h"
 #include "truth/Interface.h"
-#include "truth/Journey.h"
+#include "truth/LightPath.h"
 
 #include <algorithm>
 #include <cmath>

@@ -98,7 +98,7 @@ public:
                         .direction = emission.direction,
                         .media = media_[lamp],
                         .begin = emission.begin,
-                        .meetsHidden = true};
+                        .hitsHidden = true};
         if (!optics_.disperses()) {
             bring(beam, emission, dvec3(1), 1, random, brought);
             return;
@@ -120,7 +120,7 @@ private:
         // Direct light, which passes what bends nothing as straightTransmittance() says.
         if (arrival.surfaces == 0 || (arrival.bends == 0 && optics_.hasIndexOfOne())) return;
         EnergyBook& energy = brought.energy;
-        energy.met += flux;
+        energy.incident += flux;
         energy.absorbed += flux * arrival.absorbed;
         energy.reflected += flux * arrival.reflected;
         switch (arrival.at) {
@@ -146,7 +146,7 @@ private:
         if (glm::dot(hit.normal, viewer) * glm::dot(hit.normal, direction) >= 0) return; // the other side
         const Leaving leaving = leavingFrom(optics_, hit, viewer);
         WorldRay sight{hit.position, viewer, eye_.distanceFrom(hit.position)};
-        sight.meetsHidden = false;
+        sight.hitsHidden = false;
         if (optics_.rays().occluded(sight, leaving)) return;
         const ivec2 pixel(*place);
         const dvec3 irradiance = flux / eye_.areaOfPixel(hit.position, hit.normal);

@@ -4,7 +4,7 @@
 
 #include "base/Result.h"
 #include "scene/Scene.h"
-#include "truth/Journey.h"
+#include "truth/LightPath.h"
 #include "truth/Picture.h"
 #include "truth/Relief.h"
 

@@ -260,10 +260,10 @@ dvec3 Optics::absorption(int medium) const {
     return material.isRefractive() ? dvec3(material.clear().absorption) : dvec3(0);
 }
 
-Media Optics::mediaAt(const dvec3& place, bool meetsHidden) const {
+Media Optics::mediaAt(const dvec3& place, bool hitsHidden) const {
     Media media;
     for (const int number : optical_) {
-        if (!object(number).material.isRefractive() || (!object(number).visible && !meetsHidden)) continue;
+        if (!object(number).material.isRefractive() || (!object(number).visible && !hitsHidden)) continue;
         if (std::visit([&](const auto& shape) { return contains(shape, place); }, rays_.shape(number)))
             media.enter(number);
     }

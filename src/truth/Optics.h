@@ -62,8 +62,8 @@ public:
     /// What a place lies in: balls and tori by their equations, water by what is above, meshes where they
     /// turn around the place by more than half a sphere (their solid angle, so that a hole does not decide).
     ///
-    /// @param meetsHidden  objects that the eye does not see count as well
-    Media mediaAt(const dvec3& place, bool meetsHidden) const;
+    /// @param hitsHidden  objects that the eye does not see count as well
+    Media mediaAt(const dvec3& place, bool hitsHidden) const;
 
 private:
     Optics(const scene::Scene& scene, RayScene rays);

@@ -65,7 +65,7 @@ struct Tile {
 /// What became of light that met something refractive or mirroring, W of each colour. Every entry is counted
 /// on its own; the first is the sum of the others.
 struct EnergyBook {
-    dvec3 met{0};
+    dvec3 incident{0};
     dvec3 received{0};  ///< by opaque surfaces
     dvec3 absorbed{0};  ///< by media and mirrors
     dvec3 reflected{0}; ///< at interfaces and not followed: the chain's simplification
@@ -79,7 +79,7 @@ struct EnergyBook {
     };
     static const std::array<Entry, 6> kEntries;
 };
-inline constexpr std::array<EnergyBook::Entry, 6> EnergyBook::kEntries{{{"met", &EnergyBook::met},
+inline constexpr std::array<EnergyBook::Entry, 6> EnergyBook::kEntries{{{"incident", &EnergyBook::incident},
                                                                         {"received", &EnergyBook::received},
                                                                         {"absorbed", &EnergyBook::absorbed},
                                                                         {"reflected", &EnergyBook::reflected},

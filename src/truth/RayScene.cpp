@@ -1,12 +1,12 @@
 #include "truth/RayScene.h"
 
-#include "truth/Finder.h"
+#include "truth/RayCaster.h"
 
 namespace lucent::truth {
 
 namespace {
-Result<std::unique_ptr<Finder>> finderOf(RayScene::By by, const std::vector<Entry>& entries,
-                                         const dvec3& middle, double room) {
+Result<std::unique_ptr<RayCaster>> finderOf(RayScene::By by, const std::vector<Entry>& entries,
+                                            const dvec3& middle, double room) {
     if constexpr (RayScene::kUsual == RayScene::By::Embree)
         if (by == RayScene::By::Embree) return findByEmbree(entries, middle, room);
     return findByBoxes(entries, room);
@@ -17,7 +17,7 @@ struct RayScene::State {
     std::vector<Entry> entries; ///< never moved once the finder knows them
     Box box;
     double room = 0; ///< what Embree may be wrong by, and more, m
-    std::unique_ptr<Finder> finder;
+    std::unique_ptr<RayCaster> finder;
 };
 
 RayScene::RayScene(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -41,7 +41,7 @@ Result<RayScene> RayScene::create(std::vector<Shape> shapes, const std::vector<b
         for (Entry& entry : state->entries)
             entry.box = {entry.box.low - room, entry.box.high + room};
     }
-    Result<std::unique_ptr<Finder>> finder = finderOf(by, state->entries, middle, state->room);
+    Result<std::unique_ptr<RayCaster>> finder = finderOf(by, state->entries, middle, state->room);
     if (!finder) return finder.error();
     state->finder = std::move(*finder);
     return RayScene(std::move(state));
@@ -60,7 +60,9 @@ std::optional<Hit> RayScene::intersect(const WorldRay& ray, const Leaving& leavi
     return hits.count > 0 ? std::optional(hits.at[0]) : std::nullopt;
 }
 
-Hits RayScene::meet(const WorldRay& ray, const Leaving& leaving) const { return search(ray, leaving, gap()); }
+Hits RayScene::coincidentHits(const WorldRay& ray, const Leaving& leaving) const {
+    return search(ray, leaving, gap());
+}
 
 bool RayScene::occluded(const WorldRay& ray, const Leaving& leaving) const {
     const Stretch inside = truth::within(state_->box, ray);

@@ -71,8 +71,8 @@ struct WorldRay {
     dvec3 origin;
     dvec3 direction;                                         ///< unit
     double length = std::numeric_limits<double>::infinity(); ///< m
-    double begin = 0;        ///< m; nothing nearer is met. -infinity: a whole line
-    bool meetsHidden = true; ///< whether shapes that the eye does not see are met
+    double begin = 0;       ///< m; nothing nearer is met. -infinity: a whole line
+    bool hitsHidden = true; ///< whether shapes that the eye does not see are met
 };
 
 /// The beginning of a ray on which one shape is not seen: the one it starts on.
@@ -130,7 +130,7 @@ public:
     std::optional<Hit> intersect(const WorldRay& ray, const Leaving& leaving = {}) const;
 
     /// The nearest hit and all that lie no more than gap() behind it.
-    Hits meet(const WorldRay& ray, const Leaving& leaving = {}) const;
+    Hits coincidentHits(const WorldRay& ray, const Leaving& leaving = {}) const;
 
     /// Of all shapes that are triangles; nothing where there are none.
     std::optional<Nearest> nearest(const dvec3& point) const;

@@ -2,7 +2,7 @@
 /// Opaque places that a picture shows through glass or in mirrors, ready to be asked which are near a place.
 
 #include "base/Math.h"
-#include "truth/Journey.h"
+#include "truth/LightPath.h"
 #include "truth/Optics.h"
 #include "truth/Sight.h"
 

@@ -18,8 +18,8 @@ struct TorusHits {
 /// Counted from the point of the line that is nearest to the centre, the quartic has no cubic term, and none
 /// of its coefficients is the difference of numbers much larger than the torus. Its roots are separated by
 /// those of its derivatives and closed in on by bisection and Newton's steps; the last steps run on the
-/// distance itself, so that a hit lies on the torus to rounding. A line that only touches counts as meeting
-/// it twice, or not at all, as rounding has it.
+/// distance itself, so that a hit lies on the torus to rounding. A line that only touches counts as
+/// intersection it twice, or not at all, as rounding has it.
 ///
 /// @param origin     any point of the line
 /// @param direction  unit

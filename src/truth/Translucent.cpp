@@ -89,7 +89,8 @@ Result<Bodies> Bodies::create(const scene::Scene& scene) {
         bodies.bodies_.push_back(std::move(*body));
     }
     if (bodies.bodies_.empty())
-        return Error{"truth: no object scatters light inside; must be one with material.scattering above 0"};
+        return Error{
+            "truth: no object has subsurface scattering; must be one with material.scattering above 0"};
     return bodies;
 }
 
@@ -116,7 +117,7 @@ Result<Surroundings> Surroundings::create(const scene::Scene& scene, const Bodie
                                           scene::Aov aov, int samples, std::uint64_t seed) {
     if (aov != scene::Aov::Color && aov != scene::Aov::Radiosity)
         return Error{"truth: AOV " + std::string(scene::aovNames()[std::size_t(aov)]) +
-                     " is none of what scatters light inside; must be color or radiosity"};
+                     " is none of what has subsurface scattering; must be color or radiosity"};
     Surroundings surroundings(scene, bodies, size, samples, seed);
     if (aov == scene::Aov::Radiosity) return surroundings;
     auto others = GlassEstimator::create(scene, size, aov, {.samples = samples, .seed = seed});

@@ -1,5 +1,5 @@
 #pragma once
-/// Objects that scatter light inside, for the estimators that know what becomes of it there.
+/// Objects that have subsurface scattering, for the estimators that know what becomes of it there.
 
 #include "base/Math.h"
 #include "base/Result.h"
@@ -19,7 +19,7 @@
 
 namespace lucent::truth {
 
-/// An object that scatters light inside.
+/// An object that has subsurface scattering.
 struct Body {
     int object;                               ///< its number in the scene
     RayScene alone;                           ///< it alone, as shape 0

@@ -193,7 +193,7 @@ private:
                const dvec3& flux, Random& random, Brought& brought) const {
         const Paint paint = body.paintAt(hit.position);
         const double outside = reflectance(cosine, 1 / body.surfaceIor);
-        brought.energy.met += flux;
+        brought.energy.incident += flux;
         brought.energy.received += (1 - paint.translucency) * flux;
         brought.energy.reflected += paint.translucency * outside * flux;
         const auto inward = refracted(direction, hit.normal, 1 / body.surfaceIor);
@@ -232,7 +232,7 @@ private:
         const dvec3 viewer = eye_.directionFrom(exit.position);
         if (glm::dot(exit.normal, viewer) <= 0) return;
         WorldRay sight{exit.position, viewer, eye_.distanceFrom(exit.position)};
-        sight.meetsHidden = false;
+        sight.hitsHidden = false;
         if (bodies_.optics().rays().occluded(sight, leavingFrom(bodies_.optics(), exit, viewer))) return;
         const ivec2 pixel(*at);
         seen.emplace_back(std::size_t(pixel.y) * std::size_t(size_.x) + std::size_t(pixel.x),

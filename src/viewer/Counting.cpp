@@ -50,9 +50,9 @@ std::string Viewer::State::energyText() const {
     if (play.playing) return unit + "\nits light is counted when time stands still";
     if (balance.empty() || sum(balance.front().second) == 0) return unit;
     const dvec3 all = balance.front().second;
-    char met[64];
-    std::snprintf(met, sizeof met, "%.3g W", sum(all) / 3);
-    std::string text = unit + "\nof " + met + " that met glass or mirrors";
+    char incident[64];
+    std::snprintf(incident, sizeof incident, "%.3g W", sum(all) / 3);
+    std::string text = unit + "\nof " + incident + " incident on glass and mirrors";
     for (std::size_t i = 1; i < balance.size(); ++i) {
         const std::string name = balance[i].first == "received" ? "on receivers" : balance[i].first;
         text += (i % 3 == 1 ? "\n" : " · ") + share(name, balance[i].second, all);

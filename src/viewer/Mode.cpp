@@ -77,8 +77,9 @@ std::span<const Param> modeParams() {
                 {.id = "matt",
                  .label = "As matt",
                  .group = Group::Subsurface,
-                 .doc = "What scatters light inside, for comparison as if light left where it entered: as "
-                        "much of it, with the same highlights (key M).",
+                 .doc =
+                     "What has subsurface scattering, for comparison as if light left where it entered: as "
+                     "much of it, with the same highlights (key M).",
                  .attribute = "matt"})};
     return params;
 }

@@ -16,8 +16,8 @@ enum class Mode : int {};
 /// Part of the view, not of the scene: no undo step, not in a scene file.
 struct ModeSettings {
     Mode mode{};
-    bool matt = false; ///< what scatters light inside is drawn as if it did not: Lambert's law and the same
-                       ///< highlights
+    bool matt = false; ///< what has subsurface scattering is drawn as if it did not: Lambert's law and the
+                       ///< same highlights
 };
 
 /// "mode" and "matt", which are also their paths and attributes.

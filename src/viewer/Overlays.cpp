@@ -64,7 +64,7 @@ constexpr HelpLine kHelp[] = {
     {"H", "panel"},
     {"F", "cost of the picture"},
     {"C", "image beside truth, beside error, or alone"},
-    {"M", "what scatters light inside as if it were matt"},
+    {"M", "what has subsurface scattering as if it were matt"},
     {"?", "this list"},
 };
 

@@ -88,13 +88,13 @@ public:
     /// twin is made from it.
     std::string controls();
     /// JSON: milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its
-    /// pixels), frames, revision; notDrawn: lines that say what the scene asks for, the picture lacks, and why;
-    /// light: [x, y] of the dot; panel: path -> [x, y, width, height] of each control's widget that can be seen
-    /// in full. CSS pixels.
+    /// pixels), frames, revision; notDrawn: lines that say what the scene asks for, the picture lacks, and
+    /// why; light: [x, y] of the dot; panel: path -> [x, y, width, height] of each control's widget that can
+    /// be seen in full. CSS pixels.
     std::string stats() const;
-    /// JSON array: of each object that scatters light inside owner, profile; reach [mm] and whole (the share
-    /// that leaves again) of red, green and blue; distances [mm] and values [1/mm²] of R_d; text, the same in
-    /// words.
+    /// JSON array: of each object that has subsurface scattering owner, profile; reach [mm] and whole (the
+    /// share that leaves again) of red, green and blue; distances [mm] and values [1/mm²] of R_d; text, the
+    /// same in words.
     std::string profiles() const;
     /// JSON object path -> value of every parameter that differs from the loaded scene: what a link carries.
     /// Never "playing": whether things move is up to whoever follows the link.

@@ -170,7 +170,7 @@ Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vect
     if (kept && kept->current) return tell();
     const gl::Program* program = context.program("views/triangles");
     graph.addPass("views.triangles", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("triangles of the refractive objects, which rays meet in the end");
+        pass.reason("triangles of the refractive objects, which rays are intersected with");
         if (kept) {
             for (const graph::TextureId image : {images.corners, images.normals, images.links}) {
                 pass.write(image);

@@ -61,7 +61,7 @@ Error leftToProgram(const scene::Scene& scene, measure::TruthModel model) {
     if (model == measure::TruthModel::Light) return leftToProgram(*measure::causticOf(scene));
     const auto scattering = std::find_if(scene.objects.begin(), scene.objects.end(),
                                          [](const auto& object) { return object.material.isScattering(); });
-    return leftToProgram("object " + inQuotes(scattering->name) + " scatters light inside");
+    return leftToProgram("object " + inQuotes(scattering->name) + " has subsurface scattering");
 }
 
 /// @param size     of the picture whose pixels are solved; PixelMean::sizeOf() it where their means are drawn

@@ -149,8 +149,8 @@ inline double total(const dvec3& flux) { return flux.r + flux.g + flux.b; }
 inline void expectClosed(const Energy& energy) {
     const double others = total(energy.received) + total(energy.absorbed) + total(energy.reflected) +
                           total(energy.missed) + total(energy.lost);
-    EXPECT_NEAR(others / total(energy.met), 1, 0.005);
-    EXPECT_LE(total(energy.received), 1.001 * total(energy.met)); // triangles cover whole texels
+    EXPECT_NEAR(others / total(energy.incident), 1, 0.005);
+    EXPECT_LE(total(energy.received), 1.001 * total(energy.incident)); // triangles cover whole texels
 }
 
 /// Light on a floor by way of glass and mirrors, from truth: all that arrives less what comes straight.

@@ -48,7 +48,7 @@ TEST_F(Caustics, PointsOfALampLieOnTheDiscThatFacesTheGlass) {
         expected += double(point.color.g) * kTau * (1 - std::sqrt(1 - 0.3 * 0.3 / square));
     }
     // The sphere's triangles lie within it; the points' depths would make it 8 % more.
-    EXPECT_NEAR(energyOf(scene, {32, 32}).met.g / expected, 1, 0.01);
+    EXPECT_NEAR(energyOf(scene, {32, 32}).incident.g / expected, 1, 0.01);
 }
 
 void shineFrom(scene::Scene& scene, ivec2 size, const std::function<float(ivec2)>& radiance) {
@@ -68,7 +68,8 @@ TEST_F(Caustics, GlassMeetsAllOfTheEnvironmentThatSeesIt) {
     shineFrom(scene, {8, 4}, [](ivec2) { return 1.0f; });
     const double expected = kTau * 0.09 * kTau / 2;
     const Energy energy = energyOf(scene, {32, 32}, {.directions = 64});
-    EXPECT_NEAR(energy.met.g / expected, 1, 0.05); // parts of the sphere lie on both sides of the horizon
+    EXPECT_NEAR(energy.incident.g / expected, 1,
+                0.05); // parts of the sphere lie on both sides of the horizon
     expectClosed(energy);
 }
 
@@ -138,7 +139,7 @@ TEST_F(Caustics, AGlassBallLightsTheFloorAsTheSumOverItsBranches) {
         const Shown shown = show(scene, size, {.mapSize = 1024});
         EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.005) << below;
         EXPECT_LT(misplaced(shown.light, truth), below == 1.5 ? 0.01 : 0.005) << below;
-        EXPECT_NEAR(shown.energy.met.g, kTau / 2, 0.002 * kTau / 2); // pi R² E
+        EXPECT_NEAR(shown.energy.incident.g, kTau / 2, 0.002 * kTau / 2); // pi R² E
         expectClosed(shown.energy);
         for (const double radius : {0.1, 0.2, 0.4, 0.8}) { // encircled flux
             double found = 0, wanted = 0;
@@ -158,7 +159,7 @@ TEST_F(Caustics, TheNumberOfRaysChangesNeitherWhatMeetsABallNorTheMeanLight) {
     for (const int grid : {32, 100, 316}) { // 1e3 to 1e5 rays
         const scene::Scene scene = floorUnder(glass(scene::Sphere{1}, 1.5f, {0, 1.2f, 0}), 4);
         const Shown shown = show(scene, {64, 64}, {.grid = grid});
-        EXPECT_NEAR(shown.energy.met.g, kTau / 2, 0.005 * kTau / 2) << grid;
+        EXPECT_NEAR(shown.energy.incident.g, kTau / 2, 0.005 * kTau / 2) << grid;
         expectClosed(shown.energy);
         const double sum = sumOf(shown.light);
         if (mean == 0) mean = sum;
@@ -249,7 +250,7 @@ TEST_F(Caustics, ASpotMeetsOfALargeBlockWhatItsConeHolds) {
     // Full up to the inner angle, then the square of a ramp in the cosine, whose integral is a third.
     const double flux = 5 * kTau * ((1 - inner) + (inner - outer) / 3);
     const Shown shown = show(scene, {64, 64});
-    EXPECT_NEAR(shown.energy.met.g / flux, 1, 0.005);
+    EXPECT_NEAR(shown.energy.incident.g / flux, 1, 0.005);
     expectClosed(shown.energy);
 }
 
@@ -305,7 +306,7 @@ TEST_F(Caustics, SixViewsOfALampMeetNoLightTwice) {
     scene.lights = {scene::PointLight{
         .position = {0, 1, 0}, .intensity = 1, .falloff = scene::LightFalloff::InverseSquare}};
     const Energy energy = energyOf(scene, {16, 16});
-    EXPECT_NEAR(energy.met.g / (2 * kTau), 1, 0.005);
+    EXPECT_NEAR(energy.incident.g / (2 * kTau), 1, 0.005);
 }
 
 // --- beams, splats and lines
@@ -358,7 +359,7 @@ TEST_F(Caustics, ManyWavelengthsMakeASpectrumBetweenThoseOfThreeChannels) {
     scene.objects[1].material.clear().dispersion = 5;
     const Shown three = show(scene, {64, 64}, {.grid = 64});
     const Shown many = show(scene, {64, 64}, {.grid = 64, .wavelengths = 12});
-    EXPECT_NEAR(total(many.energy.met) / total(three.energy.met), 1, 1e-4); // what floats round
+    EXPECT_NEAR(total(many.energy.incident) / total(three.energy.incident), 1, 1e-4); // what floats round
     // Light spreads from the axis the more the stronger it is bent.
     const auto spread = [](const Image& light, int channel) {
         double sum = 0, moment = 0;
@@ -393,8 +394,8 @@ TEST_F(Caustics, TheBracketFindsASlopeOnWhichTheFixedPointSwingsBetweenTwoPlaces
     scene.objects.back().transform.rotate = {0, 0, 80};
     const Energy hybrid = energyOf(scene, {16, 16}, {.steps = 16});
     const Energy fixed = energyOf(scene, {16, 16}, {.intersect = Intersect::FixedPoint, .steps = 16});
-    EXPECT_LT(total(hybrid.astray) + total(hybrid.missed), 0.01 * total(hybrid.met));
-    EXPECT_GT(total(fixed.astray), 0.03 * total(fixed.met));
+    EXPECT_LT(total(hybrid.astray) + total(hybrid.missed), 0.01 * total(hybrid.incident));
+    EXPECT_GT(total(fixed.astray), 0.03 * total(fixed.incident));
 }
 
 // --- machines

@@ -202,7 +202,7 @@ TEST_F(Truth, WhatScattersInsideIsSolvedByDipoleOrWalk) {
     expectRefusal("truth marble.json -o out.pfm --photons 5",
                   "--photons: is of light, light-tree and walk; must be --samples for dipole");
     expectRefusal("truth scene.json -o out.pfm --estimator walk",
-                  "truth: no object scatters light inside; must be one with material.scattering above 0");
+                  "truth: no object has subsurface scattering; must be one with material.scattering above 0");
 }
 
 TEST_F(Truth, ADamagedTileIsRefused) {

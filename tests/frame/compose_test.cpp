@@ -415,7 +415,7 @@ TEST_F(Composed, ACausticMapOfAnIndexNearOneIsAsBrightAsTheUndisturbedLight) {
     const auto balance = renderer.balance(scene, "caustics");
     ASSERT_TRUE(balance.ok());
     ASSERT_GE(balance->size(), 2u);
-    EXPECT_EQ((*balance)[0].first, "met");
+    EXPECT_EQ((*balance)[0].first, "incident");
     EXPECT_EQ((*balance)[1].first, "received");
     const dvec3 met = (*balance)[0].second, received = (*balance)[1].second;
     EXPECT_GT(met.r, 0);

@@ -42,7 +42,7 @@ inline scene::Scene marbleHalfSpace() {
 }
 
 /// What a ray meets first.
-inline truth::Hit meet(const truth::Bodies& bodies, const dvec3& from, const dvec3& direction) {
+inline truth::Hit intersect(const truth::Bodies& bodies, const dvec3& from, const dvec3& direction) {
     const auto hit = bodies.optics().rays().intersect({from, direction});
     EXPECT_TRUE(hit.has_value());
     return hit ? *hit : truth::Hit{};

@@ -25,7 +25,7 @@ DipoleEstimator estimator(const scene::Scene& scene, const DipoleOptions& option
 /// B at the first place that a ray meets.
 Estimate radiosityAt(const DipoleEstimator& dipole, const dvec3& from, const dvec3& direction,
                      std::uint64_t number = 0) {
-    const Hit hit = test::meet(dipole.bodies(), from, direction);
+    const Hit hit = test::intersect(dipole.bodies(), from, direction);
     return dipole.radiosity(*dipole.bodies().of(hit.shape), hit, number);
 }
 
@@ -228,9 +228,9 @@ TEST(Dipole, ScenesWithoutBodiesAndOtherQuantitiesAreRefused) {
         return made ? std::string() : made.error().message;
     };
     EXPECT_EQ(messageOf(test::sceneOf({test::matt(scene::Sphere{})}), scene::Aov::Color),
-              "truth: no object scatters light inside; must be one with material.scattering above 0");
+              "truth: no object has subsurface scattering; must be one with material.scattering above 0");
     EXPECT_EQ(messageOf(test::marbleSphere(), scene::Aov::Depth),
-              "truth: AOV depth is none of what scatters light inside; must be color or radiosity");
+              "truth: AOV depth is none of what has subsurface scattering; must be color or radiosity");
 }
 
 } // namespace

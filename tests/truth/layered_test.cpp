@@ -65,7 +65,7 @@ TEST(Layered, DipoleOfAHalfSpaceGivesBackTheShareOfTheStack) {
     const auto dipole =
         DipoleEstimator::create(scene, {8, 8}, {.profile = Diffusion::Multipole, .samples = 4096});
     ASSERT_TRUE(dipole) << dipole.error().message;
-    const Hit hit = test::meet(dipole->bodies(), {0, 0.01, 0}, {0, -1, 0});
+    const Hit hit = test::intersect(dipole->bodies(), {0, 0.01, 0}, {0, -1, 0});
     const Estimate estimate = dipole->radiosity(dipole->bodies().all()[0], hit, 0);
     const diffusion::Stack stack({880, 170, 1.3, {{2620, 4.1, 1.3, 5e-4}}}, 0);
     const double entering = 1 - test::fresnel(0, 1 / 1.3);
@@ -85,11 +85,11 @@ TEST(Layered, WalksKnowTheLayerByItsDepth) {
     const EnergyBook whole = *walks(sphere, {.photons = 45000}).energy;
     const double known[] = {0.853, 0.813, 0.769};
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(whole.escaped[c] / whole.met[c], known[c], 0.006);
+        EXPECT_NEAR(whole.escaped[c] / whole.incident[c], known[c], 0.006);
 
     // By the walks of tests/diffusion, 0.4114 of what enters a half space of skin under 0.5 mm of marble.
     const EnergyBook book = *walks(marbleOnSkin(), {.photons = 60000}).energy;
-    const dvec3 share = book.escaped / (book.met - book.reflected);
+    const dvec3 share = book.escaped / (book.incident - book.reflected);
     const diffusion::Stack stack({880, 170, 1.3, {{2620, 4.1, 1.3, 5e-4}}}, 0);
     std::printf("marble 0.5 mm on skin: model %.4f, walks %.4f\n", stack.total(), share.x);
     for (int c = 0; c < 3; ++c)

@@ -57,7 +57,7 @@ double total(const dvec3& flux) { return flux.r + flux.g + flux.b; }
 void expectClosed(const EnergyBook& energy) {
     const double others = total(energy.received) + total(energy.absorbed) + total(energy.reflected) +
                           total(energy.escaped) + total(energy.lost);
-    EXPECT_NEAR(others, total(energy.met), 1e-9 * total(energy.met)); // rounding of a million terms
+    EXPECT_NEAR(others, total(energy.incident), 1e-9 * total(energy.incident)); // rounding of a million terms
 }
 
 /// Where a ray that meets a ball of radius 1 at `b` from its axis lands on a floor `below` its centre, and
@@ -108,7 +108,7 @@ TEST(LightTracer, AGlassBallLightsTheFloorAsTheSumOverItsBranches) {
     EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 20); // a focus
     expectClosed(*picture.energy);
     // Every ray aimed at the ball meets it: pi R² E.
-    EXPECT_NEAR(picture.energy->met.g, 2 * kPi, 1e-9);
+    EXPECT_NEAR(picture.energy->incident.g, 2 * kPi, 1e-9);
 }
 
 /// Light that passes it comes by rays, and in direction and strength hardly changed.
@@ -129,7 +129,7 @@ TEST(LightTracer, AnIndexOfOneIsThePictureWithoutTheObjectToTheBit) {
         const Picture plain = traced(empty, size, options), picture = traced(scene, size, options);
         EXPECT_EQ(picture.values.pixels, plain.values.pixels);
         EXPECT_EQ(picture.errors.pixels, plain.errors.pixels);
-        EXPECT_EQ(picture.energy->met, dvec3(0)); // direct light passes it: rays bring none twice
+        EXPECT_EQ(picture.energy->incident, dvec3(0)); // direct light passes it: rays bring none twice
     }
 }
 
@@ -164,7 +164,7 @@ TEST(LightTracer, AnIndexOfAlmostOneLightsTheFloorAsIfNothingWereThere) {
             }
         expectClosed(*picture.energy);
         EXPECT_EQ(picture.energy->reflected, dvec3(0));
-        EXPECT_NEAR(picture.energy->received.g, picture.energy->met.g, 1e-9);
+        EXPECT_NEAR(picture.energy->received.g, picture.energy->incident.g, 1e-9);
         return chiSquare(picture, [&](int x, int y) { return double(plain.values.at(x, y)[1]); });
     };
     // A ball and a block: where a shadow ends inside a pixel its middle is not its mean, so the sum counts.
@@ -307,7 +307,7 @@ TEST(LightTracer, FluxClosesWithAbsorptionDispersionAndRaysThatGetNowhere) {
         EXPECT_GT(energy.absorbed.b, energy.absorbed.r);
         EXPECT_GT(energy.escaped.g, 0);
         EXPECT_EQ(energy.reflected.g > 0, branching == Branching::Chain);
-        EXPECT_GT(energy.received.g, 0.1 * energy.met.g);
+        EXPECT_GT(energy.received.g, 0.1 * energy.incident.g);
     }
 }
 
@@ -317,7 +317,7 @@ TEST(LightTracer, TheFluxThatMeetsABallIsTheLampsOverItsSolidAngle) {
     scene.lights = {scene::PointLight{
         .position = {0, 3, 0}, .intensity = 4, .falloff = scene::LightFalloff::InverseSquare}};
     const double cone = 2 * kPi * (1 - std::sqrt(1 - 1 / 16.0));
-    EXPECT_NEAR(traced(scene, {4, 4}, {.photons = 1000}).energy->met.g, 4 * cone, 1e-6);
+    EXPECT_NEAR(traced(scene, {4, 4}, {.photons = 1000}).energy->incident.g, 4 * cone, 1e-6);
     // A light that does not fade lights what it meets at d with its plain factor: d² more in every direction.
     std::get<scene::PointLight>(scene.lights[0]).falloff = scene::LightFalloff::None;
     double expected = 0;
@@ -328,7 +328,7 @@ TEST(LightTracer, TheFluxThatMeetsABallIsTheLampsOverItsSolidAngle) {
         const double distance = 2 * std::cos(angle) - std::sqrt(0.25 - aside * aside);
         expected += 4 * distance * distance * 2 * kPi * std::sin(angle) * widest / kSteps;
     }
-    EXPECT_NEAR(traced(scene, {4, 4}, {.photons = 100000}).energy->met.g, expected, 0.002 * expected);
+    EXPECT_NEAR(traced(scene, {4, 4}, {.photons = 100000}).energy->incident.g, expected, 0.002 * expected);
 }
 
 TEST(LightTracer, APlaceThatNoRayMetMayStillBeLit) {
@@ -409,7 +409,7 @@ TEST(LightTracer, PartsThroughFilesAreThePictureBitByBit) {
     EXPECT_EQ(merged->errors.pixels, whole.errors.pixels);
     EXPECT_EQ(sidecar(parts[0].facts, *merged), sidecar(parts[0].facts, whole));
     const std::string facts = sidecar(parts[0].facts, *merged);
-    for (const char* word : {"\"photons\": 100001", "\"energy\"", "\"met\"", "\"lost\"", "\"green\""})
+    for (const char* word : {"\"photons\": 100001", "\"energy\"", "\"incident\"", "\"lost\"", "\"green\""})
         EXPECT_NE(facts.find(word), std::string::npos) << facts;
 }
 
@@ -502,7 +502,7 @@ TEST(LightTracer, ThePictureHoldsLightOfTheSideThatIsSeen) {
         }
     EXPECT_GT(picture.energy->received.g, 0.5);
     // Without a lamp or anything clear there is nothing to follow.
-    EXPECT_EQ(traced(sceneOf({matt(scene::Plane{})}), {4, 4}, {}).energy->met, dvec3(0));
+    EXPECT_EQ(traced(sceneOf({matt(scene::Plane{})}), {4, 4}, {}).energy->incident, dvec3(0));
 }
 
 } // namespace

@@ -170,7 +170,7 @@ TEST(Optics, WhatTheEyeDoesNotSeeIsMetByLightAlone) {
     WorldRay ray{{0, 3, 0}, {0, -1, 0}};
     EXPECT_TRUE(bench.optics().rays().intersect(ray));
     EXPECT_TRUE(bench.optics().rays().occluded(ray));
-    ray.meetsHidden = false;
+    ray.hitsHidden = false;
     EXPECT_FALSE(bench.optics().rays().intersect(ray));
     EXPECT_FALSE(bench.optics().rays().occluded(ray));
 }

@@ -46,7 +46,7 @@ DipoleEstimator estimator(const scene::Scene& scene, const DipoleOptions& option
 }
 
 Estimate radiosityAt(const DipoleEstimator& dipole, const dvec3& from, const dvec3& direction) {
-    const Hit hit = test::meet(dipole.bodies(), from, direction);
+    const Hit hit = test::intersect(dipole.bodies(), from, direction);
     return dipole.radiosity(*dipole.bodies().of(hit.shape), hit, 0);
 }
 
@@ -142,7 +142,7 @@ TEST(Paint, OpaqueSurfacesAreMatt) {
             const Picture picture = walks(scene, {.photons = 500});
             const float* at = picture.values.at(2, 2);
             value = {at[0], at[1], at[2]};
-            EXPECT_EQ(picture.energy->received, picture.energy->met);
+            EXPECT_EQ(picture.energy->received, picture.energy->incident);
             EXPECT_EQ(picture.energy->escaped, dvec3(0));
         }
         for (int c = 0; c < 3; ++c) // the cosine is 0.9999 there

@@ -245,10 +245,10 @@ TEST(RayScene, BoxesFindWhatEmbreeFinds) {
     for (int trial = 0; trial < 3000; ++trial) {
         WorldRay ray{3.0 * anyDirection(random), anyDirection(random)};
         ray.direction = glm::normalize(random.between(0, 2) * anyDirection(random) - ray.origin);
-        ray.meetsHidden = trial % 2 == 0;
+        ray.hitsHidden = trial % 2 == 0;
         if (trial % 3 == 0) ray.length = random.between(0, 6);
         if (trial % 5 == 0) ray.begin = -kInfinity;
-        const Hits expected = embree.meet(ray), found = boxes.meet(ray);
+        const Hits expected = embree.coincidentHits(ray), found = boxes.coincidentHits(ray);
         ASSERT_EQ(found.count, expected.count) << trial;
         EXPECT_EQ(boxes.occluded(ray), embree.occluded(ray)) << trial;
         for (int i = 0; i < found.count; ++i) {

@@ -3,7 +3,7 @@
 
 #include "scene/Mesh.h"
 #include "scene/Scene.h"
-#include "truth/Journey.h"
+#include "truth/LightPath.h"
 #include "truth/Optics.h"
 
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ public:
         const truth::Beam beam{.origin = origin,
                                .direction = glm::normalize(direction),
                                .media = optics_->mediaAt(origin, true),
-                               .meetsHidden = true};
+                               .hitsHidden = true};
         return truth::follow(*optics_, beam, channel, truth::Branching::Chain, {}, unused);
     }
 

@@ -36,14 +36,14 @@ scene::Scene fromAside() {
 TEST(Walk, BooksAddUp) {
     const EnergyBook book = bookOf(fromAside(), {.photons = 20000});
     for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(book.reflected[c] + book.absorbed[c] + book.escaped[c] + book.lost[c], book.met[c],
-                    1e-12 * book.met[c]);
+        EXPECT_NEAR(book.reflected[c] + book.absorbed[c] + book.escaped[c] + book.lost[c], book.incident[c],
+                    1e-12 * book.incident[c]);
         EXPECT_EQ(book.lost[c], 0);
         EXPECT_EQ(book.received[c], 0);
         // All rays meet the ball that they are aimed at: pi R² W, of a third of the rays.
-        EXPECT_NEAR(book.met[c] / (kPi * 1e-4), 1, 4 * std::sqrt(2.0 / 20000));
+        EXPECT_NEAR(book.incident[c] / (kPi * 1e-4), 1, 4 * std::sqrt(2.0 / 20000));
         // 2 integral of F(c) c dc outside.
-        EXPECT_NEAR(book.reflected[c] / book.met[c], 1 - 0.9082, 0.01);
+        EXPECT_NEAR(book.reflected[c] / book.incident[c], 1 - 0.9082, 0.01);
     }
 }
 
@@ -52,7 +52,7 @@ TEST(Walk, MarbleSphereGivesBackTheKnownShares) {
     const double known[] = {0.853, 0.813, 0.769};
     for (int c = 0; c < 3; ++c)
         // A ray's share spreads by 0.2 at most: 0.0012 of the mean of 30000.
-        EXPECT_NEAR(book.escaped[c] / book.met[c], known[c], 0.004);
+        EXPECT_NEAR(book.escaped[c] / book.incident[c], known[c], 0.004);
 }
 
 TEST(Walk, WithoutAbsorptionAllLightLeaves) {
@@ -64,8 +64,8 @@ TEST(Walk, WithoutAbsorptionAllLightLeaves) {
         const EnergyBook book = bookOf(scene, {.photons = 6000});
         for (int c = 0; c < 3; ++c) {
             // Roulette ends ways whose light others carry on: a spread of the few percent that were left.
-            EXPECT_NEAR(book.absorbed[c] / book.met[c], 0, 5e-3) << ior;
-            EXPECT_NEAR((book.escaped[c] + book.reflected[c]) / book.met[c], 1, 5e-3) << ior;
+            EXPECT_NEAR(book.absorbed[c] / book.incident[c], 0, 5e-3) << ior;
+            EXPECT_NEAR((book.escaped[c] + book.reflected[c]) / book.incident[c], 1, 5e-3) << ior;
             if (ior == 1) {
                 EXPECT_EQ(book.reflected[c], 0);
             }
@@ -105,7 +105,7 @@ TEST(Walk, HalfSpaceOfIsotropicScatterersReflectsByChandrasekharsFunction) {
     const EnergyBook book = bookOf(scene, {.photons = 300000});
     for (int c = 0; c < 3; ++c)
         // Two thirds of the rays aimed at the ball around the square meet it; a share spreads by 0.4 at most.
-        EXPECT_NEAR(book.escaped[c] / book.met[c], known(albedo[c]), 4 * 0.4 / std::sqrt(6e4));
+        EXPECT_NEAR(book.escaped[c] / book.incident[c], known(albedo[c]), 4 * 0.4 / std::sqrt(6e4));
 }
 
 TEST(Walk, ForwardScatteringSpreadsLightAsTheReducedCoefficientSays) {
@@ -118,7 +118,7 @@ TEST(Walk, ForwardScatteringSpreadsLightAsTheReducedCoefficientSays) {
     const EnergyBook book = bookOf(scene, {.photons = 15000});
     const double known[] = {0.853, 0.813, 0.769};
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(book.escaped[c] / book.met[c], known[c], 0.01);
+        EXPECT_NEAR(book.escaped[c] / book.incident[c], known[c], 0.01);
 }
 
 TEST(Walk, PicturesFromAllSidesHoldTheLightThatLeaves) {
@@ -204,7 +204,7 @@ TEST(Walk, LampsOfAnyKindAndTheSkyEnter) {
         const EnergyBook book = bookOf(scene, {.photons = 6000});
         // The sky: pi W/m² on 4 pi R². The spot: its solid angle of the ball, 1 W/sr at 1 m.
         const double known = spot ? 2 * kPi * (1 - std::sqrt(1 - 1e-4)) : kPi * 4 * kPi * 1e-4;
-        EXPECT_NEAR(book.met.y / known, 1, 4 * std::sqrt(2.0 / 6000)) << spot;
+        EXPECT_NEAR(book.incident.y / known, 1, 4 * std::sqrt(2.0 / 6000)) << spot;
     }
 }
 
@@ -212,7 +212,7 @@ TEST(Walk, WhatStandsInTheLightsWayShadows) {
     scene::Scene scene = fromAside();
     scene.objects.push_back(test::matt(scene::Box{{0.1f, 0.1f, 0.01f}}, {0, 0, 0.1f}));
     const Picture dark = walks(scene, {2, 2}, {.aov = scene::Aov::Radiosity, .photons = 1000});
-    EXPECT_EQ(dark.energy->met, dvec3(0));
+    EXPECT_EQ(dark.energy->incident, dvec3(0));
     EXPECT_EQ(dark.values.pixels[0], 0);
 }
 
@@ -265,7 +265,7 @@ TEST(Walk, DipoleIsFarTooDarkBehindABody) {
         for (int i = 0; i < kSteps; ++i) {
             const double angle = (from + (to - from) * (i + 0.5) / kSteps) * kPi / 180;
             const dvec3 direction(0, -std::sin(angle), std::cos(angle));
-            const Hit hit = test::meet(dipole->bodies(), 0.02 * direction, -direction);
+            const Hit hit = test::intersect(dipole->bodies(), 0.02 * direction, -direction);
             dark.add(dipole->radiosity(dipole->bodies().all()[0], hit, std::uint64_t(i)).mean());
         }
         const dvec3 ratio = dark.mean() / walked.mean(), error = walked.standardError() / walked.mean();

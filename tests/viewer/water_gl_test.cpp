@@ -60,7 +60,7 @@ TEST_F(Water, TheCausticMapCountsItsLight) {
     ASSERT_TRUE(viewer->set("view.show", "caustic-map").ok());
     settle();
     const nlohmann::json energy = stats()["energy"];
-    const double met = energy["met"][0], received = energy["received"][0];
+    const double met = energy["incident"][0], received = energy["received"][0];
     EXPECT_GT(met, 0);
     EXPECT_LE(received, met * 1.001); // what half floats round
     double sum = 0;

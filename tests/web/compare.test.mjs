@@ -144,7 +144,7 @@ test('what only the program solves is said by name', async () => {
   await complete(page);
   await set(page, 'compare', 'error');
   const inside = await eventOf(page, 'error', () => compute(page));
-  assert.match(inside.message, /^truth: object "ball" scatters light inside, which the page does not solve;/);
+  assert.match(inside.message, /^truth: object "ball" has subsurface scattering, which the page does not solve;/);
   await page.leave();
 });
 

@@ -22,8 +22,8 @@ std::span<const std::string_view> knownGltfExtensions();
 /// - A transmissive material with thicknessFactor 0 is thin-walled: glTF lets light pass unbent, without way
 ///   through a medium. It becomes a medium of ior 1 without absorption; its reflection is left out and named
 ///   on stderr.
-/// - A volume with a thickness above 0, an attenuation and a multiscatterColor above 0 scatters light inside.
-/// Its
+/// - A volume with a thickness above 0, an attenuation and a multiscatterColor above 0 has subsurface
+/// scattering. Its
 ///   attenuation is extinction then, and each channel's albedo of one collision that which gives a half space
 ///   the albedo of the color (Kulla, Conty 2017, by s² = (1 - albedo) / (1 - g albedo) for any anisotropy).
 ///   By which extension light enters makes no difference.

@@ -189,20 +189,22 @@ std::string_view nameOf(Deposit deposit) { return kDeposits[std::size_t(deposit)
 
 const ParamTable& Caustics::params() {
     static const Param list[] = {
-        declare(&Settings::intersect,
-                {.id = "intersect",
-                 .label = "Intersection",
-                 .group = Group::Caustics,
-                 .doc =
-                     "How the place is found where light meets a receiver: within a bracket that secants or "
-                     "halving shrink; by the dissertation's fixed point; by Newton's method; by secants.",
-                 .choices = kIntersects}),
+        declare(
+            &Settings::intersect,
+            {.id = "intersect",
+             .label = "Intersection",
+             .group = Group::Caustics,
+             .doc =
+                 "How the place is found where a ray intersects a receiver: within a bracket that secants or "
+                 "halving shrink; by the dissertation's fixed point; by Newton's method; by secants.",
+             .choices = kIntersects}),
         declare(&Settings::deposit,
                 {.id = "deposit",
                  .label = "Deposit",
                  .group = Group::Caustics,
                  .doc = "What light leaves on receivers: the triangles between rays, with flux over area; "
-                        "the dissertation's Gaussian points; or lines that meet what the picture shows, "
+                        "the dissertation's Gaussian points; or rays as lines that intersect what the "
+                        "picture shows, "
                         "whose light is gathered there.",
                  .choices = kDeposits}),
         declare(&Settings::grid, {.id = "grid",
@@ -482,13 +484,14 @@ Result<Energy> Caustics::measure(graph::TexturePool& pool, const scene::Scene& s
         if (Status s = graph.compile(); !s) return s.error();
         graph.execute(pool);
         Ledger ledger(context_.device(), targets);
-        energy.met += ledger.sum("caustics.met");
+        energy.incident += ledger.sum("caustics.incident");
         energy.absorbed += ledger.sum("caustics.absorbed");
         energy.reflected += ledger.sum("caustics.reflected");
         energy.lost += ledger.sum("caustics.lost");
         energy.received += double(passes.unit()) * ledger.sum("caustics.map");
         const std::vector<Image> flux = ledger.all("caustics.flux"), landing = ledger.all("caustics.landing"),
-                                 effort = ledger.all("caustics.effort"), met = ledger.all("caustics.met");
+                                 effort = ledger.all("caustics.effort"),
+                                 met = ledger.all("caustics.incident");
         for (std::size_t image = 0; image < flux.size(); ++image)
             for (std::size_t i = 0; i < flux[image].pixels.size(); i += 4) {
                 const float* f = &flux[image].pixels[i];

@@ -73,7 +73,7 @@ struct Plan {
 /// What became of light that met something refractive or mirroring, W of each colour. Every entry is summed
 /// on its own; the first is the sum of the others but for what the caustic map rounds.
 struct Energy {
-    dvec3 met{0};
+    dvec3 incident{0};
     dvec3 received{0};  ///< in the caustic maps
     dvec3 absorbed{0};  ///< by media, by objects that let only a share in, by mirrors
     dvec3 reflected{0}; ///< at interfaces, and not followed

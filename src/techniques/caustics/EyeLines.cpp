@@ -10,7 +10,7 @@ Status LightPasses::drawLines(TextureId& sum) {
     const views::Bounds box = boxOfReceivers();
     TextureId flux;
     graph_.addPass("caustics.lines", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("rays as lines in the picture, which light what they meet there");
+        pass.reason("rays as lines in the picture, which light what they intersect there");
         pass.sample(in_.surface);
         for (const Sheet& sheet : sheets_) {
             pass.sample(sheet.grid.place);
@@ -45,7 +45,7 @@ Status LightPasses::gather(TextureId flux, TextureId& sum) {
         program("caustics/gather", sum ? std::vector<std::string>{"USE_BEFORE"} : std::vector<std::string>{});
     const TextureId before = sum;
     graph_.addPass("caustics.gather", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("irradiance by the rays that met what the pixels around show");
+        pass.reason("irradiance by the rays that hit what the pixels around show");
         pass.sample(in_.surface);
         pass.sample(flux);
         if (before) pass.sample(before);

@@ -185,7 +185,8 @@ Status LightPasses::keepBook(Part part, const Cells& cells, const Photons& photo
     if (!targets_.keeps()) return Done{};
     const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
     std::vector<TextureId> book;
-    for (const char* label : {"caustics.met", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
+    for (const char* label :
+         {"caustics.incident", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
         book.push_back(targets_.make(label, desc));
     return trace({part, cells, std::move(book), true});
 }
@@ -237,7 +238,7 @@ Status LightPasses::land(Photons& photons, Part part, const Cells& cells) {
     const TextureId effort =
         targets_.make("caustics.effort", {.size = photons.count, .format = Format::RG32F});
     graph_.addPass("caustics.land", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("where these rays meet receivers, by " + std::string(nameOf(settings_.intersect)));
+        pass.reason("where these rays intersect receivers, by " + std::string(nameOf(settings_.intersect)));
         pass.sample(photons.place);
         pass.sample(photons.direction);
         pass.sample(depths_);

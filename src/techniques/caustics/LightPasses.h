@@ -145,8 +145,8 @@ private:
     WaterRaysBlock waterBlock(const Tint& tint, ivec2 rays) const;
     Status beginOnWater(const Tint& tint, ivec2 rays, graph::TextureId shadow,
                         const std::vector<graph::TextureId>& targets, bool book);
-    Status soak(const Photons& photons, graph::TextureId before, graph::TextureId met,
-                graph::TextureId target);
+    Status absorb(const Photons& photons, graph::TextureId before, graph::TextureId met,
+                  graph::TextureId target);
     Status leaveAlone(Sheet& sheet);
     Status carryFromWater(const Tint& tint);
 

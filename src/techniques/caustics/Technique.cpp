@@ -79,7 +79,7 @@ public:
         Result<Energy> energy = caustics_.measure(store_.pool, picture.scene, picture.eye, meshesOf(picture),
                                                   picture.all.fields, *plan_, settingsOf(picture.scene));
         if (!energy) return energy.error();
-        return technique::Balance{{"met", energy->met},           {"received", energy->received},
+        return technique::Balance{{"incident", energy->incident}, {"received", energy->received},
                                   {"absorbed", energy->absorbed}, {"reflected", energy->reflected},
                                   {"missed", energy->missed},     {"lost", energy->lost}};
     }

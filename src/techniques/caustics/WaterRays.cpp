@@ -83,10 +83,10 @@ Status LightPasses::beginOnWater(const Tint& tint, ivec2 rays, TextureId shadow,
     return Done{};
 }
 
-Status LightPasses::soak(const Photons& photons, TextureId before, TextureId met, TextureId target) {
+Status LightPasses::absorb(const Photons& photons, TextureId before, TextureId met, TextureId target) {
     const gl::Program* soaking =
-        program("caustics/soak", met ? std::vector<std::string>{"WITH_BOOK"} : std::vector<std::string>{});
-    graph_.addPass("caustics.soak", [&](graph::PassBuilder& pass) -> graph::Execute {
+        program("caustics/absorb", met ? std::vector<std::string>{"WITH_BOOK"} : std::vector<std::string>{});
+    graph_.addPass("caustics.absorb", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("what the water leaves of their light until they land");
         pass.sample(photons.place);
         pass.sample(photons.landing);
@@ -99,7 +99,7 @@ Status LightPasses::soak(const Photons& photons, TextureId before, TextureId met
             std::vector<graph::Binding> textures{{"uPlace", resources[photons.place]},
                                                  {"uLanding", resources[photons.landing]},
                                                  {"uFlux", resources[before]}};
-            if (met) textures.push_back({"uMet", resources[met]});
+            if (met) textures.push_back({"uIncident", resources[met]});
             commands.draw({.program = program, .block = block, .textures = std::move(textures)});
         };
     });
@@ -156,13 +156,14 @@ Status LightPasses::carryFromWater(const Tint& tint) {
     if (s) s = land(sheet.grid, Part::Cells, {});
     if (!s) return s;
     sheet.grid.flux = targets_.make("caustics.flux", desc);
-    if (s = soak(sheet.grid, entering, {}, sheet.grid.flux); !s) return s;
+    if (s = absorb(sheet.grid, entering, {}, sheet.grid.flux); !s) return s;
     if (targets_.keeps()) {
         std::vector<TextureId> book;
-        for (const char* label : {"caustics.met", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
+        for (const char* label :
+             {"caustics.incident", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
             book.push_back(targets_.make(label, desc));
         s = beginOnWater(tint, desc.size, shadow, book, true);
-        if (s) s = soak(sheet.grid, entering, book.front(), targets_.make("caustics.absorbed", desc));
+        if (s) s = absorb(sheet.grid, entering, book.front(), targets_.make("caustics.absorbed", desc));
         if (!s) return s;
     }
     const float reach = light_.lamp.place.w == 0

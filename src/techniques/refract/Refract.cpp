@@ -59,7 +59,7 @@ void warnOfLimits(const Inputs& in, const Settings& settings) {
             return mesh.drawn.object->material.clear() != glass[0].drawn.object->material.clear();
         }))
         warnOnce("refract: layers " + std::string(kLayers[int(settings.layers)]) +
-                 " tell objects not apart; light goes on in the one that it meets first");
+                 " tell objects not apart; light goes on in the one that it hits first");
 }
 
 // What is shown, of rays through glass or beside it.
@@ -157,13 +157,14 @@ const ParamTable& Refract::params() {
                 {.id = "peeling",
                  .label = "Slice peeling",
                  .group = Group::Refraction,
-                 .doc = "Of voxels: once, in a pass of their own, or whenever a ray looks.",
+                 .doc = "Of voxels: once, in a pass of their own, or at every step of a ray.",
                  .choices = kPeelings}),
         declare(&Settings::trace,
                 {.id = "trace",
                  .label = "Ray tracing",
                  .group = Group::Refraction,
-                 .doc = "How rays meet surfaces: by pyramids of depths that skip what is empty, exactly; or "
+                 .doc = "How rays are intersected with surfaces: by pyramids of depths that skip what is "
+                        "empty, exactly; or "
                         "by the thesis's five halvings a layer, which follow no total reflection and see no "
                         "opaque objects.",
                  .choices = kTraces}),

@@ -3,8 +3,8 @@
 #include "base/Log.h"
 #include "shaders/subsurface/Blocks.h"
 #include "techniques/subsurface/Entering.h"
-#include "techniques/subsurface/Past.h"
 #include "techniques/subsurface/Splatting.h"
+#include "techniques/subsurface/TemporalHistory.h"
 #include "techniques/subsurface/Volume.h"
 #include "views/Layers.h"
 
@@ -366,9 +366,9 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
     else if (!volumes_)
         volumes_ = std::make_shared<Volumes>();
     if (!settings.temporal || !acts(settings, "temporal"))
-        past_.reset();
-    else if (!past_)
-        past_ = std::make_shared<Past>();
+        history_.reset();
+    else if (!history_)
+        history_ = std::make_shared<TemporalHistory>();
     return plan;
 }
 
@@ -395,7 +395,7 @@ void Subsurface::clear() {
     counted_.clear();
     profiles_.clear();
     volumes_.reset();
-    past_.reset();
+    history_.reset();
 }
 
 Status Subsurface::light(graph::FrameGraph& graph, const Arriving& in, const Plan& plan,
@@ -430,8 +430,8 @@ Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan
         : settings.method == Method::Diffusion
             ? recordVolumes(graph, context_, in, *plan.state_, *entering_, settings, *volumes_)
             : recordRadiosity(graph, context_, in, *plan.state_, *entering_, settings);
-    if (radiosity && past_ && radiosity->places)
-        radiosity = recordSteady(graph, context_, in, *plan.state_, *radiosity, settings, past_);
+    if (radiosity && history_ && radiosity->places)
+        radiosity = recordSteady(graph, context_, in, *plan.state_, *radiosity, settings, history_);
     if (!radiosity) return radiosity.error();
     TextureId highlight;
     if (seen && !showsLight(in)) highlight = import(seen->other[seen->now]);

@@ -87,7 +87,7 @@ struct Arriving {
 
 class Entering;
 struct Profiled;
-struct Past;
+struct TemporalHistory;
 class Volumes;
 
 /// Profiles of the scene's materials as textures, and what is drawn for its environment. Made once for as
@@ -162,7 +162,7 @@ private:
     std::map<int, Counted> counted_;                        // by the object's place in the scene
     std::vector<std::shared_ptr<const Profiled>> profiles_; // of the last plan
     std::shared_ptr<Volumes> volumes_;                      // null for methods that solve nothing
-    std::shared_ptr<Past> past_; // null where no picture keeps any of the one before
+    std::shared_ptr<TemporalHistory> history_; // null where no picture keeps any of the one before
 };
 
 } // namespace lucent::subsurface

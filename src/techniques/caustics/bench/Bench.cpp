@@ -208,7 +208,7 @@ Result<Energy> energyOf(gl::Context& context, const scene::Scene& scene, const S
 double total(const dvec3& flux) { return flux.r + flux.g + flux.b; }
 
 double lostOrWrong(const Energy& energy) {
-    return (total(energy.astray) + total(energy.missed)) / total(energy.met);
+    return (total(energy.astray) + total(energy.missed)) / total(energy.incident);
 }
 
 struct Subject {
@@ -221,7 +221,7 @@ struct Subject {
 Status addBook(gl::Context& context, const Subject& subject, std::vector<Ratio>& ratios) {
     const Result<Energy> energy = energyOf(context, subject.scene, subject.settings);
     if (!energy) return energy.error();
-    const double met = total(energy->met);
+    const double met = total(energy->incident);
     const double others = total(energy->received) + total(energy->absorbed) + total(energy->reflected) +
                           total(energy->missed) + total(energy->lost);
     // Triangles cover whole texels: what they cover too much of one is within a thousandth.
@@ -241,7 +241,7 @@ Status addGrids(gl::Context& context, std::vector<Ratio>& ratios) {
         settings.grid = grid;
         const Result<Energy> energy = energyOf(context, scene, settings);
         if (!energy) return energy.error();
-        worstMet = std::max(worstMet, std::abs(energy->met.g / std::numbers::pi - 1)); // pi R² E
+        worstMet = std::max(worstMet, std::abs(energy->incident.g / std::numbers::pi - 1)); // pi R² E
         low = std::min(low, energy->received.g);
         high = std::max(high, energy->received.g);
     }

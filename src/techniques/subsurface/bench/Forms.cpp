@@ -1,4 +1,4 @@
-// Known answers of bodies that scatter light inside.
+// Known answers of bodies that have subsurface scattering.
 #include "measure/FormScenes.h"
 #include "scene/MaterialPresets.h"
 #include "techniques/subsurface/bench/Bench.h"

@@ -31,7 +31,7 @@ struct Beam {
     Media media;             ///< around the origin
     dvec3 weight{1};         ///< of each colour
     double begin = 0;        ///< m along the ray; -infinity: a whole line
-    bool meetsHidden = false;
+    bool hitsHidden = false;
 };
 
 /// Where a beam got to.

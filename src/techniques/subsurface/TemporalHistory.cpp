@@ -1,4 +1,4 @@
-#include "techniques/subsurface/Past.h"
+#include "techniques/subsurface/TemporalHistory.h"
 
 #include "shaders/subsurface/Blocks.h"
 
@@ -80,9 +80,9 @@ int sideOf(const Inputs& in, const Plan::State& plan) {
 class Steady {
 public:
     Steady(graph::FrameGraph& graph, gl::Context& context, const Inputs& in, const Radiosity& now,
-           const std::shared_ptr<Past>& past, int side)
-        : graph_(graph), context_(context), in_(in), now_(now), past_(past), block_{side, now.unit},
-          light_(import(past->light)), places_(import(past->places)) {}
+           const std::shared_ptr<TemporalHistory>& history, int side)
+        : graph_(graph), context_(context), in_(in), now_(now), history_(history), block_{side, now.unit},
+          light_(import(history->light)), places_(import(history->places)) {}
 
     Status carry(const Moment& moment);
     Status change();
@@ -99,7 +99,7 @@ private:
     gl::Context& context_;
     const Inputs& in_;
     const Radiosity& now_;
-    const std::shared_ptr<Past>& past_;
+    const std::shared_ptr<TemporalHistory>& history_;
     const ChangeBlock block_;
     const TextureId light_, places_;
     TextureId carried_, change_;
@@ -107,7 +107,7 @@ private:
 
 Status Steady::carry(const Moment& moment) {
     const gl::Program* program = context_.program("subsurface/carried");
-    const Moment& then = past_->moment;
+    const Moment& then = history_->moment;
     std::vector<graph::Block> blocks;
     for (std::size_t i = 0; i < moment.bodies.size(); ++i)
         if (const auto matrix = thenFromNow(moment.bodies[i].key, then.bodies[i].key))
@@ -167,7 +167,7 @@ Result<Radiosity> Steady::record(Moment moment) {
                 pass.sample(id);
         pass.write(light_);
         pass.write(places_);
-        return [=, now = now_, carried = carried_, change = change_, block = block_, past = past_,
+        return [=, now = now_, carried = carried_, change = change_, block = block_, history = history_,
                 moment = std::move(moment)](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{
                 .program = program,
@@ -178,8 +178,8 @@ Result<Radiosity> Steady::record(Moment moment) {
                 draw.textures.push_back({"uChange", resources[change]});
             }
             commands.draw(draw);
-            past->moment = moment;
-            past->drawn = true;
+            history->moment = moment;
+            history->drawn = true;
         };
     });
     return Radiosity{light_, 1, now_.places};
@@ -205,16 +205,16 @@ bool follows(const Moment& now, const Moment& then) {
 
 Result<Radiosity> recordSteady(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
                                const Plan::State& plan, const Radiosity& now, const Settings& settings,
-                               const std::shared_ptr<Past>& past) {
+                               const std::shared_ptr<TemporalHistory>& history) {
     const graph::TextureDesc desc{.size = in.size, .format = Format::RGBA32F};
-    if (!past->light || past->light.desc() != desc) {
-        past->light = graph::Texture(context.device(), desc, "subsurface.past");
-        past->places = graph::Texture(context.device(), desc, "subsurface.pastPlaces");
-        past->drawn = false;
+    if (!history->light || history->light.desc() != desc) {
+        history->light = graph::Texture(context.device(), desc, "subsurface.history");
+        history->places = graph::Texture(context.device(), desc, "subsurface.historyPlaces");
+        history->drawn = false;
     }
     Moment moment = momentOf(in, plan, settings);
-    Steady steady(graph, context, in, now, past, sideOf(in, plan));
-    if (past->drawn && follows(moment, past->moment)) {
+    Steady steady(graph, context, in, now, history, sideOf(in, plan));
+    if (history->drawn && follows(moment, history->moment)) {
         if (Status s = steady.carry(moment); !s) return s.error();
         if (Status s = steady.change(); !s) return s.error();
     }

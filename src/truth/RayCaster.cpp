@@ -1,14 +1,15 @@
-#include "truth/Finder.h"
+#include "truth/RayCaster.h"
 
 namespace lucent::truth {
 
-bool Query::offer(int shape, const Meeting& meeting) {
+bool Query::offer(int shape, const Intersection& intersection) {
     const Stretch stretch = open(shape);
-    const bool nearest = found_.count > 0 && meeting.distance < found_.at[0].distance;
-    if (!(meeting.distance > stretch.from && (nearest || meeting.distance < stretch.to))) return false;
+    const bool nearest = found_.count > 0 && intersection.distance < found_.at[0].distance;
+    if (!(intersection.distance > stretch.from && (nearest || intersection.distance < stretch.to)))
+        return false;
     if (found_.count > 0 && within_ == 0 && !nearest) return false;
-    insert({ray_.origin + meeting.distance * ray_.direction, meeting.normal, meeting.smoothNormal, shape,
-            meeting.distance});
+    insert({ray_.origin + intersection.distance * ray_.direction, intersection.normal,
+            intersection.smoothNormal, shape, intersection.distance});
     return true;
 }
 

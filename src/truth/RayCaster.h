@@ -1,13 +1,13 @@
 #pragma once
 /// Which shapes of a scene a ray may meet: by Embree's tree, or by one of our own where there is no Embree.
 
-#include "truth/Meeting.h"
+#include "truth/Intersection.h"
 
 #include <algorithm>
 
 namespace lucent::truth {
 
-/// A shape of a scene as finders know it.
+/// A shape of a scene as ray casters know it.
 struct Entry {
     Shape shape;
     Box box; ///< a little larger than the shape
@@ -24,7 +24,7 @@ public:
 
     const WorldRay& ray() const { return ray_; }
     double enters() const { return enters_; }
-    bool asksFor(const Entry& entry) const { return ray_.meetsHidden || !entry.hidden; }
+    bool asksFor(const Entry& entry) const { return ray_.hitsHidden || !entry.hidden; }
     /// Nothing farther along the ray counts.
     double farthest() const {
         return found_.count > 0 ? std::min(ray_.length, found_.at[0].distance + within_) : ray_.length;
@@ -34,7 +34,7 @@ public:
         return {shape == leaving_.shape ? std::max(ray_.begin, leaving_.until) : ray_.begin, farthest()};
     }
     /// Takes a hit when it is the nearest up to now, or close behind it.
-    bool offer(int shape, const Meeting& meeting);
+    bool offer(int shape, const Intersection& intersection);
     const Hits& found() const { return found_; }
 
 private:
@@ -62,9 +62,9 @@ private:
     std::optional<Nearest> found_;
 };
 
-class Finder {
+class RayCaster {
 public:
-    virtual ~Finder() = default;
+    virtual ~RayCaster() = default;
     /// Offers the query what its ray meets.
     virtual void find(Query& query) const = 0;
     virtual bool isBlocked(Query& query) const = 0;
@@ -75,9 +75,9 @@ public:
 ///
 /// @param middle  of the scene: Embree's origin, where floats are densest
 /// @param room    what Embree may be wrong by, and more, m
-Result<std::unique_ptr<Finder>> findByEmbree(const std::vector<Entry>& entries, const dvec3& middle,
-                                             double room);
+Result<std::unique_ptr<RayCaster>> findByEmbree(const std::vector<Entry>& entries, const dvec3& middle,
+                                                double room);
 /// A tree of boxes around shapes and triangles, in double precision.
-std::unique_ptr<Finder> findByBoxes(const std::vector<Entry>& entries, double room);
+std::unique_ptr<RayCaster> findByBoxes(const std::vector<Entry>& entries, double room);
 
 } // namespace lucent::truth

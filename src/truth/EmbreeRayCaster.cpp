@@ -1,4 +1,4 @@
-#include "truth/Finder.h"
+#include "truth/RayCaster.h"
 
 #include <embree3/rtcore.h>
 
@@ -47,8 +47,8 @@ void intersectShape(const RTCIntersectFunctionNArguments* given) {
     const Entry& entry = *static_cast<const Known*>(given->geometryUserPtr)->entry;
     if (!passed.query.asksFor(entry)) return;
     const int shape = int(given->geomID);
-    const auto meeting = meet(entry.shape, passed.query.ray(), passed.query.open(shape));
-    if (!meeting || !passed.query.offer(shape, *meeting)) return;
+    const auto intersection = intersect(entry.shape, passed.query.ray(), passed.query.open(shape));
+    if (!intersection || !passed.query.offer(shape, *intersection)) return;
     auto* found = reinterpret_cast<RTCRayHit*>(given->rayhit);
     found->ray.tfar = passed.reach();
     found->hit.geomID = given->geomID;
@@ -68,20 +68,21 @@ void filterTriangle(const RTCFilterFunctionNArguments* given) {
     const Passed& passed = Passed::of(given->context);
     const auto* hit = reinterpret_cast<const RTCHit*>(given->hit);
     const Entry& entry = *static_cast<const Known*>(given->geometryUserPtr)->entry;
-    const auto meeting = passed.query.asksFor(entry)
-                             ? meetTriangle(std::get<Triangles>(entry.shape), hit->primID, passed.query.ray())
-                             : std::nullopt;
-    if (meeting && passed.query.offer(int(hit->geomID), *meeting))
+    const auto intersection =
+        passed.query.asksFor(entry)
+            ? intersectTriangle(std::get<Triangles>(entry.shape), hit->primID, passed.query.ray())
+            : std::nullopt;
+    if (intersection && passed.query.offer(int(hit->geomID), *intersection))
         reinterpret_cast<RTCRay*>(given->ray)->tfar = passed.reach();
     else
         given->valid[0] = 0;
 }
 
-class EmbreeFinder : public Finder {
+class EmbreeRayCaster : public RayCaster {
 public:
-    EmbreeFinder(const std::vector<Entry>& entries, const dvec3& middle, double room)
+    EmbreeRayCaster(const std::vector<Entry>& entries, const dvec3& middle, double room)
         : entries_(entries), middle_(middle), room_(room) {}
-    ~EmbreeFinder() override {
+    ~EmbreeRayCaster() override {
         if (scene_) rtcReleaseScene(scene_);
         if (device_) rtcReleaseDevice(device_);
     }
@@ -197,11 +198,11 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<Finder>> findByEmbree(const std::vector<Entry>& entries, const dvec3& middle,
-                                             double room) {
-    auto finder = std::make_unique<EmbreeFinder>(entries, middle, room);
+Result<std::unique_ptr<RayCaster>> findByEmbree(const std::vector<Entry>& entries, const dvec3& middle,
+                                                double room) {
+    auto finder = std::make_unique<EmbreeRayCaster>(entries, middle, room);
     if (Status built = finder->build(); !built) return built.error();
-    return std::unique_ptr<Finder>(std::move(finder));
+    return std::unique_ptr<RayCaster>(std::move(finder));
 }
 
 } // namespace lucent::truth

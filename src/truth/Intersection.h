@@ -23,22 +23,23 @@ Box boxOf(const Shape& shape);
 Stretch within(const Box& box, const WorldRay& ray);
 
 /// What a ray meets of one shape: how far, and the normals there.
-struct Meeting {
+struct Intersection {
     double distance;
     dvec3 normal, smoothNormal;
-    Meeting(double distance, const dvec3& normal) : Meeting(distance, normal, normal) {}
-    Meeting(double distance, const dvec3& normal, const dvec3& smoothNormal)
+    Intersection(double distance, const dvec3& normal) : Intersection(distance, normal, normal) {}
+    Intersection(double distance, const dvec3& normal, const dvec3& smoothNormal)
         : distance(distance), normal(normal), smoothNormal(smoothNormal) {}
 };
 
 /// The nearest hit within a stretch of the ray of a shape that is no triangles.
-std::optional<Meeting> meet(const Shape& shape, const WorldRay& ray, Stretch stretch);
+std::optional<Intersection> intersect(const Shape& shape, const WorldRay& ray, Stretch stretch);
 /// Whether such a shape is in the way there.
 bool blocks(const Shape& shape, const WorldRay& ray, Stretch stretch);
 
 /// A triangle that was found, solved by its plane. Nothing where the exact ray passes by it: close to an edge
 /// by as much as floats may be wrong is still on it, so that no ray slips through.
-std::optional<Meeting> meetTriangle(const Triangles& triangles, unsigned number, const WorldRay& ray);
+std::optional<Intersection> intersectTriangle(const Triangles& triangles, unsigned number,
+                                              const WorldRay& ray);
 
 /// The place of a triangle that is nearest to a point, as weights of its corners.
 dvec3 nearestWeights(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& point);

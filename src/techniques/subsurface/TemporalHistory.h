@@ -32,7 +32,7 @@ struct Moment {
 bool follows(const Moment& now, const Moment& then);
 
 /// Kept from picture to picture.
-struct Past {
+struct TemporalHistory {
     Moment moment;
     graph::Texture light;  ///< W/m²
     graph::Texture places; ///< subsurface/receivers.frag
@@ -44,6 +44,6 @@ struct Past {
 /// place to place is mostly taken from the old one. A picture that follows none is left as it is.
 Result<Radiosity> recordSteady(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
                                const Plan::State& plan, const Radiosity& now, const Settings& settings,
-                               const std::shared_ptr<Past>& past);
+                               const std::shared_ptr<TemporalHistory>& history);
 
 } // namespace lucent::subsurface

@@ -1,7 +1,7 @@
-// caustics/soak.frag: what water leaves of the light of rays that land in it.
+// caustics/absorb.frag: what water leaves of the light of rays that land in it.
 //
 // in    uPlace, uFlux, uLanding  of the rays: where they entered, with what, where they landed
-// out   oFlux    as uFlux. WITH_BOOK: oFlux what is absorbed of the share uMet.a of it
+// out   oFlux    as uFlux. WITH_BOOK: oFlux what is absorbed of the share uIncident.a of it
 #pragma variants - WITH_BOOK
 layout(std140) uniform SoakBlock {
     vec4 absorption; // 1/m
@@ -10,7 +10,7 @@ uniform sampler2D uPlace;
 uniform sampler2D uFlux;
 uniform sampler2D uLanding;
 #ifdef WITH_BOOK
-uniform sampler2D uMet;
+uniform sampler2D uIncident;
 #endif
 layout(location = 0) out vec4 oFlux;
 
@@ -21,7 +21,7 @@ void main() {
     vec3 left = vec3(1.0);
     if (landing.w > 0.0) left = exp(-water.absorption.rgb * distance(landing.xyz, texelFetch(uPlace, ray, 0).xyz));
 #ifdef WITH_BOOK
-    oFlux.rgb *= (1.0 - left) * texelFetch(uMet, ray, 0).a;
+    oFlux.rgb *= (1.0 - left) * texelFetch(uIncident, ray, 0).a;
 #else
     oFlux.rgb *= left;
 #endif

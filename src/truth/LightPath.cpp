@@ -1,4 +1,4 @@
-#include "truth/Journey.h"
+#include "truth/LightPath.h"
 
 #include "truth/Interface.h"
 
@@ -48,10 +48,10 @@ dvec3 facingNormal(const Hit& hit, const dvec3& direction) {
     return glm::dot(smooth, direction) < 0 ? smooth : side * hit.normal;
 }
 
-class Journey {
+class LightPath {
 public:
-    Journey(const Optics& optics, Beam beam, int channel, Branching branching, const Limits& limits,
-            Random& random)
+    LightPath(const Optics& optics, Beam beam, int channel, Branching branching, const Limits& limits,
+              Random& random)
         : optics_(optics), beam_(std::move(beam)), channel_(channel), branching_(branching), limits_(limits),
           random_(random) {}
 
@@ -71,9 +71,9 @@ private:
 
     /// To the next surface and through it; false where the way ends.
     bool step() {
-        const Hits hits =
-            optics_.rays().meet({beam_.origin, beam_.direction, std::numeric_limits<double>::infinity(),
-                                 beam_.begin, beam_.meetsHidden});
+        const Hits hits = optics_.rays().coincidentHits({beam_.origin, beam_.direction,
+                                                         std::numeric_limits<double>::infinity(), beam_.begin,
+                                                         beam_.hitsHidden});
         if (hits.count == 0) return finish(Arrival::At::Sky);
         const Hit& first = hits.at[0];
         if (end_.surfaces == 0) end_.firstDistance = first.distance;
@@ -169,7 +169,7 @@ private:
 
 Arrival follow(const Optics& optics, Beam beam, int channel, Branching branching, const Limits& limits,
                Random& random) {
-    return Journey(optics, std::move(beam), channel, branching, limits, random).run();
+    return LightPath(optics, std::move(beam), channel, branching, limits, random).run();
 }
 
 dvec3 straightTransmittance(const Optics& optics, WorldRay ray, const Leaving& leaving) {
@@ -183,8 +183,8 @@ dvec3 straightTransmittance(const Optics& optics, WorldRay ray, const Leaving& l
         if (sigma != dvec3(0)) kept *= glm::exp(-sigma * (to - from));
         from = to;
     };
-    for (Hits hits = optics.rays().meet(ray, leaving); hits.count > 0;
-         hits = optics.rays().meet(ray, leaving)) {
+    for (Hits hits = optics.rays().coincidentHits(ray, leaving); hits.count > 0;
+         hits = optics.rays().coincidentHits(ray, leaving)) {
         if (opaqueOf(hits, optics) || mirrorOf(hits, optics)) return dvec3(0);
         absorb(hits.at[0].distance);
         const int here = media.medium();

@@ -1,4 +1,4 @@
-#include "truth/Finder.h"
+#include "truth/RayCaster.h"
 
 #include <algorithm>
 #include <array>
@@ -54,9 +54,9 @@ private:
     dvec3 origin_, right_, up_;
 };
 
-class BoxFinder : public Finder {
+class BoxRayCaster : public RayCaster {
 public:
-    BoxFinder(const std::vector<Entry>& entries, double room) : entries_(entries) {
+    BoxRayCaster(const std::vector<Entry>& entries, double room) : entries_(entries) {
         for (std::size_t i = 0; i < entries.size(); ++i)
             addParts(int(i), room);
         if (!parts_.empty()) divide(0, int(parts_.size()));
@@ -65,7 +65,8 @@ public:
     void find(Query& query) const override {
         const Line line(query.ray());
         forEachOnTheWay(query, [&](const Part& part) {
-            if (const auto meeting = meetingOf(part, query, line)) query.offer(part.shape, *meeting);
+            if (const auto intersection = intersectionOf(part, query, line))
+                query.offer(part.shape, *intersection);
             return false;
         });
     }
@@ -76,8 +77,8 @@ public:
             const Stretch open = query.open(part.shape);
             if (!std::holds_alternative<Triangles>(entry.shape))
                 return query.asksFor(entry) && blocks(entry.shape, query.ray(), open);
-            const auto meeting = meetingOf(part, query, line);
-            return meeting && meeting->distance > open.from && meeting->distance < open.to;
+            const auto intersection = intersectionOf(part, query, line);
+            return intersection && intersection->distance > open.from && intersection->distance < open.to;
         });
     }
     void find(Search& search) const override {
@@ -157,13 +158,13 @@ private:
         return walk(isOnTheWay, work);
     }
 
-    std::optional<Meeting> meetingOf(const Part& part, const Query& query, const Line& line) const {
+    std::optional<Intersection> intersectionOf(const Part& part, const Query& query, const Line& line) const {
         const Entry& entry = entryOf(part);
         if (!query.asksFor(entry)) return {};
         const auto* mesh = std::get_if<Triangles>(&entry.shape);
-        if (!mesh) return meet(entry.shape, query.ray(), query.open(part.shape));
+        if (!mesh) return intersect(entry.shape, query.ray(), query.open(part.shape));
         if (!line.pierces(*mesh, part.triangle)) return {};
-        return meetTriangle(*mesh, part.triangle, query.ray());
+        return intersectTriangle(*mesh, part.triangle, query.ray());
     }
 
     const std::vector<Entry>& entries_;
@@ -173,8 +174,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<Finder> findByBoxes(const std::vector<Entry>& entries, double room) {
-    return std::make_unique<BoxFinder>(entries, room);
+std::unique_ptr<RayCaster> findByBoxes(const std::vector<Entry>& entries, double room) {
+    return std::make_unique<BoxRayCaster>(entries, room);
 }
 
 } // namespace lucent::truth

@@ -1,5 +1,5 @@
 #include "scene/Keys.h"
-#include "truth/Journey.h"
+#include "truth/LightPath.h"
 
 #include "truth/Interface.h"
 
@@ -30,7 +30,7 @@ TEST(Interface, ReflectsAsFresnelSays) {
     EXPECT_NEAR(reflectance(std::cos(std::atan(1.5)), 1 / 1.5), 0.5 * amplitude * amplitude, 1e-15);
 }
 
-TEST(Journey, ASlabKeepsTheDirectionAndMovesTheRayAside) {
+TEST(LightPath, ASlabKeepsTheDirectionAndMovesTheRayAside) {
     const double thick = 0.4, n = 1.5;
     const Bench bench({glass(scene::Box{{20, 0.4f, 20}}, 1.5f), matt(scene::Plane{{40, 40}}, {0, -1, 0})});
     for (const double a : {0.0, 10.0, 45.0, 60.0, 80.0}) {
@@ -48,7 +48,7 @@ TEST(Journey, ASlabKeepsTheDirectionAndMovesTheRayAside) {
     }
 }
 
-TEST(Journey, AFlatFieldOfGlassIsASlab) {
+TEST(LightPath, AFlatFieldOfGlassIsASlab) {
     const double thick = 0.05, n = 1.5;
     const Bench bench({test::glassRelief(64, 1.5f, [](double, double) { return 0.05; }),
                        matt(scene::Plane{{40, 40}}, {0, -0.1f, 0})});
@@ -63,7 +63,7 @@ TEST(Journey, AFlatFieldOfGlassIsASlab) {
     }
 }
 
-TEST(Journey, ALensOfHeightsFocusesWhereItsCurvatureSays) {
+TEST(LightPath, ALensOfHeightsFocusesWhereItsCurvatureSays) {
     // Light along the axis on the convex side of radius 0.5 m leaves a thickness of 0.05 m towards a point
     // R / (n - 1) - d / n behind the flat one. At a 40th of the radius the sphere's own error is below 1e-3.
     const double radius = 0.5, thick = 0.05, n = 1.5;
@@ -79,7 +79,7 @@ TEST(Journey, ALensOfHeightsFocusesWhereItsCurvatureSays) {
     }
 }
 
-TEST(Journey, AbsorptionGoesByTheLengthInside) {
+TEST(LightPath, AbsorptionGoesByTheLengthInside) {
     scene::Object slab = glass(scene::Box{{20, 0.5f, 20}}, 1.5f);
     slab.material.clear().fresnel = false;
     slab.material.clear().absorption = scene::absorptionOf({0.25f, {0.5f, 0.25f, 1}});
@@ -98,7 +98,7 @@ TEST(Journey, AbsorptionGoesByTheLengthInside) {
     }
 }
 
-TEST(Journey, AnIndexOfOneShowsTheBackgroundExactly) {
+TEST(LightPath, AnIndexOfOneShowsTheBackgroundExactly) {
     scene::Object torus = glass(scene::Torus{0.8f, 0.3f}, 1);
     torus.transform.rotate = {40, 10, 0};
     const Bench bench({glass(scene::Sphere{0.9f}, 1), torus});
@@ -111,7 +111,7 @@ TEST(Journey, AnIndexOfOneShowsTheBackgroundExactly) {
     }
 }
 
-TEST(Journey, ABallDeviatesByTwiceTheDifferenceOfTheAngles) {
+TEST(LightPath, ABallDeviatesByTwiceTheDifferenceOfTheAngles) {
     for (const float ior : {1.5f, 1.33f, 2.4f, 1.0001f}) {
         const double n = double(ior);
         const Bench bench({glass(scene::Sphere{2}, ior)});
@@ -127,7 +127,7 @@ TEST(Journey, ABallDeviatesByTwiceTheDifferenceOfTheAngles) {
     }
 }
 
-TEST(Journey, ABallFocusesParaxialRaysBehindItself) {
+TEST(LightPath, ABallFocusesParaxialRaysBehindItself) {
     const Bench bench({glass(scene::Sphere{1}, 1.5f), matt(scene::Plane{{9, 9}}, {0, -1.5f, 0})});
     // n R / (2 (n - 1)) = 1.5 from the centre; the error falls with the cube of the offset.
     for (const double b : {1e-2, 1e-3}) {
@@ -136,7 +136,7 @@ TEST(Journey, ABallFocusesParaxialRaysBehindItself) {
     }
 }
 
-TEST(Journey, ABubbleSpreadsLightAndReflectsItsRimTotally) {
+TEST(LightPath, ABubbleSpreadsLightAndReflectsItsRimTotally) {
     const double n = 0.75;
     const Bench bench({glass(scene::Sphere{1}, 0.75f)});
     for (const double b : {0.3, 0.7, 0.749, 0.751, 0.9}) {
@@ -148,7 +148,7 @@ TEST(Journey, ABubbleSpreadsLightAndReflectsItsRimTotally) {
     }
 }
 
-TEST(Journey, OfNestedBallsTheLaterOneInTheListCounts) {
+TEST(LightPath, OfNestedBallsTheLaterOneInTheListCounts) {
     const scene::Object outer = glass(scene::Sphere{1}, 1.5f), inner = glass(scene::Sphere{0.5f}, 1.25f);
     const double n = 1.5, m = 1.25, r = 0.5;
     for (const double b : {0.1, 0.4, 0.6}) {
@@ -165,7 +165,7 @@ TEST(Journey, OfNestedBallsTheLaterOneInTheListCounts) {
     }
 }
 
-TEST(Journey, LightIsTotallyReflectedBeyondTheCriticalAngleOnly) {
+TEST(LightPath, LightIsTotallyReflectedBeyondTheCriticalAngleOnly) {
     // asin(1 / 1.5) = 41.8103 degrees.
     const Bench bench({glass(scene::Box{{2, 2, 2}}, 1.5f), matt(scene::Plane{{9, 9}}, {0, 3, 0}),
                        matt(scene::Plane{{9, 9}}, {0, -3, 0})});
@@ -181,7 +181,7 @@ TEST(Journey, LightIsTotallyReflectedBeyondTheCriticalAngleOnly) {
     EXPECT_EQ(send(0).weight, dvec3(1 - 0.04));
 }
 
-TEST(Journey, LightThatStaysInsideForEverIsGivenUp) {
+TEST(LightPath, LightThatStaysInsideForEverIsGivenUp) {
     // At 45 degrees in a square of glass every reflection is total; the model follows eight.
     const Bench bench({glass(scene::Box{{2, 2, 2}}, 1.5f)});
     const Arrival arrival = bench.send({0.25, 0, 0}, {1, 1, 0});
@@ -204,7 +204,7 @@ scene::Object prism(double apex) {
     return glass(shape, 1.5f);
 }
 
-TEST(Journey, APrismDeviatesLeastWhereTheRayIsSymmetric) {
+TEST(LightPath, APrismDeviatesLeastWhereTheRayIsSymmetric) {
     const double apex = 60, half = apex * kPi / 360;
     const double least = 2 * std::asin(1.5 * std::sin(half)) - 2 * half; // 37.18 degrees
     const Bench bench({prism(apex)});
@@ -222,7 +222,7 @@ TEST(Journey, APrismDeviatesLeastWhereTheRayIsSymmetric) {
     EXPECT_GT(deviation(symmetric + 0.05), least + 1e-4);
 }
 
-TEST(Journey, FacesThatLieOnEachOtherAreOneInterface) {
+TEST(LightPath, FacesThatLieOnEachOtherAreOneInterface) {
     const scene::Object lower = glass(scene::Box{{9, 1, 9}}, 1.5f, {0, -0.5f, 0}),
                         upper = glass(scene::Box{{9, 1, 9}}, 1.25f, {0, 0.5f, 0});
     const dvec3 direction = glm::normalize(dvec3(0.5, -1, 0.2));
@@ -237,7 +237,7 @@ TEST(Journey, FacesThatLieOnEachOtherAreOneInterface) {
     }
 }
 
-TEST(Journey, ATorusIsEnteredAgain) {
+TEST(LightPath, ATorusIsEnteredAgain) {
     const Bench bench({glass(scene::Torus{1, 0.25f}, 1.5f)});
     const Arrival through = bench.send({-3, 0, 0}, {1, 0, 0});
     EXPECT_EQ(through.bends, 4);
@@ -257,7 +257,7 @@ TEST(Journey, ATorusIsEnteredAgain) {
     }
 }
 
-TEST(Journey, AnOpenSurfaceIsLeftOnlyWhereItWasEntered) {
+TEST(LightPath, AnOpenSurfaceIsLeftOnlyWhereItWasEntered) {
     const Bench bench({glass(scene::Plane{{9, 9}}, 1.5f)});
     const Arrival down = bench.send({0, 1, 0}, {1, -1, 0});
     EXPECT_NEAR(down.direction.x, std::sin(kPi / 4) / 1.5, 1e-12);
@@ -269,7 +269,7 @@ TEST(Journey, AnOpenSurfaceIsLeftOnlyWhereItWasEntered) {
     EXPECT_EQ(up.surfaces, 1);
 }
 
-TEST(Journey, MeshesBendLightAsTheirInterpolatedNormalsSay) {
+TEST(LightPath, MeshesBendLightAsTheirInterpolatedNormalsSay) {
     scene::MeshShape shape;
     shape.mesh = std::make_shared<scene::Mesh>(scene::meshOf(scene::Sphere{1}));
     scene::Object smooth = glass(shape, 1.5f);
@@ -289,7 +289,7 @@ TEST(Journey, MeshesBendLightAsTheirInterpolatedNormalsSay) {
     EXPECT_LT(worstFlat, 2);
 }
 
-TEST(Journey, AnEyeInsideKnowsIt) {
+TEST(LightPath, AnEyeInsideKnowsIt) {
     scene::MeshShape ball;
     ball.mesh = std::make_shared<scene::Mesh>(scene::meshOf(scene::Sphere{1}));
     const scene::Object torus = glass(scene::Torus{1, 0.25f}, 1.5f);
@@ -312,7 +312,7 @@ TEST(Journey, AnEyeInsideKnowsIt) {
     EXPECT_EQ(out.bends, 1);
 }
 
-TEST(Journey, ColoursPartAsTheAbbeNumberSays) {
+TEST(LightPath, ColoursPartAsTheAbbeNumberSays) {
     const scene::Clear flint{.ior = 1.6f, .dispersion = 0.6f}; // Abbe number 33.3
     const double n = double(1.6f);
     EXPECT_EQ(iorOf(flint, 1), n);
@@ -329,7 +329,7 @@ TEST(Journey, ColoursPartAsTheAbbeNumberSays) {
         EXPECT_NEAR(deviation(channel), 2 * (std::asin(0.5) - std::asin(0.5 / iorOf(flint, channel))), 1e-12);
 }
 
-TEST(Journey, AMirrorReflectsItsShareAndKeepsTheRest) {
+TEST(LightPath, AMirrorReflectsItsShareAndKeepsTheRest) {
     scene::Object wall = test::mirror(scene::Plane{{4, 4}});
     wall.material.mirror().reflectance = vec3(0.9f, 0.5f, 0.1f);
     const Arrival arrival = Bench({wall}).send({0, 1, 0}, {1, -1, 0});

@@ -1,4 +1,4 @@
-#include "truth/Meeting.h"
+#include "truth/Intersection.h"
 
 #include "truth/Relief.h"
 #include "truth/Torus.h"
@@ -54,7 +54,7 @@ Box boxOf(const Waves& waves) {
 
 /// The nearest hit of a sphere within a stretch. Half the chord is a product, not a difference of squares:
 /// rays that graze keep their digits.
-std::optional<Meeting> meet(const Sphere& sphere, const WorldRay& ray, Stretch stretch) {
+std::optional<Intersection> intersect(const Sphere& sphere, const WorldRay& ray, Stretch stretch) {
     const dvec3 out = ray.origin - sphere.center;
     const double foot = -glm::dot(out, ray.direction);
     const double aside = glm::length(out + foot * ray.direction);
@@ -62,11 +62,11 @@ std::optional<Meeting> meet(const Sphere& sphere, const WorldRay& ray, Stretch s
     const double half = std::sqrt((sphere.radius - aside) * (sphere.radius + aside));
     for (const double distance : {foot - half, foot + half})
         if (distance > stretch.from && distance < stretch.to)
-            return Meeting{distance, glm::normalize(out + distance * ray.direction)};
+            return Intersection{distance, glm::normalize(out + distance * ray.direction)};
     return {};
 }
 
-std::optional<Meeting> meet(const Torus& torus, const WorldRay& ray, Stretch stretch) {
+std::optional<Intersection> intersect(const Torus& torus, const WorldRay& ray, Stretch stretch) {
     const dvec3 aside = std::abs(torus.axis.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
     const dvec3 first = glm::normalize(glm::cross(torus.axis, aside));
     const glm::dmat3 worldFromTorus(first, glm::cross(torus.axis, first), torus.axis);
@@ -75,8 +75,8 @@ std::optional<Meeting> meet(const Torus& torus, const WorldRay& ray, Stretch str
     const TorusHits hits = torusHits(origin, direction, torus.major, torus.minor);
     for (int i = 0; i < hits.count; ++i)
         if (const double distance = hits.at[std::size_t(i)]; distance > stretch.from && distance < stretch.to)
-            return Meeting{distance,
-                           worldFromTorus * torusNormal(origin + distance * direction, torus.major)};
+            return Intersection{distance,
+                                worldFromTorus * torusNormal(origin + distance * direction, torus.major)};
     return {};
 }
 
@@ -211,28 +211,28 @@ struct SheetRay {
         return within({{-half.x, low - room, -half.y}, {half.x, high + room, half.y}}, local);
     }
     dvec2 below(double at) const { return {origin.x + at * direction.x, origin.z + at * direction.z}; }
-    Meeting meeting(const Placement& placement, double at, const dvec2& slope) const {
+    Intersection intersection(const Placement& placement, double at, const dvec2& slope) const {
         const dvec3 normal = glm::normalize(dvec3(-slope.x, 1, -slope.y));
         return {(at + foot) * scale, placement.directionInWorld(normal)};
     }
 };
 
-std::optional<Meeting> meet(const Ripple& ripple, const WorldRay& world, Stretch stretch) {
+std::optional<Intersection> intersect(const Ripple& ripple, const WorldRay& world, Stretch stretch) {
     const SheetRay ray(ripple.placement, world);
     const auto at = RippleCut(ripple, ray.origin, ray.direction)
                         .first(ray.over(stretch, ripple.half, -ripple.amplitude, ripple.amplitude));
     if (!at) return {};
     const dvec2 slope = ripple.amplitude * ripple.wave * std::cos(glm::dot(ripple.wave, ray.below(*at)));
-    return ray.meeting(ripple.placement, *at, slope);
+    return ray.intersection(ripple.placement, *at, slope);
 }
 
-std::optional<Meeting> meet(const Waves& waves, const WorldRay& world, Stretch stretch) {
+std::optional<Intersection> intersect(const Waves& waves, const WorldRay& world, Stretch stretch) {
     const SheetRay ray(waves.placement, world);
     const auto [low, high] = waves.basin->range();
     const auto at = BasinCut(*waves.basin, ray.origin, ray.direction)
                         .first(ray.over(stretch, waves.basin->half(), low, high));
     if (!at) return {};
-    return ray.meeting(waves.placement, *at, waves.basin->at(ray.below(*at)).slope);
+    return ray.intersection(waves.placement, *at, waves.basin->at(ray.below(*at)).slope);
 }
 
 /// A ray in a field's object space, and a stretch of it there.
@@ -246,16 +246,16 @@ struct FieldRay {
     double altitude(double at) const { return ray.anchor.z + at * ray.direction.z; }
 };
 
-std::optional<Meeting> meet(const FieldBlock& block, const WorldRay& world, Stretch stretch) {
+std::optional<Intersection> intersect(const FieldBlock& block, const WorldRay& world, Stretch stretch) {
     const FieldRay local(block, world, stretch);
     const auto hit = firstHit(*block.field, local.ray, local.stretch);
     if (!hit) return {};
     const double distance = glm::dot(hit->position - local.ray.anchor, local.ray.direction);
-    return Meeting{distance * block.placement.scale, block.placement.directionInWorld(hit->normal)};
+    return Intersection{distance * block.placement.scale, block.placement.directionInWorld(hit->normal)};
 }
 
 /// Triangles are met one by one.
-std::optional<Meeting> meet(const Triangles&, const WorldRay&, Stretch) { return {}; }
+std::optional<Intersection> intersect(const Triangles&, const WorldRay&, Stretch) { return {}; }
 
 /// Whether a ray meets the block from its surface to its bottom. Field knows no bottom: what enters below it
 /// is in the way only when it climbs into the block afterwards. A ray that leaves this block's own surface (a
@@ -271,7 +271,7 @@ bool blocks(const FieldBlock& block, const WorldRay& world, Stretch stretch) {
     return climb > 0 && (field.bottom() - local.ray.anchor.z) / climb < over.to;
 }
 bool blocks(const auto& shape, const WorldRay& ray, Stretch stretch) {
-    return meet(shape, ray, stretch).has_value();
+    return intersect(shape, ray, stretch).has_value();
 }
 
 } // namespace
@@ -294,15 +294,16 @@ Stretch within(const Box& box, const WorldRay& ray) {
     return stretch;
 }
 
-std::optional<Meeting> meet(const Shape& shape, const WorldRay& ray, Stretch stretch) {
-    return std::visit([&](const auto& known) { return meet(known, ray, stretch); }, shape);
+std::optional<Intersection> intersect(const Shape& shape, const WorldRay& ray, Stretch stretch) {
+    return std::visit([&](const auto& known) { return intersect(known, ray, stretch); }, shape);
 }
 
 bool blocks(const Shape& shape, const WorldRay& ray, Stretch stretch) {
     return std::visit([&](const auto& known) { return blocks(known, ray, stretch); }, shape);
 }
 
-std::optional<Meeting> meetTriangle(const Triangles& triangles, unsigned number, const WorldRay& ray) {
+std::optional<Intersection> intersectTriangle(const Triangles& triangles, unsigned number,
+                                              const WorldRay& ray) {
     const std::uint32_t* index = &triangles.indices[3 * std::size_t(number)];
     const dvec3 corner = triangles.positions[index[0]];
     const dvec3 first = triangles.positions[index[1]] - corner;
@@ -316,10 +317,10 @@ std::optional<Meeting> meetTriangle(const Triangles& triangles, unsigned number,
     constexpr double kOver = 1e-3;
     if (!(u > -kOver && v > -kOver && u + v < 1 + kOver)) return {};
     const dvec3 normal = across / std::sqrt(area);
-    if (triangles.normals.empty()) return Meeting(distance, normal);
+    if (triangles.normals.empty()) return Intersection(distance, normal);
     const dvec3 smooth = (1 - u - v) * triangles.normals[index[0]] + u * triangles.normals[index[1]] +
                          v * triangles.normals[index[2]];
-    return Meeting(distance, normal, glm::normalize(smooth));
+    return Intersection(distance, normal, glm::normalize(smooth));
 }
 
 /// A corner, on an edge, or inside (Ericson, Real-Time Collision Detection, 2005, 5.1.5).
