@@ -64,7 +64,8 @@ def pictures_of(program: Path, scene: Path, poster: Path, thumbnail: Path) -> No
     scale = POSTER * (1 if "environment" in content and is_relief(content) else 2) / max(width, height)
     size = f"{round(width * scale)}x{round(height * scale)}"
     with tempfile.NamedTemporaryFile(suffix=".png") as file:
-        subprocess.run([program, "render", scene, "-o", file.name, "--size", size], check=True)
+        subprocess.run([program, "render", scene, "-o", file.name, "--size", size,
+                        "--set", "technique.sampling.pixelSamples=1"], check=True)
         rendered = Image.open(file.name).convert("RGBA")
     picture = Image.new("RGBA", rendered.size, (236, 235, 232, 255))
     picture.alpha_composite(rendered)

@@ -46,7 +46,7 @@ test('every control of the panel has a labelled twin with a reset, in the order 
     })),
   );
   const groups = [...new Set(twins.map(({ group }) => group))];
-  const order = ['Light', 'Material', 'Falloff', 'Environment', 'Height field', 'View'];
+  const order = ['Light', 'Material', 'Falloff', 'Refraction', 'Environment', 'Height field', 'View'];
   assert.deepEqual(
     groups,
     order.filter((name) => groups.includes(name)),
