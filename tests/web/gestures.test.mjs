@@ -150,7 +150,7 @@ test('without a relief a drag orbits the camera and the wheel zooms, once the pi
 });
 
 test('a slider of the panel follows a real pointer', async () => {
-  const page = await open(kPanelViewer, { width: 900, height: 900, viewport: { width: 1000, height: 960 } });
+  const page = await open(kPanelViewer, { width: 900, height: 1200, viewport: { width: 1000, height: 1260 } });
   const path = 'objects.relief.material.specularity';
   const [x, y, width, height] = await page.evaluate(
     (name) => document.querySelector('lucent-viewer').stats().panel[name],

@@ -80,7 +80,7 @@ test('a mode puts its controls first and names whose they are', async () => {
   assert.deepEqual((await rows()).slice(0, 2), ['mode', 'technique.caustics.intersect']);
   await page.evaluate(() => (document.querySelector('lucent-viewer').mode = 'refraction'));
   assert.deepEqual((await rows()).slice(0, 2), ['mode', 'objects.water.material.transmission']);
-  assert.equal(await page.getByRole('group', { name: 'Light samples' }).count(), 1);
+  assert.equal(await page.getByRole('group', { name: 'Light samples' }).count(), 2); // those of lamps, and of pixels
   await page.leave();
 });
 
