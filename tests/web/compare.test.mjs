@@ -250,27 +250,24 @@ test('the page computes the truth that the program computed', async () => {
   await page.leave();
 });
 
-test("the truths of the gallery's reliefs agree with its pictures", async () => {
+test("truths of the gallery's reliefs agree with its pictures at the middles of pixels", async () => {
   const page = await openViewers(stage, '<lucent-viewer></lucent-viewer>', { gallery: 'own' });
   const scenes = await page.evaluate(async () => {
     Object.assign(document.querySelector('lucent-viewer').style, { width: '192px', height: '192px' });
     return await (await fetch('gallery/index.json')).json();
   });
   for (const { scene, truth, kind } of scenes) {
-    // Light from all around takes software drivers minutes; other truths are light traced with noise.
-    if (kind !== 'Relief' || truth.directions > 1) continue;
+    // Light from all around takes software drivers minutes, other truths are light traced with noise, and those of
+    // several reliefs do not look through their holes.
+    if (kind !== 'Relief' || truth?.directions !== 1) continue;
     await eventOf(page, 'load', () =>
-      page.evaluate(
-        ([name, { file, noise }]) => {
-          const viewer = document.querySelector('lucent-viewer');
-          Object.assign(viewer, { truth: 'gallery/' + file, truthNoise: noise, src: 'gallery/' + name });
-        },
-        [scene, truth],
-      ),
+      page.evaluate((name) => (document.querySelector('lucent-viewer').src = 'gallery/' + name), scene),
     );
+    await set(page, 'technique.sampling.pixelSamples', 1); // means over other places differ at edges
+    await complete(page);
     await set(page, 'compare', 'error');
+    await compute(page);
     const found = await numbers(page);
-    assert.deepEqual(found.size, truth.size);
     // Colour maps are half floats on the GPU, 2^-11 relative at most for each value.
     assert.ok(found.relRmse < 4.9e-4, `${scene}: relative RMSE ${found.relRmse}`);
     console.log(`# ${process.env.LUCENT_DRIVER}: ${scene}: relative RMSE ${found.relRmse.toExponential(2)}`);
