@@ -184,11 +184,10 @@ Capability blendFloats(gl::Context& context) {
         "EXT_float_blend",
         present,
         "",
-        "light adds up in caustic maps and, from inside of things, in the picture; where glass begins and "
-        "ends, for voxels",
+        "light adds up in caustic maps and, by subsurface scattering, in the picture; where glass begins "
+        "and ends, for voxels",
         "caustic maps of 16-bit floats: a glass ball's caustic loses 0.7 % of its light; subsurface "
-        "scattering is "
-        "gathered; voxels of glass take a pass more; layers of glass by peeling are the same",
+        "scattering is gathered; voxels of glass take a pass more; layers of glass by peeling are the same",
         present ? blendDifference(context) : kUnknown,
         "largest relative difference between both sums of 64 terms"};
 }

@@ -193,7 +193,7 @@ TEST_P(Without, AnExtensionAllFormsHoldAndItsLineSaysNo) {
 TEST_F(Checks, BlendingTellsOfEachTechniqueThatAddsLightUp) {
     const Capability row = capabilities().at("Blend 32-bit floats");
     // caustics/LightPasses.h, views/Voxels.cpp, subsurface/Splatting.cpp: all that ask for floatBlend.
-    for (const char* word : {"caustic maps", "voxels", "inside"}) {
+    for (const char* word : {"caustic maps", "voxels", "subsurface"}) {
         EXPECT_NE(row.use.find(word), std::string_view::npos) << word;
         EXPECT_NE(row.fallback.find(word), std::string_view::npos) << word;
     }
