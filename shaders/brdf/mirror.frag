@@ -60,7 +60,8 @@ vec3 lightAlong(vec3 place, vec3 normal, vec3 direction) {
     }
 #endif
 #ifdef USE_AROUND
-    if (mirror.cube >= 0) return lightAround(mirror.cube, mirror.view.eye.xyz + place, direction).rgb;
+    float way;
+    if (mirror.cube >= 0) return lightAround(mirror.cube, mirror.view.eye.xyz + place, direction, way).rgb;
 #endif
 #ifdef USE_VIEW
     return lightInView(mirror.view, place, direction).rgb;

@@ -70,11 +70,14 @@ int cubeBy(vec3 place) {
 #endif
 
 // Light of a ray that has left all that the view shows.
-vec4 lightBeyond(vec3 origin, vec3 direction) {
+//
+// way  [m] to what it meets there; 1e30: nothing
+vec4 lightBeyond(vec3 origin, vec3 direction, out float way) {
+    way = 1e30;
 #ifdef USE_AROUND
     vec3 place = layers.view.eye.xyz + origin;
     int cube = cubeBy(place);
-    if (cube >= 0) return lightAround(cube, place, direction);
+    if (cube >= 0) return lightAround(cube, place, direction, way);
 #endif
     return environmentAt(direction);
 }
@@ -115,7 +118,9 @@ vec4 follow(inout Beam beam, Crossing first, int channel) {
     for (int i = 0; i < kMostInterfaces; ++i) {
         Crossing crossing = advance(beam, walk, channel);
         if (crossing.kind == kNothing) {
-            vec4 light = lightBeyond(beam.origin, beam.direction);
+            float way;
+            vec4 light = lightBeyond(beam.origin, beam.direction, way);
+            if (way < 1e29) light.rgb *= leftAfter(beam, lengthOf(beam, way, channel)); // as under water
             return crossing.entered && beam.inside != 0 ? vec4(light.rgb, -1.0) : light;
         }
         if (crossing.kind == kLost) return vec4(0.0, 0.0, 0.0, -1.0);

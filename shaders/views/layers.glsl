@@ -264,10 +264,8 @@ Crossing leaveAt(View view, Ray ray, float t, vec2 towards, int left) {
         back += last ? 1 : 0;
     }
     if (bestTexel.w > 0.0) return Crossing(kGlass, t, objectOf(bestTexel), false, normalOf(bestTexel), bestPixel);
-    // Nothing turns towards it: it goes on as it came.
-    int object = 0;
-    while (object < 31 && !isInside(left, object)) ++object;
-    return Crossing(kGlass, t, object, false, ray.direction, bestPixel);
+    // Nothing turns towards it: it is inside still, as below water behind a wall, or is taken to be.
+    return Crossing(kNothing, 0.0, 0, true, vec3(0.0), bestPixel);
 }
 
 #ifdef USE_BOX

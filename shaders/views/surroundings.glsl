@@ -193,14 +193,18 @@ int cubeOf(int object) {
 
 // Light along a ray that begins at a place of the world: what it meets, by way of further mirrors, or the environment.
 // a: coverage.
-vec4 lightAround(int cube, vec3 place, vec3 direction) {
+//
+// way  [m] to what it meets first; 1e30: nothing
+vec4 lightAround(int cube, vec3 place, vec3 direction, out float way) {
     vec3 weight = vec3(1.0);
+    way = 1e30;
     for (int mirrors = 0;; ++mirrors) {
         Met met = meetAround(cube, place - AROUND.cubes[cube].place.xyz, direction);
         if (cube + 1 < AROUND.count && isOfItself(cube + 1)) {
             Met itself = meetAround(cube + 1, place - AROUND.cubes[cube].place.xyz, direction);
             if (itself.t < met.t) met = itself;
         }
+        if (mirrors == 0) way = met.t;
         if (met.t > 1e29) return vec4(weight, 1.0) * environmentAt(direction);
         int next = mirrors < AROUND.further ? cubeOf(met.object) : -1;
         if (next < 0) return vec4(weight * met.radiance, 1.0);
