@@ -58,6 +58,8 @@ Result<Renderer::State::Moment> Renderer::State::readyMoment(const scene::Scene&
 Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     State& s = *state_;
     s.shownKey.reset(); // explained as if nothing were there yet
+    s.shadows.clear();
+    ++s.scenery;
     s.start(scene, s.revision + 1, size, State::Effort::Final);
     for (bool still = false; !still;) {
         const Result<bool> advanced = s.waters.advance(scene);
@@ -111,6 +113,7 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
                  std::to_string(texture->desc().size.y) + " " + graph::name(texture->desc().format),
              texture->desc().bytes());
     line("heights, pyramids, meshes and maps of the objects", s.images.bytes());
+    if (s.shadows.bytes() > 0) line("shadow views", s.shadows.bytes());
     for (const State::Member& member : s.members)
         for (const auto& [label, bytes] : member.guest->bytes())
             line(label, bytes);

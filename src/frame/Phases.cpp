@@ -21,8 +21,9 @@ using views::hasEnvironment;
 } // namespace
 
 Renderer::State::State(gl::Context& gl, Supplies* of)
-    : context(gl), pool(gl.device()), own(of ? nullptr : std::make_unique<Supplies>(gl)),
-      images((of ? *of : *own).images), waters((of ? *of : *own).waters), budget(gl) {
+    : context(gl), pool(gl.device()), own(of ? nullptr : std::make_unique<Supplies>(gl, pool)),
+      images((of ? *of : *own).images), waters((of ? *of : *own).waters), shadows((of ? *of : *own).shadows),
+      budget(gl) {
     for (const technique::Technique* technique : technique::all())
         members.push_back({technique, technique->make({context, pool, images})});
     for (const Member& member : members)
@@ -178,7 +179,10 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
                          .refractive = refractive,
                          .shadowSize = views::samplingOf(picture.scene).shadowSize,
                          .carriesEnvironment = carriesEnvironment,
-                         .beside = beside};
+                         .beside = beside,
+                         .allAround = allAround,
+                         .kept = repeats(picture.scene) ? &shadows : nullptr};
+    shadows.stand(picture.scene, waters.changes());
     const std::span<const views::LampPoint> some(lights.data() + next, std::size_t(end - next));
     Result<views::Occlusion> occlusion = views::recordOcclusion(passes.graph, context, lit, some);
     if (!occlusion) return occlusion.error();

@@ -118,6 +118,7 @@ void Renderer::release() {
     for (const State::Member& member : s.members)
         member.guest->clear();
     s.images.clear();
+    s.shadows.clear();
     s.pool.trim();
     s.pool.trim();
     s.started = false;

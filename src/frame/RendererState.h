@@ -69,9 +69,10 @@ struct Renderer::State {
     };
     // What views from elsewhere share with the camera's.
     struct Supplies {
-        explicit Supplies(gl::Context& gl) : images(gl), waters(gl) {}
+        Supplies(gl::Context& gl, graph::TexturePool& pool) : images(gl), waters(gl), shadows(pool) {}
         views::ImageCache images;
         views::Waters waters;
+        views::KeptShadows shadows;
     };
     // All but the camera that a picture depends on.
     struct SceneKey {
@@ -94,6 +95,7 @@ struct Renderer::State {
     std::unique_ptr<Supplies> own;
     views::ImageCache& images;
     views::Waters& waters;
+    views::KeptShadows& shadows;
     std::vector<Member> members;
     Budget budget;
     std::vector<technique::Chooser*> choosers; // the guests', then the budget
@@ -121,10 +123,12 @@ struct Renderer::State {
     vec4 cut{0, 0, 0, 1};                       // of such a one: Eye::cut
     vec2 shift{0};                              // Eye::shift
     const views::Surroundings* given = nullptr; // of such a one: what its pictures know of their surroundings
+    bool allAround = false;                     // of such a one: technique::Picture::allAround
     std::size_t outlooksLeft = 0;               // cubes that were asked for and are too many
 
     // the picture being made
-    std::uint64_t revision = 0;
+    std::uint64_t revision = 0, scenery = 0;
+    std::optional<SceneKey> sceneryFor;
     ivec2 size{0};
     bool started = false, coarse = false;
     bool dragged = false;
@@ -202,8 +206,21 @@ struct Renderer::State {
     Result<Moment> momentOf(const scene::Scene& scene);
     Result<Moment> readyMoment(const scene::Scene& scene);
     technique::Picture pictureOf(const Moment& moment) const {
-        return {moment.scene, waters,     moment.eye,         size,
-                moment.drawn, moment.all, moment.environment, given ? given : &surroundings};
+        return {.scene = moment.scene,
+                .waters = waters,
+                .eye = moment.eye,
+                .size = size,
+                .drawn = moment.drawn,
+                .all = moment.all,
+                .environment = moment.environment,
+                .surroundings = given ? given : &surroundings,
+                .scenery = scenery,
+                .allAround = allAround,
+                .repeats = repeats(moment.scene)};
+    }
+    // Whether pictures follow in which only the place of a sample in its pixel or the direction differs.
+    bool repeats(const scene::Scene& scene) const {
+        return allAround || (!isCoarse() && pixelSamples(scene) > 1);
     }
     std::vector<technique::Guest*> needed(const scene::Scene& scene) const;
     technique::Guest* replacing(const technique::Picture& picture) const;

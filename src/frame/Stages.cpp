@@ -82,6 +82,10 @@ void Renderer::State::start(const scene::Scene& scene, std::uint64_t newRevision
     started = true;
     revision = newRevision;
     size = newSize;
+    if (SceneKey key = sceneKey(scene); sceneryFor != key) {
+        sceneryFor = std::move(key);
+        ++scenery;
+    }
     makeTargets();
     sample = samples = 0;
     whole = false;
@@ -229,6 +233,10 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     workMs += now() - beforeWater;
     if (!still) return still.error();
     if (!*still) return Done{};
+    if (const std::uint64_t changes = waters.changes(); sceneryFor->waters != changes) {
+        sceneryFor->waters = changes;
+        ++scenery;
+    }
     if (surfaceShown && shownKey != surfaceKeyOf(scene))
         surfaceShown = surfaceDrawn = false; // water has moved, or the samples of the pixels
     Result<Moment> moment = momentOf(scene);
@@ -368,7 +376,10 @@ Status Renderer::State::finishStage(const Moment& moment) {
     stats.draws = context.device().drawCount() - drawsBefore;
     stats.passes = passes;
     if (stage < stages.size()) return Done{};
-    if (own) images.trim(); // others share it
+    if (own) { // others share it
+        images.trim();
+        shadows.trim();
+    }
     pool.trim();
     return Done{};
 }

@@ -229,6 +229,7 @@ Result<bool> Renderer::State::lookAround(const Moment& moment) {
         const views::FlatMirror& mirror = surroundings.flat[std::size_t(aside.flat)];
         elsewhere->cut = vec4(mirror.normal, -glm::dot(mirror.normal, mirror.place));
     }
+    elsewhere->allAround = !isFlat;
     elsewhere->given = isFlat ? &beyondFlat : &kNothing;
     const Effort effort = isCoarse() ? Effort::Coarse : atOnce ? Effort::Final : Effort::Unseen;
     Result<Progress> progress =

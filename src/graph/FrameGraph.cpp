@@ -18,6 +18,12 @@ std::size_t TexturePool::acquire(const TextureDesc& desc, const std::string& lab
     return slots_.size() - 1;
 }
 
+Texture TexturePool::take(std::size_t slot) {
+    slots_[slot].free = true; // empty: like no texture that is asked for
+    slots_[slot].used = false;
+    return std::exchange(slots_[slot].texture, Texture());
+}
+
 void TexturePool::trim() {
     std::erase_if(slots_, [](const Slot& slot) { return slot.free && !slot.used; });
     for (Slot& slot : slots_)
@@ -27,7 +33,7 @@ void TexturePool::trim() {
 std::size_t TexturePool::bytes() const {
     std::size_t sum = 0;
     for (const Slot& slot : slots_)
-        sum += slot.texture.desc().bytes();
+        if (slot.texture) sum += slot.texture.desc().bytes();
     return sum;
 }
 
@@ -88,6 +94,12 @@ void FrameGraph::keep(TextureId id) {
     assert(resources_[id.index].imported != TextureHandle::None &&
            "only what outlives the frame can be kept");
     resources_[id.index].kept = true;
+}
+
+void FrameGraph::handOver(TextureId id, std::shared_ptr<Texture> heir) {
+    assert(resources_[id.index].imported == TextureHandle::None && "what outlives the frame has an owner");
+    resources_[id.index].kept = true;
+    resources_[id.index].heir = std::move(heir);
 }
 
 // --- compiling
@@ -253,7 +265,10 @@ void FrameGraph::release(int pass, TexturePool& pool) {
     for (int used : usesOf(passes_[pass])) {
         Resource& resource = resources_[used];
         if (resource.slot < 0 || resource.lastUse > pass) continue;
-        pool.release(resource.slot);
+        if (resource.heir)
+            *resource.heir = pool.take(std::size_t(resource.slot));
+        else
+            pool.release(resource.slot);
         resource.slot = -1;
     }
 }

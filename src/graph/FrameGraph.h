@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ public:
     /// A texture like `desc` that is free now.
     std::size_t acquire(const TextureDesc& desc, const std::string& label);
     void release(std::size_t slot) { slots_[slot].free = true; }
+    /// Gives a texture away, or takes one that nobody else needs any more.
+    Texture take(std::size_t slot);
+    void give(Texture texture) { slots_.push_back({std::move(texture), true, true}); }
     TextureHandle handle(std::size_t slot) const { return slots_[slot].texture.handle(); }
     /// Deletes what was not used since the last trim().
     void trim();
@@ -87,10 +91,14 @@ public:
     TextureId import(TextureHandle handle, const TextureDesc& desc, std::string label);
     /// A new texture of this frame, whose layers and levels several passes write().
     TextureId create(std::string label, const TextureDesc& desc);
+    const TextureDesc& descOf(TextureId id) const { return resources_[std::size_t(id.index)].desc; }
     /// Adds a pass; `setup` declares and returns what draws. The lambda it returns captures by value.
     void addPass(std::string name, const std::function<Execute(PassBuilder&)>& setup);
     /// Somebody outside reads this imported texture after the frame.
     void keep(TextureId id);
+    /// A texture of this frame stays: `heir` owns it when the last pass that uses it has run, and is empty
+    /// until then.
+    void handOver(TextureId id, std::shared_ptr<Texture> heir);
 
     /// Checks the declarations and culls what nobody reads.
     ///
@@ -129,6 +137,7 @@ private:
         TextureDesc desc;
         TextureHandle imported = TextureHandle::None;
         bool kept = false;
+        std::shared_ptr<Texture> heir{};
         int writer = -1;  ///< first pass that draws into it
         int lastUse = -1; ///< last live pass that reads or writes it
         int slot = -1;    ///< in the pool, while a pass uses it

@@ -28,7 +28,9 @@ bool isEmpty(const Bounds& bounds) { return glm::any(glm::lessThan(bounds.high, 
 std::vector<Group> groupsOf(const Lit& in) {
     std::vector<Group> groups;
     Bounds meshes = in.beside;
-    const Bounds seen = in.solids.empty() ? Bounds() : seenBy(in.eye, boundsOfAll(in.solids));
+    const auto reached = [&](const Bounds& all) { return in.allAround ? all : seenBy(in.eye, all); };
+    const Bounds seen =
+        in.solids.empty() ? Bounds() : reached(boundsOfAll(in.allAround ? in.opaque : in.solids));
     for (const vec3& corner : {seen.low, seen.high})
         if (!isEmpty(seen)) meshes.add(corner);
     if (!isEmpty(meshes)) groups.push_back({nullptr, meshes, in.casters});
@@ -36,7 +38,7 @@ std::vector<Group> groupsOf(const Lit& in) {
         std::vector<DrawnObject> others;
         std::copy_if(in.casters.begin(), in.casters.end(), std::back_inserter(others),
                      [&](const DrawnObject& caster) { return caster.index != field.index; });
-        groups.push_back({&field, seenBy(in.eye, boundsOf(*field.object)), std::move(others)});
+        groups.push_back({&field, reached(boundsOf(*field.object)), std::move(others)});
     }
     return groups;
 }
@@ -108,6 +110,21 @@ Status add(graph::FrameGraph& graph, gl::Context& context, const Target& target,
     return Done{};
 }
 
+// What is kept of a sample's shadow, or a new one.
+Result<TextureId> shadowOf(graph::FrameGraph& graph, gl::Context& context, KeptShadows* kept,
+                           const ShadowViews& views, const std::vector<PosedMesh>& meshes,
+                           const Group& group) {
+    std::vector<int> casters;
+    for (const PosedMesh& mesh : meshes)
+        casters.push_back(mesh.drawn.index);
+    for (const DrawnObject& field : group.casters)
+        casters.push_back(field.index);
+    if (const TextureId known = kept ? kept->find(graph, views, casters) : TextureId{}) return known;
+    Result<TextureId> map = recordShadow(graph, context, views, meshes, group.bounds, group.casters);
+    if (map && kept) kept->keep(graph, views, std::move(casters), *map);
+    return map;
+}
+
 } // namespace
 
 int mostSamplesAtOnce(const gl::Context& context, ivec2 size) {
@@ -129,8 +146,7 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
                                       shadowSizeFor(sample, in.shadowSize)),
                           {}};
             if (!shadow.views.faces.empty()) {
-                Result<TextureId> map =
-                    recordShadow(graph, context, shadow.views, meshes, group.bounds, group.casters);
+                Result<TextureId> map = shadowOf(graph, context, in.kept, shadow.views, meshes, group);
                 if (!map) return map.error();
                 shadow.map = *map;
                 const Target target{in.eye, in.size, in.surface, group.field};

@@ -1,6 +1,7 @@
 #pragma once
 /// Visibility of light samples from what a view shows: one definition for all who shade.
 
+#include "light/KeptShadows.h"
 #include "light/Samples.h"
 
 #include <span>
@@ -22,6 +23,8 @@ struct Lit {
     int shadowSize;                           ///< texels a side of a lamp's shadow view
     bool carriesEnvironment = false;          ///< unless caustics hold that as well
     Bounds beside{};                          ///< box around what else the shadows on meshes shall reach
+    bool allAround = false;                   ///< shadows reach what the view does not show, too
+    KeptShadows* kept = nullptr;              ///< null: no picture that follows needs them
 };
 
 /// What a light sample sees of all that stands in its way.

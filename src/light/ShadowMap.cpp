@@ -213,7 +213,7 @@ Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& con
             pass.sample(caster.positions);
             pass.sample(caster.normals);
         }
-        depths = pass.createColor("views.shadow", {.size = imageSize, .format = graph::Format::R32F});
+        depths = pass.createColor("views.shadow", {.size = imageSize, .format = kShadowFormat});
         pass.clear(depths, vec4(kNothing));
         pass.clear(pass.createDepth("views.shadowDepth", imageSize, graph::Format::Depth32F), 1.0f);
         return [=](const graph::Resources& resources, graph::Commands& commands) {

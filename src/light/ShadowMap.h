@@ -27,7 +27,11 @@ struct ShadowViews {
     int size = 0;           ///< pixels a side of each
     ivec2 imageSize() const;
     ivec2 corner(int face) const { return size * ivec2(face % kColumns, face / kColumns); }
+    bool operator==(const ShadowViews&) const = default;
 };
+
+/// What recordShadow() draws.
+inline constexpr graph::Format kShadowFormat = graph::Format::R32F;
 
 /// The views as blocks of shaders hold them; the rest of the six is 0.
 std::array<ViewBlock, ShadowViews::kMost> facesOf(const ShadowViews& views);

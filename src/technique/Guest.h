@@ -34,6 +34,10 @@ struct Picture {
     const views::Drawn& all;          ///< with what is hidden from it
     graph::TextureHandle environment; ///< lat-long map; None without one, or where it is switched off
     const views::Surroundings* surroundings = nullptr; ///< what Guest::lookAround() asked for; null: nothing
+    std::uint64_t scenery = 0; ///< another number where anything is as it was not but the camera
+    bool allAround = false;    ///< what is fitted to what the camera sees is fitted to all: pictures in other
+                               ///< directions follow
+    bool repeats = false;      ///< pictures of the same scenery follow, of other samples of the pixels too
 };
 
 /// The same while a graph of passes is recorded.

@@ -23,6 +23,7 @@ struct Eye {
     /// Where eye rays come from in the space of an object: the position with w = 1, or with w = 0 the unit
     /// direction that all of them share. This is what shaders call `eye`.
     vec4 inObject(const mat4& worldFromObject) const;
+    bool operator==(const Eye&) const = default;
 };
 
 /// Near and far plane are put around the scene's objects.

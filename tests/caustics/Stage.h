@@ -59,7 +59,7 @@ struct Caustics : support::GlTest {
             drawn = *views::drawnMeshes(scene, images, true, &waters);
             fields = *views::drawnObjects(scene, images);
             const caustics::Caustics technique(context);
-            auto planned = technique.plan(pool, scene, eye, drawn, fields, settings);
+            auto planned = technique.plan(pool, scene, &eye, drawn, fields, settings);
             EXPECT_TRUE(planned.ok()) << planned.error().message;
             plan = std::move(*planned);
         }

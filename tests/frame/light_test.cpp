@@ -1,4 +1,6 @@
 // One light: every lamp on every surface behind every other, against the exact solution and in closed forms.
+#include "light/Samples.h"
+#include "technique/Technique.h"
 #include "tests/support/Fields.h"
 #include "tests/support/Gl.h"
 #include "truth/Glass.h"
@@ -161,6 +163,23 @@ TEST_F(OneLight, ShadowViewsAreDrawnOnceForAllThatTheyShade) {
          at = text.find("views.shadow:", at + 1))
         ++views;
     EXPECT_EQ(views, 2u); // for the relief without itself, and for all else
+}
+
+TEST_F(OneLight, ShadowViewsAndCausticMapsAreDrawnOnceForAllSamplesOfThePixels) {
+    scene.lights = {kLamps[0]};
+    const auto passes = [&](int samples) {
+        technique::addSettings(scene);
+        views::samplingOf(scene).pixelSamples = samples;
+        Renderer renderer(*context);
+        EXPECT_TRUE(renderer.finish(scene, 1, scene.size).ok());
+        return renderer.stats().passes;
+    };
+    const int once = passes(1);
+    // Two shadow views less, and the means; the last of these is drawn after they are counted.
+    EXPECT_EQ(passes(3), once + 2 * (once - 2) + 2);
+    scene.objects.back().material.kind = scene::Clear{};
+    const int withGlass = passes(1);
+    EXPECT_LT(passes(3), 2 * withGlass); // most of the first one's are the caustic's
 }
 
 } // namespace

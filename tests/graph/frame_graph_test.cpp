@@ -124,6 +124,35 @@ TEST_F(FrameGraphTest, TheSecondFrameMakesNoTexture) {
     EXPECT_EQ(device.last, 1u);
 }
 
+TEST_F(FrameGraphTest, WhatIsHandedOverStaysAndIsGivenBackToThePool) {
+    const TextureId a = addMaker("a");
+    addFinal({a});
+    const auto heir = std::make_shared<Texture>();
+    graph.handOver(a, heir);
+    ASSERT_TRUE(graph.compile().ok());
+    EXPECT_FALSE(*heir);
+    graph.execute(pool);
+    ASSERT_TRUE(*heir);
+    EXPECT_EQ(pool.bytes(), 0u);
+    const TextureHandle handle = heir->handle();
+    pool.give(std::move(*heir));
+    const std::size_t slot = pool.acquire({.size = {4, 4}, .format = Format::RGBA32F}, "b");
+    EXPECT_EQ(pool.handle(slot), handle);
+    EXPECT_EQ(device.last, 1u);
+}
+
+TEST_F(FrameGraphTest, WhatAnAbandonedGraphShouldHandOverIsNotThere) {
+    const TextureId a = addMaker("a");
+    addFinal({a});
+    const auto heir = std::make_shared<Texture>();
+    graph.handOver(a, heir);
+    ASSERT_TRUE(graph.compile().ok());
+    const auto most = [](const std::string&) { return 4; };
+    ASSERT_TRUE(graph.step(pool, most));
+    graph.abandon(pool);
+    EXPECT_FALSE(*heir);
+}
+
 TEST_F(FrameGraphTest, TrimDeletesWhatTheLastFramesDidNotUse) {
     addFinal({addMaker("a")});
     ASSERT_TRUE(graph.compile().ok());

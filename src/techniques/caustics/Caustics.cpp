@@ -49,15 +49,16 @@ int borderOf(const std::vector<views::Eye>& faces, int size) {
 // What the camera shows of a box, all of what scatters light to where it shows it, and a little around them:
 // beams that end beside the map are no beams, and so are frayed where it ends.
 //
+// @param eye  null: it shows all
 // @param ray  m between rays
-views::Bounds seenWithMargin(const views::Eye& eye, const std::vector<views::DrawnMesh>& meshes,
+views::Bounds seenWithMargin(const views::Eye* eye, const std::vector<views::DrawnMesh>& meshes,
                              const std::vector<views::DrawnObject>& fields, float ray) {
     constexpr float kMargin = 1.0f / 16, kRays = 4; // of the longest side; at least
     views::Bounds seen;
     const auto add = [&](const scene::Object& object) {
         const views::Bounds all = views::boundsOf(object);
         const views::Bounds one =
-            object.visible && object.material.isScattering() ? all : views::seenBy(eye, all);
+            !eye || (object.visible && object.material.isScattering()) ? all : views::seenBy(*eye, all);
         seen.low = glm::min(seen.low, one.low);
         seen.high = glm::max(seen.high, one.high);
     };
@@ -314,7 +315,7 @@ std::optional<std::string> Caustics::thrown(const scene::Scene& scene) {
     return "object \"" + bends->name + "\" casts a caustic on \"" + receives->name + "\"";
 }
 
-Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
+Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye* eye,
                             const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
                             const Settings& settings) const {
     Plan plan;
@@ -388,9 +389,10 @@ Status Caustics::checkLimits(const Inputs& in, const Settings& settings) const {
 }
 
 Result<Carried> Caustics::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
-                                 const Settings& settings) const {
+                                 const Settings& settings, std::vector<Map> known) const {
     if (Status legal = checkLimits(in, settings); !legal) return legal.error();
-    Carried carried;
+    Carried carried{.irradiance = {}, .maps = std::move(known)};
+    const std::size_t made = carried.maps.size();
     Targets targets(graph);
     Inputs all = in;
     if (!in.fields.empty() && !plan.lights.empty()) {
@@ -400,10 +402,12 @@ Result<Carried> Caustics::record(graph::FrameGraph& graph, const Inputs& in, con
             !s)
             return s.error();
     }
-    for (const Plan::Light& light : plan.lights) {
-        LightPasses passes(graph, context_, targets, all, light, settings);
-        if (Status s = passes.record(carried.irradiance); !s) return s.error();
-        if (settings.deposit != Deposit::Lines) carried.maps.push_back(passes.map());
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+        LightPasses passes(graph, context_, targets, all, plan.lights[i], settings);
+        Status s =
+            i < made ? passes.lookUp(carried.maps[i], carried.irradiance) : passes.record(carried.irradiance);
+        if (!s) return s.error();
+        if (i >= made && settings.deposit != Deposit::Lines) carried.maps.push_back(passes.map());
     }
     return carried;
 }

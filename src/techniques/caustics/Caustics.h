@@ -31,6 +31,7 @@ struct Settings {
     int receiverLayers = 2;             ///< receivers behind each other on which light is found
     int wavelengths = 3;                ///< of white light in glass that disperses
     int directions = 0;                 ///< of an environment; 0: its light passes glass straight on
+    bool operator==(const Settings&) const = default;
 };
 /// Whether the light that glass, water and mirrors throw of a scene's environment is drawn.
 bool carriesEnvironment(const scene::Scene& scene);
@@ -114,18 +115,19 @@ public:
 
     /// Chooses the views of each light and counts their layers, which reads pictures back.
     ///
-    /// @param eye     the camera's: what it does not show receives nothing
+    /// @param eye     the camera's: what it does not show receives nothing; null: all receives
     /// @param fields  height fields, which receive
-    Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
+    Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye* eye,
                       const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
                       const Settings& settings) const;
 
     /// Adds the passes that give each pixel of opaque objects and height fields the irradiance of caustics.
     ///
+    /// @param known  maps of the same plan, which are looked up; empty: they are made
     /// @return  Error (Fault::Machine) for more than views::kMostGlass refractive objects or images larger
     ///          than the GPU's textures
     Result<Carried> record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
-                           const Settings& settings) const;
+                           const Settings& settings, std::vector<Map> known = {}) const;
 
     /// Adds the passes that look the same light up in another view, which shows meshes.
     ///

@@ -13,6 +13,8 @@ namespace {
 using graph::TextureId;
 using scene::Aov;
 
+constexpr std::size_t kMostKept = std::size_t(96) << 20; // bytes of maps
+
 const Settings& settingsOf(const scene::Scene& scene) {
     return scene.technique.at("caustics").as<Settings>();
 }
@@ -22,21 +24,31 @@ public:
     explicit CausticsGuest(const technique::Store& store) : store_(store), caustics_(store.context) {}
 
     Status prepare(const technique::Picture& picture) override {
-        plan_.reset();
-        Result<Plan> plan = caustics_.plan(store_.pool, picture.scene, picture.eye, meshesOf(picture),
-                                           picture.all.fields, settingsOf(picture.scene));
+        Key key = keyOf(picture);
+        if (plan_ && key_ == key) return Done{};
+        clear();
+        Result<Plan> plan =
+            caustics_.plan(store_.pool, picture.scene, picture.allAround ? nullptr : &picture.eye,
+                           meshesOf(picture), picture.all.fields, settingsOf(picture.scene));
         if (!plan) return plan.error();
         plan_ = std::move(*plan);
+        key_ = std::move(key);
         return Done{};
     }
 
     Result<TextureId> light(const technique::Passes& passes) override {
         carried_ = {};
         if (!plan_) return TextureId{};
+        std::vector<Map> known;
+        for (const KeptMap& map : kept_)
+            if (std::optional<Map> there = map.in(passes.graph)) known.push_back(*there);
+        if (known.size() < plan_->lights.size()) known.clear();
+        const bool isNew = known.empty();
         Result<Carried> carried = caustics_.record(passes.graph, inputs(passes, passes.surface), *plan_,
-                                                   settingsOf(passes.picture.scene));
+                                                   settingsOf(passes.picture.scene), std::move(known));
         if (!carried) return carried.error();
         carried_ = std::move(*carried);
+        if (isNew && passes.picture.repeats) keepMaps(passes.graph);
         return carried_.irradiance;
     }
     Result<TextureId> lightOn(const technique::Passes& passes, const views::LitView& view) override {
@@ -84,9 +96,75 @@ public:
                                   {"missed", energy->missed},     {"lost", energy->lost}};
     }
 
-    void clear() override { plan_.reset(); }
+    std::map<std::string, std::size_t> bytes() const override {
+        std::size_t sum = 0;
+        for (const KeptMap& map : kept_)
+            for (const auto& texture : map.textures)
+                sum += texture->desc().bytes();
+        return kept_.empty() ? std::map<std::string, std::size_t>{}
+                             : std::map<std::string, std::size_t>{{"caustic maps", sum}};
+    }
+    void clear() override {
+        plan_.reset();
+        giveMaps();
+    }
 
 private:
+    // What a plan and its maps depend on.
+    struct Key {
+        std::uint64_t scenery;
+        std::optional<views::Eye> eye; // none: it sees all
+        Settings settings;
+        int lampSamples;
+        bool operator==(const Key&) const = default;
+    };
+    static Key keyOf(const technique::Picture& picture) {
+        Key key{picture.scenery, std::nullopt, settingsOf(picture.scene),
+                views::samplingOf(picture.scene).lamp};
+        if (picture.allAround) return key;
+        key.eye = picture.eye; // samples of a pixel differ in what follows
+        key.eye->shift = vec2(0);
+        key.eye->clipFromWorld = mat4(1);
+        return key;
+    }
+
+    // A map that stays between pictures; its textures are there when its graph has run.
+    struct KeptMap {
+        std::vector<std::shared_ptr<graph::Texture>> textures; // flux, depths, and those behind if any
+        ivec2 size;
+
+        std::optional<Map> in(graph::FrameGraph& graph) const {
+            std::vector<TextureId> ids;
+            for (const auto& texture : textures) {
+                if (!*texture) return std::nullopt;
+                ids.push_back(graph.import(texture->handle(), texture->desc(), texture->label()));
+            }
+            return Map{ids[0], ids[1], size, ids.size() > 2 ? ids[2] : TextureId{}};
+        }
+    };
+    void keepMaps(graph::FrameGraph& graph) {
+        giveMaps();
+        std::size_t bytes = 0;
+        for (const Map& map : carried_.maps)
+            for (const TextureId id : {map.flux, map.depths, map.behind})
+                if (id) bytes += graph.descOf(id).bytes();
+        if (bytes > kMostKept) return;
+        for (const Map& map : carried_.maps) {
+            KeptMap& kept = kept_.emplace_back(KeptMap{{}, map.size});
+            for (const TextureId id : {map.flux, map.depths, map.behind}) {
+                if (!id) continue;
+                kept.textures.push_back(std::make_shared<graph::Texture>());
+                graph.handOver(id, kept.textures.back());
+            }
+        }
+    }
+    void giveMaps() {
+        for (const KeptMap& map : kept_)
+            for (const auto& texture : map.textures)
+                if (*texture) store_.pool.give(std::move(*texture));
+        kept_.clear();
+    }
+
     static views::DrawnMeshes meshesOf(const technique::Picture& picture) {
         return {picture.all.meshes.solid, views::changingLight(picture.scene, picture.all.meshes.glass)};
     }
@@ -104,6 +182,8 @@ private:
     technique::Store store_;
     Caustics caustics_;
     std::optional<Plan> plan_;
+    Key key_{};                           // of the plan
+    std::vector<KeptMap> kept_;           // of the plan's lights, or none
     Carried carried_;                     // in the graph that is recorded
     std::vector<views::PosedMesh> glass_; // that bends light, of the graph that is recorded
 };
