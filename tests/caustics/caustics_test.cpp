@@ -185,13 +185,19 @@ TEST_F(Caustics, ASineOnWaterLightsTheFloorAsTheSumOverItsRoots) {
         double picture, amplitude, wavelength, depth; // m
         scene::Water water;
         Settings settings;
-        double misplaced;
+        double misplaced, flux = 0.005;
     };
-    const Case fine{1,    0.015, 0.25, 0.6, {.size = {2, 2}, .cells = 640}, {.grid = 1024, .mapSize = 1024},
+    const Case fine{1,    0.015, 0.25, 0.6, {.size = {2, 2}, .cells = 640}, {.grid = 512, .mapSize = 1024},
                     0.005}; // measured 0.2 %
     // The grid of the water by default, 32 cells a wave: between them the surface is smooth.
-    const Case coarse{1, 0.05, 0.5, 1, {.size = {2, 2}}, {.grid = 512}, 0.005}; // measured 0.2 %
-    for (const Case& one : {fine, coarse}) {
+    const Case coarse{1, 0.05, 0.5, 1, {.size = {2, 2}}, {.grid = 256}, 0.005}; // measured 0.2 %
+    // All settings as they are by default. Measured 0.7 %, all of it in the texels where light folds, whose
+    // middles stand for a density that has no bound: the whole flux is 1.4 % too large.
+    Case plain = coarse;
+    plain.settings = {};
+    plain.misplaced = 0.01;
+    plain.flux = 0.02;
+    for (const Case& one : {fine, coarse, plain}) {
         scene::Water water = one.water;
         water.damping = 0;
         water.amplitude = float(one.amplitude);
@@ -202,7 +208,7 @@ TEST_F(Caustics, ASineOnWaterLightsTheFloorAsTheSumOverItsRoots) {
         const Image truth =
             lightOfWater({128, 128}, one.picture, one.amplitude, one.wavelength, kIor, one.depth);
         EXPECT_GT(*std::max_element(truth.pixels.begin(), truth.pixels.end()), 3); // it folds
-        EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.005) << one.wavelength;
+        EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, one.flux) << one.wavelength;
         EXPECT_LT(misplaced(shown.light, truth), one.misplaced) << one.wavelength;
         expectClosed(shown.energy);
     }

@@ -15,9 +15,13 @@ namespace {
 // other, and the steepest that do not break have 30.
 constexpr float kHighEnough = 0.7071f;
 
+// Twice as many rays a side as through glass: a wave folds light within a few of them, and as they begin on
+// the surface itself no view of the lamp has to be drawn for them.
+int raysAlong(int grid) { return 2 * grid; }
+
 ivec2 raysOn(const scene::Water& water, int grid) {
     const vec2 part = water.size / std::max(water.size.x, water.size.y);
-    return glm::max(ivec2(glm::round(part * float(grid))), ivec2(2));
+    return glm::max(ivec2(glm::round(part * float(raysAlong(grid)))), ivec2(2));
 }
 
 } // namespace
@@ -169,7 +173,7 @@ Status LightPasses::carryFromWater(const Tint& tint) {
     const float reach = light_.lamp.place.w == 0
                             ? 1
                             : glm::distance(vec3(light_.lamp.place), boundsOfAll(in_.glass).center());
-    const float cell = std::max(water.size.x, water.size.y) / float(settings_.grid);
+    const float cell = std::max(water.size.x, water.size.y) / float(raysAlong(settings_.grid));
     Result<TextureId> mask = beamsOf(sheet.grid, objectOf(in_.glass.front()).transform.scale * cell / reach);
     if (!mask) return mask.error();
     sheet.cells.beams = *mask;
