@@ -3,7 +3,7 @@
  *
  *   node scripts/build_web.mjs --wasm build/web --out build/web/site [--program build/native/lucent | --first]
  *
- * --wasm  folder with the modules lucent, lucent-readers, lucent-truth, lucent-check and lucent-bench, .mjs and .wasm each
+ * --wasm  folder with the modules lucent, lucent-relief, lucent-readers, lucent-truth, lucent-check and lucent-bench, .mjs and .wasm each
  * --out   folder of the finished page; the gallery is copied from assets/generated/gallery when it is there, the
  *         documentation from web/docs to docs/, with the pictures that it shows
  * --first  takes the modules that a page needs to open, others where they are there, and copies no gallery: it is served
@@ -58,7 +58,7 @@ const cssAsText = {
 
 const common = { minify: true, format: 'esm', target: 'es2022', legalComments: 'none', logLevel: 'warning' };
 
-const kFirst = ['lucent', 'lucent-readers'];
+const kFirst = ['lucent', 'lucent-relief', 'lucent-readers'];
 const kLater = ['lucent-truth', 'lucent-check', 'lucent-bench'];
 const isThere = (module) => existsSync(wasm(`${module}.mjs`)) && existsSync(wasm(`${module}.wasm`));
 const modules = [...kFirst, ...kLater.filter((module) => !options.first || isThere(module))];
@@ -73,7 +73,7 @@ await build({
   bundle: true,
   entryPoints: [web('lucent-viewer.js')],
   outfile: out('lucent-viewer.js'),
-  alias: { 'lucent-wasm': wasm('lucent.mjs') },
+  alias: { 'lucent-relief-wasm': wasm('lucent-relief.mjs') },
   external: ['./selfcheck.js'], // fetched when asked for
   plugins: [cssAsText],
 });
@@ -84,7 +84,8 @@ await bundleOf('lucent-check', {
   alias: { 'lucent-check-wasm': wasm('lucent-check.mjs') },
   plugins: [cssAsText],
 });
-await build({ ...common, entryPoints: [wasm('lucent-readers.mjs')], outfile: out('lucent-readers.js') });
+for (const name of ['lucent', 'lucent-readers'])
+  await build({ ...common, entryPoints: [wasm(`${name}.mjs`)], outfile: out(`${name}.js`) });
 await bundleOf('lucent-bench', { entryPoints: [wasm('lucent-bench.mjs')], outfile: out('lucent-bench.js') });
 await build({
   ...common,
@@ -141,7 +142,8 @@ writeFileSync(out('licences.txt'), notices.join('\n'));
 const sizeOf = (name) => gzipSync(readFileSync(out(name)), { level: 9 }).length;
 for (const name of readdirSync(options.out).filter((name) => /\.(js|css|html|wasm)$/.test(name)))
   console.log(`build_web: ${name}: ${readFileSync(out(name)).length} bytes, ${sizeOf(name)} compressed`);
-const first = ['index.html', 'page.css', 'page.js', 'lucent-viewer.js', 'lucent.wasm'];
-console.log(
-  `build_web: before a relief is interactive: ${first.reduce((sum, name) => sum + sizeOf(name), 0)} bytes compressed`,
-);
+const first = ['index.html', 'page.css', 'page.js', 'lucent-viewer.js'];
+for (const [scene, more] of Object.entries({ relief: ['lucent-relief.wasm'], glass: ['lucent.js', 'lucent.wasm'] })) {
+  const bytes = [...first, ...more].reduce((sum, name) => sum + sizeOf(name), 0);
+  console.log(`build_web: before a scene of ${scene} is interactive: ${bytes} bytes compressed`);
+}

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Turns a folder of GLSL into Shaders.h and Shaders.cpp.
 
-    embed_shaders.py SHADERS OUT_CPP
+    embed_shaders.py SHADERS OUT_CPP [WITHOUT...]
 
 Every file is embedded once, in pieces between its includes; every .vert and .frag file becomes a list of pieces with all
 includes in their places (each file once, paths relative to SHADERS). Comments and indentation are dropped, #version is
 added later; line breaks stay, so that a driver's message can be translated back to file and line. A .frag file says in
 lines of `#pragma variants` with which feature switches its program is compiled (src/gl/Variants.h). Shaders.h is written
-beside OUT_CPP. Exits 1 with "FILE:LINE: what was found; what was expected" for an unknown include or a cycle.
+beside OUT_CPP. Stages of the folders WITHOUT are left out. Exits 1 with "FILE:LINE: what was found; what was expected" for an unknown include or a cycle.
 """
 import re
 import sys
@@ -137,9 +137,10 @@ def piece_code(piece: tuple[str, int, str]) -> str:
     return f"\nconst Piece {piece_symbol(piece)} = {{{quote(file)}, {line},\n{source}}};\n"
 
 
-def stages_code(root: Path) -> str:
+def stages_code(root: Path, without: list[str]) -> str:
     """The whole of Shaders.cpp."""
-    names = sorted(p.relative_to(root).as_posix() for p in root.rglob("*") if p.suffix in (".vert", ".frag"))
+    found = (p.relative_to(root) for p in root.rglob("*") if p.suffix in (".vert", ".frag"))
+    names = sorted(path.as_posix() for path in found if path.parts[0] not in without)
     if not names:
         raise ShaderError(f"{root}: holds no .vert and no .frag file; expected at least one")
     code = '#include "shaders/Shaders.h"\n\nnamespace lucent::shaders {\n\nnamespace {\n'
@@ -163,12 +164,12 @@ def stages_code(root: Path) -> str:
 
 
 def main() -> int:
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         print(__doc__, file=sys.stderr)
         return 1
     root, out = Path(sys.argv[1]), Path(sys.argv[2])
     try:
-        code = stages_code(root)
+        code = stages_code(root, sys.argv[3:])
     except ShaderError as error:
         print(f"shaders/{error}", file=sys.stderr)
         return 1

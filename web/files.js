@@ -4,6 +4,10 @@ import { callWasm, isAbort } from './wasm.js';
 
 const kForeign = /\.(exr|glb|gltf|obj)$/i;
 const kMesh = /\.(glb|gltf|obj|mesh)$/i;
+// Keys that make a material another kind than relief,
+const kKinds = ['kind', 'reflectance', 'transmission', 'scattering', 'preset'];
+// and keys of "technique" that the module of reliefs knows.
+const kReliefSettings = ['relief', 'sampling'];
 
 /** An address as seen from another; undefined where there is none. */
 function addressOf(name, from) {
@@ -121,15 +125,30 @@ const among = (files) => async (name) => {
 
 const fileName = (url) => decodeURIComponent(url.pathname.split('/').pop());
 
+/** Whether a scene asks for more than the module of reliefs draws. Of what is no scene that module says what is wrong. */
+function needsWhole(bytes) {
+  const isRelief = ({ shape, material = {} }) =>
+    shape.type === 'heightfield' && (material.kind === 'relief' || !kKinds.some((key) => key in material));
+  try {
+    const { objects, technique = {} } = JSON.parse(new TextDecoder().decode(bytes));
+    return !objects.every(isRelief) || Object.keys(technique).some((name) => !kReliefSettings.includes(name));
+  } catch {
+    return false;
+  }
+}
+
 /**
  * Fetches a scene and every file it names.
- * @param starting  promise of the runtime: the scene is on its way meanwhile
- * @param allowed   addresses of folders beneath which files may lie, beside the scene's own
- * @return {Promise<{path: string, files: Map<string, Uint8Array>}>}  the scene's own name and all files by name
+ * @param start    (whole) => promise of the runtime that draws it
+ * @param allowed  addresses of folders beneath which files may lie, beside the scene's own
+ * @return {Promise<{path: string, files: Map<string, Uint8Array>, whole: boolean}>}  the scene's own name, all files by
+ *                 name, and whether it needs the whole module
  */
-export async function fetchScene(starting, url, allowed) {
+export async function fetchScene(start, url, allowed) {
   const path = fileName(url) || url.href;
-  const [runtime, scene] = await Promise.all([starting, fetchBytes(url, path)]);
+  const scene = await fetchBytes(url, path);
+  const whole = needsWhole(scene);
+  const runtime = await start(whole);
   runtime.call('file_put', path, scene);
   const { files: names, error } = runtime.json('scene_dependencies', path);
   runtime.call('file_forget', path);
@@ -141,18 +160,18 @@ export async function fetchScene(starting, url, allowed) {
     return [name, await toPlain(name, await fetchBytes(address, name, reach), beside(address, reach))];
   };
   for (const [name, bytes] of await Promise.all(names.map(fetchOne))) files.set(name, bytes);
-  return { path, files };
+  return { path, files, whole };
 }
 
 /**
- * Gives fetched files to the module for one load and takes them back, so that two scenes may use the same names.
- * @return {string}  "" or what is wrong
+ * Gives fetched files to the module for one load and takes them back, so that two scenes may use the same names. Throws a
+ * LucentError.
  */
-export function loadFiles(runtime, handle, { path, files }) {
+export function loadFiles({ runtime, handle }, { path, files }) {
   for (const [name, bytes] of files) runtime.call('file_put', name, bytes);
   const message = runtime.text('viewer_load', handle, path);
   for (const name of files.keys()) runtime.call('file_forget', name);
-  return message;
+  if (message) throw new LucentError('scene', message);
 }
 
 /** The name and the bytes of one picture, in a form that the module reads. */
@@ -162,7 +181,8 @@ export async function fetchPicture(url) {
 }
 
 /** Of files dropped together the one that is opened: a mesh before its parts. */
-export const mainFile = (files) => files.find(({ name }) => kMesh.test(name)) ?? files[0];
+export const mainFile = (files) => files.find(isMesh) ?? files[0];
+export const isMesh = ({ name }) => kMesh.test(name);
 
 /** What a dropped picture is for. @param environmentWanted  the person pointed at that half, or held Alt */
 export function kindOfDrop(name, environmentWanted) {
@@ -174,7 +194,7 @@ export function kindOfDrop(name, environmentWanted) {
  * @param files  one, or a mesh with its parts
  * @param kind   of a picture: 'height' or 'environment'
  */
-export async function openOwn(runtime, handle, files, kind) {
+export async function openOwn({ runtime, handle }, files, kind) {
   const file = mainFile(files);
   const { name } = file;
   if (/\.json$/i.test(name))
@@ -183,7 +203,7 @@ export async function openOwn(runtime, handle, files, kind) {
       `${name}: a scene names further files, which a page cannot read from disk; put it on a server and name it in src`,
     );
   const bytes = await toPlain(name, new Uint8Array(await file.arrayBuffer()), among(files));
-  const message = kMesh.test(name)
+  const message = isMesh(file)
     ? runtime.text('viewer_open_mesh', handle, name, bytes)
     : runtime.text('viewer_open_image', handle, name, bytes, kind === 'environment' ? 1 : 0);
   if (message) throw new LucentError('file', message);

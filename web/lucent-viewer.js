@@ -13,7 +13,7 @@
  * own error in `truth-noise`), which belongs to the scene as src has it, or one that is computed when a person asks.
  */
 import { Controls } from './controls.js';
-import { fetchScene, kindOfDrop, loadFiles, mainFile, openOwn } from './files.js';
+import { fetchScene, isMesh, kindOfDrop, loadFiles, mainFile, openOwn } from './files.js';
 import { Gestures } from './gestures.js';
 import { LucentError, Runtime } from './runtime.js';
 import { TruthBar } from './truth.js';
@@ -115,7 +115,7 @@ export class LucentViewer extends HTMLElement {
     this.#divider.addEventListener('focus', () => this.#apply('viewer_focus', 'divider'));
     this.#divider.addEventListener('blur', () => this.#apply('viewer_focus', ''));
     this.#truth = new TruthBar({
-      ask: () => this.#runtime.askTruth(this.#handle),
+      ask: () => this.#runtime.files('viewer_ask_truth', this.#handle),
       take: ({ pixels, width, height, noise }) =>
         this.#takeTruth('viewer_take_truth', new Uint8Array(pixels.buffer), width, height, noise),
       open: ({ name, bytes }, noise) => this.#takeTruth('viewer_open_truth', name, bytes, noise ?? -1),
@@ -150,7 +150,7 @@ export class LucentViewer extends HTMLElement {
     kDark.addEventListener('change', this.#themeChanged);
     kCalm.addEventListener('change', this.#calmChanged);
     if (this.loading === 'lazy') return;
-    Runtime.shared().catch(() => {}); // starts before there is a src; whoever loads hears of errors
+    if (!this.src) Runtime.shared().catch(() => {}); // whoever loads hears of errors
     this.#loadSource();
   }
 
@@ -416,9 +416,8 @@ export class LucentViewer extends HTMLElement {
     const files = file instanceof Blob ? [file] : [...file];
     const task = ++this.#task;
     try {
-      if (!(await this.#start(task))) return;
-      await openOwn(this.#runtime, this.#handle, files, kind);
-      if (task === this.#task) this.#takeScene(mainFile(files).name);
+      const seat = await this.#seat(task, isMesh(mainFile(files)));
+      if (seat) await this.#load(seat, task, mainFile(files).name, () => openOwn(seat, files, kind));
     } catch (error) {
       if (task === this.#task) this.#fail(error);
     }
@@ -458,19 +457,61 @@ export class LucentViewer extends HTMLElement {
 
   // ---- loading ----
 
-  // False, and nothing done, where a load is no longer wanted: the element was removed, or loads something else.
-  async #start(task) {
-    const runtime = await Runtime.shared();
-    if (task !== this.#task) return false;
+  // A viewer of a module that draws what is loaded: the element's own where it does, else a fresh one. Null where the load
+  // is no longer wanted: the element was removed, or loads something else.
+  async #seat(task, whole) {
+    if (this.#handle && (this.#runtime.isWhole || !whole)) return this.#own();
+    const runtime = await Runtime.shared(whole);
+    if (task !== this.#task) return null;
+    const seat = { runtime, handle: runtime.call('viewer_create') };
+    if (!this.#handle) this.#moveTo(seat);
+    return seat;
+  }
+
+  #own() {
+    return { runtime: this.#runtime, handle: this.#handle };
+  }
+
+  // The scene that was showing stays, with its viewer, until the new one is there.
+  async #load(seat, task, name, load) {
+    const moves = seat.runtime !== this.#runtime;
+    let isThere = false;
+    try {
+      await load();
+      isThere = task === this.#task;
+    } finally {
+      if (moves && !isThere) seat.runtime.drop(seat.handle);
+    }
+    if (!isThere) return;
+    if (moves) this.#moveTo(seat);
+    this.#takeScene(name);
+  }
+
+  #moveTo({ runtime, handle }) {
+    if (this.#handle) this.#runtime.drop(this.#handle, this);
     this.#runtime = runtime;
+    this.#handle = handle;
     this.#display ??= this.#canvas.getContext(runtime.displayContext);
-    if (this.#handle) return true;
-    this.#handle = this.#runtime.call('viewer_create');
-    this.#runtime.add(this);
+    runtime.add(this);
     this.#themeChanged();
     this.#layout();
     this.#resizeViewer();
-    return true;
+  }
+
+  // A material was chosen that the module of reliefs does not draw: the viewer goes on in the whole one.
+  async #moveToWhole() {
+    const task = ++this.#task;
+    this.#status.textContent = 'Loading…';
+    try {
+      const seat = await this.#seat(task, true);
+      if (!seat) return;
+      const { changes } = this;
+      const files = this.#runtime.files('viewer_pack', this.#handle);
+      await this.#load(seat, task, this.src, () => loadFiles(seat, { path: 'scene.json', files }));
+      for (const [path, text] of Object.entries(changes)) this.#set(path, String(text));
+    } catch (error) {
+      if (task === this.#task) this.#fail(error);
+    }
   }
 
   /** @param again  whether to try once more where another viewer ended the module */
@@ -482,18 +523,16 @@ export class LucentViewer extends HTMLElement {
     try {
       const allowed = this.allow.split(/\s+/).filter(Boolean);
       const scene = await fetchScene(
-        Runtime.shared(),
+        (whole) => Runtime.shared(whole),
         new URL(this.src, document.baseURI),
         allowed.map((address) => new URL(address, document.baseURI)),
       );
-      if (!(await this.#start(task))) return;
-      const message = loadFiles(this.#runtime, this.#handle, scene);
-      if (message) throw new LucentError('scene', message);
-      this.#takeScene(this.src);
+      const seat = await this.#seat(task, scene.whole);
+      if (seat) await this.#load(seat, task, this.src, () => loadFiles(seat, scene));
     } catch (error) {
       if (task !== this.#task) return;
       this.#fail(error);
-      if (error.code !== 'abort' || !again) return;
+      if (error.code !== 'abort' || !again || this.#handle) return;
       this.#src = null;
       this.#loadSource(false);
     }
@@ -532,11 +571,9 @@ export class LucentViewer extends HTMLElement {
   }
 
   #destroy() {
-    const handle = this.#handle;
+    const { runtime, handle } = this.#own();
     this.#forget();
-    if (!handle) return;
-    this.#runtime.remove(this);
-    this.#runtime.call('viewer_destroy', handle);
+    if (handle) runtime.drop(handle, this);
   }
 
   // As before the first load.
@@ -611,6 +648,7 @@ export class LucentViewer extends HTMLElement {
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#twin.update(this.#controls, this.profiles());
     const changed = this.#controls.filter((control) => control.value !== before.get(control.path));
+    if (!this.#runtime.isWhole && !this.#runtime.call('viewer_draws_all', this.#handle)) this.#moveToWhole();
     this.#compareChanged();
     this.#showPlay();
     this.#showUndrawn();

@@ -1,10 +1,13 @@
 /**
- * What all viewers of a page share: the WebAssembly module, one WebGL2 context and one render loop.
+ * What viewers of a page share: the WebAssembly module, one WebGL2 context and one render loop.
  *
  * Browsers keep 8 to 16 contexts alive, so every viewer draws on the same off-screen canvas and takes its picture
  * away as a bitmap.
+ *
+ * A page of reliefs fetches a module that draws nothing else. The first scene that asks for more brings the whole one,
+ * which draws all that is loaded from then on.
  */
-import createLucent from 'lucent-wasm'; // the build names the file
+import createRelief from 'lucent-relief-wasm'; // the build names the files
 import { callWasm, isAbort } from './wasm.js';
 
 /** An error with a code that pages can test and a message that people can read. */
@@ -35,35 +38,43 @@ function resize(canvas, width, height) {
   if (canvas.height !== height) canvas.height = height;
 }
 
+const kNames = { relief: 'lucent-relief', whole: 'lucent' }; // of files
+
 export class Runtime {
-  static #shared;
+  static #shared = { relief: undefined, whole: undefined };
   /**
    * The page's runtime, started by the first viewer that asks, and anew after it has ended or could not start. Rejects
    * with a LucentError.
+   * @param whole  whether it must draw more than reliefs
    */
-  static shared() {
-    this.#shared ??= this.#start().catch((error) => {
-      this.#shared = undefined;
+  static shared(whole) {
+    const all = this.#shared;
+    const kind = whole || all.whole ? 'whole' : 'relief';
+    all[kind] ??= this.#start(kind).catch((error) => {
+      all[kind] = undefined;
       throw error;
     });
-    return this.#shared;
+    return all[kind];
   }
 
-  static async #start() {
+  static async #start(kind) {
     const { canvas, gl } = makeContext();
     const locateFile = (name) => new URL(name, import.meta.url).href;
+    const name = kNames[kind];
     let wasm;
     try {
-      wasm = await createLucent({ locateFile });
+      const create = kind === 'relief' ? createRelief : (await import(locateFile(`./${name}.js`))).default;
+      wasm = await create({ locateFile });
     } catch (reason) {
-      throw new LucentError('fetch', `lucent.wasm: ${reason.message ?? reason}; it must lie beside the script`);
+      throw new LucentError('fetch', `${name}.wasm: ${reason.message ?? reason}; it must lie beside the script`);
     }
-    const runtime = new Runtime(wasm, canvas, gl);
+    const runtime = new Runtime(wasm, canvas, gl, kind);
     const message = runtime.#takeContext();
     if (message) throw new LucentError('gpu', message);
     return runtime;
   }
 
+  #kind;
   #wasm;
   #canvas;
   #gl;
@@ -73,7 +84,8 @@ export class Runtime {
   #wanting = new Set(); // viewers that want the next frame
   #viewers = new Set();
 
-  constructor(wasm, canvas, gl) {
+  constructor(wasm, canvas, gl, kind) {
+    this.#kind = kind;
     this.#wasm = wasm;
     this.#canvas = canvas;
     this.#gl = gl;
@@ -99,9 +111,9 @@ export class Runtime {
     return JSON.parse(this.text(name, ...values));
   }
 
-  /** The scene that a viewer shows as files, for truth_job.js. @return {Map<string, Uint8Array>} */
-  askTruth(handle) {
-    const files = this.json('viewer_ask_truth', handle);
+  /** Files that a call answers with: viewer_ask_truth, viewer_pack. @return {Map<string, Uint8Array>} */
+  files(name, handle) {
+    const files = this.json(name, handle);
     return new Map(files.map(({ name, at, size }) => [name, this.#wasm.HEAPU8.slice(at, at + size)]));
   }
 
@@ -112,6 +124,11 @@ export class Runtime {
     const { side, entering, leaving } = maps;
     const texels = (at) => new Float32Array(this.#wasm.HEAPU8.slice(at, at + 16 * side * side).buffer);
     return { side, entering: texels(entering), leaving: texels(leaving) };
+  }
+
+  /** Whether it draws all that scenes may ask for. */
+  get isWhole() {
+    return this.#kind === 'whole';
   }
 
   /** The kind of context a viewer's own canvas must have for show(). */
@@ -126,9 +143,13 @@ export class Runtime {
   add(viewer) {
     this.#viewers.add(viewer);
   }
-  remove(viewer) {
+  /** A viewer of the module goes, and with it `viewer`, whose it was; it may have ended before. */
+  drop(handle, viewer) {
     this.#viewers.delete(viewer);
     this.#wanting.delete(viewer);
+    if (this.#ended) return;
+    this.call('viewer_destroy', handle);
+    if (!this.#viewers.size && Runtime.#shared.whole && !this.isWhole) this.#leave(); // nobody will ask for it again
   }
 
   /** Asks for a frame. Without such a wish nothing runs: an idle page draws nothing. */
@@ -184,14 +205,19 @@ export class Runtime {
   #end({ message }, handle) {
     this.#ended = new LucentError(
       'abort',
-      `lucent.wasm: ended (${message}); the scenes of the page may need more memory than it has`,
+      `${kNames[this.#kind]}.wasm: ended (${message}); the scenes of the page may need more memory than it has`,
     );
-    Runtime.#shared = undefined;
-    cancelAnimationFrame(this.#frame);
+    this.#leave();
     this.#wanting.clear();
-    this.#gl.getExtension('WEBGL_lose_context')?.loseContext(); // browsers keep few contexts
     for (const viewer of [...this.#viewers]) viewer.moduleEnded(this.#ended, handle);
     this.#viewers.clear();
+  }
+
+  #leave() {
+    this.#lost = true;
+    Runtime.#shared[this.#kind] = undefined;
+    cancelAnimationFrame(this.#frame);
+    this.#gl.getExtension('WEBGL_lose_context')?.loseContext(); // browsers keep few contexts
   }
 
   // Emscripten knows contexts by number; after a loss the restored one is registered anew with its extensions.
@@ -202,7 +228,7 @@ export class Runtime {
   }
 
   #lose(event) {
-    if (this.#ended) return;
+    if (this.#lost) return; // given back
     event.preventDefault(); // else the browser never gives it back
     this.#lost = true;
     cancelAnimationFrame(this.#frame);

@@ -39,9 +39,20 @@ std::vector<KnobOf> knobs(const scene::Scene& scene) {
     return list;
 }
 
-std::vector<std::string> notDrawn(const scene::Scene& scene, std::optional<scene::PaintMap> map) {
+bool isShaded(const scene::Object& object, std::span<const Technique* const> techniques) {
+    return std::any_of(techniques.begin(), techniques.end(), [&](const Technique* technique) {
+        return technique->shades && technique->shades(object);
+    });
+}
+
+std::vector<std::string> notDrawn(const scene::Scene& scene, std::optional<scene::PaintMap> map,
+                                  std::span<const Technique* const> techniques) {
     std::vector<std::string> lines;
-    for (const Technique* technique : all())
+    for (const scene::Object& object : scene.objects)
+        if (!map && !isShaded(object, techniques))
+            lines.push_back("object \"" + object.name +
+                            "\": the technique for its material is not built into this program");
+    for (const Technique* technique : techniques)
         for (const NotDrawn& limit : technique->limits)
             if (limit.applies(scene) && (!map || limit.map == map))
                 lines.push_back(std::string(limit.what) + ": " + std::string(limit.why));

@@ -71,6 +71,8 @@ struct Technique {
     std::string_view name;
     /// Why the scene needs it; nothing when it does not.
     std::optional<std::string> (*need)(const scene::Scene&);
+    /// Whether it is what shows the surface of an object; null: of none.
+    bool (*shades)(const scene::Object&) = nullptr;
     /// Whether a parameter changes anything beside the others; null: all do.
     bool (*acts)(const Settings&, std::string_view id) = nullptr;
     std::span<const scene::Aov> aovs = {}; ///< quantities that only it has
@@ -103,9 +105,12 @@ truth::Model modelOf(const scene::Scene& scene);
 scene::Scene withDefaults(scene::Scene scene);
 /// Knobs that change a picture of a scene: of its light samples, then of the techniques that it needs.
 std::vector<KnobOf> knobs(const scene::Scene& scene);
-/// What a scene asks for and no technique draws, one line each.
+/// Whether one of the techniques shows the surface of an object.
+bool isShaded(const scene::Object& object, std::span<const Technique* const> techniques = all());
+/// What a scene asks for and none of the techniques draws, one line each.
 ///
 /// @param map  only what concerns this painted map
-std::vector<std::string> notDrawn(const scene::Scene& scene, std::optional<scene::PaintMap> map = {});
+std::vector<std::string> notDrawn(const scene::Scene& scene, std::optional<scene::PaintMap> map = {},
+                                  std::span<const Technique* const> techniques = all());
 
 } // namespace lucent::technique

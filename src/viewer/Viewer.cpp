@@ -360,6 +360,26 @@ std::vector<std::pair<std::string, Bytes>> Viewer::askTruth() {
     return packScene(*s.scene);
 }
 
+bool Viewer::drawsAll() const {
+    const State& s = *state_;
+    return !s.scene || std::all_of(s.scene->objects.begin(), s.scene->objects.end(),
+                                   [](const scene::Object& object) { return technique::isShaded(object); });
+}
+
+std::vector<std::pair<std::string, Bytes>> Viewer::pack() const {
+    const State& s = *state_;
+    if (!s.asLoaded) return {};
+    scene::Scene scene = *s.asLoaded;
+    const auto mapOf = [](const auto& environment) { return environment ? environment->map : nullptr; };
+    if (mapOf(scene.environment) != mapOf(s.scene->environment)) scene.environment = s.scene->environment;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        auto* field = std::get_if<scene::HeightField>(&scene.objects[i].shape);
+        const auto* shown = std::get_if<scene::HeightField>(&s.scene->objects[i].shape);
+        if (field && shown && field->heights != shown->heights) *field = *shown;
+    }
+    return packScene(std::move(scene));
+}
+
 Status Viewer::takeComputedTruth(const Image& picture, std::optional<double> noise) {
     State& s = *state_;
     if (!s.asked) return Error{"truth: nobody asked for one since the scene was loaded"};

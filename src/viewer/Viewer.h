@@ -121,6 +121,11 @@ public:
     /// The scene that is showing with all its images, as files: "scene.json" and what that names. Its truth
     /// comes back by takeComputedTruth().
     std::vector<std::pair<std::string, Bytes>> askTruth();
+    /// Whether the techniques of this program show every object.
+    bool drawsAll() const;
+    /// The scene without changes(), but with the pictures that a person opened, as files like those of
+    /// askTruth(): what a viewer of another program goes on with.
+    std::vector<std::pair<std::string, Bytes>> pack() const;
     Status takeComputedTruth(const Image& picture, std::optional<double> noise);
     /// A file with the truth of the scene as it was loaded: linear values, PFM or another float picture.
     Status openTruth(const std::string& name, std::span<const std::byte> bytes, std::optional<double> noise);

@@ -21,7 +21,7 @@ struct Page {
     std::map<std::string, Bytes> files;
     std::map<int, std::unique_ptr<Viewer>> viewers;
     int lastViewer = 0;
-    std::vector<std::pair<std::string, Bytes>> asked; // files for a truth
+    std::vector<std::pair<std::string, Bytes>> packed; // files of a scene for another module
     std::string answer;
 };
 
@@ -35,6 +35,18 @@ Viewer& viewerOf(int handle) { return *page().viewers.at(handle); }
 const char* answer(std::string text) {
     page().answer = std::move(text);
     return page().answer.c_str();
+}
+
+const char* answer(std::vector<std::pair<std::string, Bytes>> files) {
+    page().packed = std::move(files);
+    JsonWriter json;
+    json.beginArray();
+    for (const auto& [name, bytes] : page().packed) {
+        json.beginObject().key("name").value(name);
+        json.key("at").value(double(std::uintptr_t(bytes.data()))).key("size").value(int(bytes.size())).end();
+    }
+    json.end();
+    return answer(json.text());
 }
 
 const char* answer(const Status& status) { return answer(status ? std::string() : status.error().message); }
@@ -197,18 +209,9 @@ const char* viewer_title(int viewer) { return answer(viewerOf(viewer).title()); 
 const char* viewer_caption(int viewer) { return answer(viewerOf(viewer).caption()); }
 const char* viewer_comparison(int viewer) { return answer(viewerOf(viewer).comparison()); }
 
-const char* viewer_ask_truth(int viewer) {
-    Page& p = page();
-    p.asked = viewerOf(viewer).askTruth();
-    JsonWriter json;
-    json.beginArray();
-    for (const auto& [name, bytes] : p.asked) {
-        json.beginObject().key("name").value(name);
-        json.key("at").value(double(std::uintptr_t(bytes.data()))).key("size").value(int(bytes.size())).end();
-    }
-    json.end();
-    return answer(json.text());
-}
+const char* viewer_ask_truth(int viewer) { return answer(viewerOf(viewer).askTruth()); }
+const char* viewer_pack(int viewer) { return answer(viewerOf(viewer).pack()); }
+int viewer_draws_all(int viewer) { return viewerOf(viewer).drawsAll(); }
 
 const char* viewer_take_truth(int viewer, const std::uint8_t* floats, int size, int width, int height,
                               double noise) {

@@ -69,6 +69,9 @@ const char* viewer_comparison(int viewer);
 /// JSON array of {"name", "at", "size"}: files of the scene that is showing, with its images, for the module
 /// of Truth.cpp. Their bytes stay valid until the next call for any viewer.
 const char* viewer_ask_truth(int viewer);
+/// The same of the scene without viewer_changes(), for the viewer of another module.
+const char* viewer_pack(int viewer);
+int viewer_draws_all(int viewer); ///< 0: the scene has objects that this module does not draw
 /// The truth that was asked for: width x height x 4 floats. noise < 0: not known. "" or the message.
 const char* viewer_take_truth(int viewer, const std::uint8_t* floats, int size, int width, int height,
                               double noise);

@@ -296,6 +296,18 @@ TEST_F(Picture, StatsSayWhatIsNotDrawn) {
     EXPECT_EQ(lines, technique::notDrawn(*viewer->scene()));
 }
 
+TEST_F(Picture, AProgramWithoutATechniqueSaysWhichObjectsItDoesNotDraw) {
+    const technique::Technique* const reliefs[] = {technique::find("relief")};
+    const auto linesOf = [&](const std::string& scene) {
+        EXPECT_TRUE(viewer->load("scene.json", files(scene)).ok());
+        return technique::notDrawn(*viewer->scene(), {}, reliefs);
+    };
+    EXPECT_TRUE(linesOf(kLampScene).empty());
+    const std::vector<std::string> lines = linesOf(kGlassScene);
+    ASSERT_EQ(lines.size(), viewer->scene()->objects.size());
+    EXPECT_EQ(lines.front().find("object \"" + viewer->scene()->objects.front().name + "\""), 0u);
+}
+
 TEST_F(Picture, SpotsAndAreaLightsAreDraggedByTheirDots) {
     openCoarse();
     load(kGlassScene);

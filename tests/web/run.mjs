@@ -18,7 +18,7 @@ const kFolder = dirname(fileURLToPath(import.meta.url));
 const kDrivers = ['swiftshader', 'llvmpipe'];
 // What hands and attributes do does not hang on who draws: the quicker driver.
 const kOnOneDriver = Object.fromEntries(
-  ['controls', 'docs', 'element', 'gestures', 'limits', 'serve'].map((name) => [`${name}.test.mjs`, 'llvmpipe']),
+  ['controls', 'docs', 'element', 'gestures', 'limits', 'modules', 'serve'].map((name) => [`${name}.test.mjs`, 'llvmpipe']),
 );
 // Much of a test is waiting, compiling and JavaScript, which take one core.
 const kWorkers = 2;

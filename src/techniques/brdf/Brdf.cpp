@@ -70,10 +70,14 @@ graph::TextureId recordCopy(graph::FrameGraph& graph, gl::Context& context, grap
 
 } // namespace
 
+bool Brdf::shades(const scene::Object& object) {
+    return !object.isField() && !object.material.isRefractive() &&
+           (!object.material.isScattering() || views::isPainted(object));
+}
+
 std::optional<std::string> Brdf::need(const scene::Scene& scene) {
     for (const scene::Object& object : scene.objects) {
-        if (!object.visible || object.isField() || object.material.isRefractive()) continue;
-        if (object.material.isScattering() && !views::isPainted(object)) continue;
+        if (!object.visible || !shades(object)) continue;
         return "object \"" + object.name + "\" is " +
                (object.material.isMirror()       ? "a mirror"
                 : object.material.isScattering() ? "painted, and matt where it is not translucent"

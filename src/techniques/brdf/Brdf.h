@@ -54,6 +54,8 @@ struct MirrorInputs {
 /// mirrored direction. A surface is lit on the side that is seen.
 class Brdf {
 public:
+    /// Whether it shows the surface of an object: matt, mirror, or painted where it is not translucent.
+    static bool shades(const scene::Object& object);
     /// Why the scene needs this technique; nothing when it does not.
     static std::optional<std::string> need(const scene::Scene& scene);
 

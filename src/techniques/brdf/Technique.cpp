@@ -154,6 +154,7 @@ extern const technique::Technique kTechnique;
 const technique::Technique kTechnique{
     .name = "brdf",
     .need = Brdf::need,
+    .shades = Brdf::shades,
     .limits = kLimits,
     .make = [](const technique::Store& store) -> std::unique_ptr<technique::Guest> {
         return std::make_unique<BrdfGuest>(store);

@@ -305,6 +305,7 @@ extern const technique::Technique kTechnique;
 const technique::Technique kTechnique{
     .name = "refract",
     .need = Refract::need,
+    .shades = [](const scene::Object& object) { return object.material.isRefractive(); },
     .acts = [](const lucent::Settings& settings,
                std::string_view id) { return acts(settings.as<Settings>(), id); },
     .aovs = kAovs,

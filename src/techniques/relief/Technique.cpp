@@ -148,6 +148,7 @@ extern const technique::Technique kTechnique;
 const technique::Technique kTechnique{
     .name = "relief",
     .need = Relief::need,
+    .shades = [](const scene::Object& object) { return object.isField(); },
     .aovs = kAovs,
     .limits = kLimits,
     .mode = technique::Mode{.name = "relief", .place = 0, .first = kFirst},

@@ -207,6 +207,7 @@ extern const technique::Technique kTechnique;
 const technique::Technique kTechnique{
     .name = "subsurface",
     .need = Subsurface::need,
+    .shades = scatters,
     .acts = [](const lucent::Settings& settings,
                std::string_view id) { return acts(settings.as<Settings>(), id); },
     .aovs = kAovs,
