@@ -25,10 +25,10 @@ StepTimes timeSteps(gl::Context& context, const std::string& name, const scene::
     frame::Renderer renderer(context);
     const double begin = now();
     const auto since = [&] { return now() - begin; };
-    bool looks = true;
+    bool coarse = true;
     for (int samples = 0;;) {
         const double before = now();
-        const Result<frame::Progress> progress = renderer.advance(scene, 1, scene.size, looks);
+        const Result<frame::Progress> progress = renderer.advance(scene, 1, scene.size, coarse);
         if (!progress) {
             times.message = progress.error().message;
             return times;
@@ -37,37 +37,37 @@ StepTimes timeSteps(gl::Context& context, const std::string& name, const scene::
         ++times.steps;
         if (const double took = now() - before; took > times.longest) {
             times.longest = took;
-            times.where = std::string(looks          ? "look"
+            times.where = std::string(coarse         ? "preview"
                                       : samples == 0 ? "light"
                                                      : "samples") +
                           " " + std::to_string(times.steps);
         }
-        if (times.look == 0 && isNew) times.look = since();
-        if (times.complete == 0 && !looks && progress->samples > 0) times.complete = since();
+        if (times.preview == 0 && isNew) times.preview = since();
+        if (times.complete == 0 && !coarse && progress->samples > 0) times.complete = since();
         samples = progress->samples;
-        if ((!looks && progress->complete) || since() > patience) return times;
-        if (looks && progress->complete) looks = false;
+        if ((!coarse && progress->complete) || since() > patience) return times;
+        if (coarse && progress->complete) coarse = false;
     }
 }
 
 std::string stepsText(std::span<const StepTimes> times) {
     char line[256];
-    std::snprintf(line, sizeof line, "%-24s %10s %10s %10s %6s  %s\n", "ms", "longest", "look", "complete",
+    std::snprintf(line, sizeof line, "%-24s %10s %10s %10s %6s  %s\n", "ms", "longest", "preview", "complete",
                   "steps", "longest was");
     std::string text = line;
     for (const StepTimes& one : times) {
         std::snprintf(line, sizeof line, "%-24s %10.0f %10.0f %10.0f %6d  %s\n", one.scene.c_str(),
-                      one.longest, one.look, one.complete, one.steps,
+                      one.longest, one.preview, one.complete, one.steps,
                       one.message.empty() ? one.where.c_str() : one.message.c_str());
         text += line;
     }
     const auto late = std::count_if(times.begin(), times.end(),
                                     [](const StepTimes& one) { return one.longest > kLongestStep; });
     const auto slow = std::count_if(times.begin(), times.end(),
-                                    [](const StepTimes& one) { return one.look > kLongestLook; });
+                                    [](const StepTimes& one) { return one.preview > kLongestPreview; });
     std::snprintf(line, sizeof line,
                   "%d of %zu scenes have a step over %.0f ms, %d show nothing for over %.0f ms\n", int(late),
-                  times.size(), kLongestStep, int(slow), kLongestLook);
+                  times.size(), kLongestStep, int(slow), kLongestPreview);
     return text + line;
 }
 
@@ -78,7 +78,7 @@ std::string stepsJson(std::span<const StepTimes> times) {
         json.beginObject().key("scene").value(one.scene);
         if (!one.message.empty()) json.key("message").value(one.message);
         json.key("longest").value(one.longest).key("where").value(one.where);
-        json.key("look").value(one.look).key("complete").value(one.complete);
+        json.key("preview").value(one.preview).key("complete").value(one.complete);
         json.key("steps").value(one.steps).end();
     }
     return json.end().end().text();
