@@ -54,11 +54,8 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
     case Aov::LayerDepth:
     case Aov::Position: { // over the objects' extent: nearest or lowest black, farthest or highest white
         views::Bounds bounds;
-        for (const scene::Object& object : scene.objects) {
-            const views::Bounds one = views::boundsOf(object);
-            bounds.add(one.low);
-            bounds.add(one.high);
-        }
+        for (const scene::Object& object : scene.objects)
+            bounds.add(views::boundsOf(object));
         vec3 low = bounds.low, high = bounds.high;
         if (scene.view.show != Aov::Position) {
             const float middle = glm::dot(bounds.center() - eye.position, eye.forward);

@@ -22,7 +22,8 @@ std::string linesOf(const std::vector<std::string>& lines, const char* none) {
 std::vector<std::string> Renderer::State::leftOut(const technique::Picture& picture) const {
     const scene::Scene& scene = picture.scene;
     std::vector<std::string> lines;
-    if (picture.drawn.count() < 2) lines.push_back("views.depth: one visible object cannot hide another");
+    if (visible(picture.drawables).size() < 2)
+        lines.push_back("views.depth: one visible object cannot hide another");
     const auto hidden = std::count_if(scene.objects.begin(), scene.objects.end(),
                                       [](const scene::Object& object) { return !object.visible; });
     if (hidden > 0) lines.push_back(std::to_string(hidden) + " object(s): hidden from the camera");

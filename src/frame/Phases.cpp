@@ -45,14 +45,10 @@ views::Eye Renderer::State::eyeOf(const scene::Scene& scene) const {
 }
 
 Result<Renderer::State::Moment> Renderer::State::momentOf(const scene::Scene& scene) {
-    Moment moment{chosen(scene), eyeOf(scene), {}, {}};
     // Objects are the scene's own: those of a copy would be gone before the passes run.
-    Result<views::Drawn> drawn = views::drawnOf(scene, images, waters);
-    if (!drawn) return drawn.error();
-    moment.drawn = std::move(*drawn);
-    Result<views::Drawn> all = views::drawnOf(scene, images, waters, true);
-    if (!all) return all.error();
-    moment.all = std::move(*all);
+    Result<views::Drawables> drawables = views::drawablesOf(scene, images, &waters);
+    if (!drawables) return drawables.error();
+    Moment moment{chosen(scene), eyeOf(scene), std::move(*drawables)};
     if (hasEnvironment(scene)) {
         Result<graph::TextureHandle> map = images.image(scene.environment->map);
         if (!map) return map.error();
@@ -86,7 +82,9 @@ Guest* Renderer::State::replacing(const Picture& picture) const {
 bool Renderer::State::replaces(const Picture& picture) const {
     if (views::isGeometric(picture.scene.view.show)) return false;
     const bool background = hasEnvironment(picture.scene) && picture.scene.view.show == scene::Aov::Color;
-    return replacing(picture) || (background && !picture.drawn.meshes.solid.empty());
+    if (replacing(picture)) return true;
+    return background &&
+           !filtered(opaque(visible(picture.drawables)), std::not_fn(&views::Drawable::field)).empty();
 }
 
 Status Renderer::State::prepare(const Picture& picture) {
@@ -106,37 +104,31 @@ Status Renderer::State::prepare(const Picture& picture) {
 }
 
 // Triangles stay where they are while their objects do, for the last phases: rays are traced there.
-Result<views::Posed> Renderer::State::poseKeeping(graph::FrameGraph& graph, const Picture& picture) {
+Result<views::Drawables> Renderer::State::poseKeeping(graph::FrameGraph& graph, const Picture& picture) {
     std::vector<views::ObjectKey> standing;
-    for (const views::DrawnMesh& mesh : picture.all.meshes.glass)
-        standing.push_back(views::objectKey(*mesh.object, picture.scene.view.time));
+    for (const auto& one : refractive(picture.drawables))
+        standing.push_back(views::objectKey(*one->object, picture.scene.view.time));
     if (standing != triangled || watersThen != waters.changes()) triangles.current = false;
     triangled = std::move(standing);
     watersThen = waters.changes();
-    return views::recordPosed(graph, context, picture.all, picture.scene.view.time, &triangles);
+    return views::recordPose(graph, context, picture.drawables, picture.scene.view.time, &triangles);
 }
 
 Status Renderer::State::recordSlice(graph::FrameGraph& graph, const Picture& picture, int end) {
     const TextureId surfaceId = import(graph, surfaceShown ? shownSurface : surface);
     const TextureId targetId = import(graph, next > 0 ? scratch : sum);
     graph.keep(targetId);
-    Result<views::Posed> posed =
-        views::recordPosed(graph, context, picture.all, picture.scene.view.time, nullptr);
+    Result<views::Drawables> posed =
+        views::recordPose(graph, context, picture.drawables, picture.scene.view.time);
     if (!posed) return posed.error();
     const scene::Aov show = picture.scene.view.show;
-    std::vector<views::PosedMesh> solids = views::Posed::visible(posed->solid);
-    if (views::isGeometric(show)) {
-        const std::vector<views::PosedMesh> glass = views::Posed::visible(posed->glass);
-        solids.insert(solids.end(), glass.begin(), glass.end());
-    }
-    const auto& fields = picture.drawn.fields;
-    if (!surfaceDrawn && !solids.empty()) graph.keep(surfaceId); // read after this graph
+    const bool isGeometric = views::isGeometric(show);
+    const views::Drawables seen = isGeometric ? visible(*posed) : opaque(visible(*posed));
+    if (!surfaceDrawn && !seen.empty()) graph.keep(surfaceId); // read after this graph
     if (!surfaceDrawn)
-        if (Status s = views::recordSurface(graph, context, picture.eye, fields, solids, surfaceId, size); !s)
-            return s;
-    if (views::isGeometric(show))
-        return views::recordGeometry(graph, context, picture.eye, fields, solids, surfaceId, targetId, show,
-                                     size);
+        if (Status s = views::recordSurface(graph, context, picture.eye, seen, surfaceId, size); !s) return s;
+    if (isGeometric)
+        return views::recordGeometry(graph, context, picture.eye, seen, surfaceId, targetId, show, size);
     return recordLight({picture, graph, *posed, surfaceId}, targetId, end);
 }
 
@@ -159,24 +151,16 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
         flux = *carried;
         carrier = guest;
     }
-    const std::vector<views::PosedMesh> solids = views::Posed::visible(passes.posed.solid);
-    const std::vector<views::PosedMesh> refractive = views::changingLight(picture.scene, passes.posed.glass);
     const bool carriesEnvironment = std::any_of(guests.begin(), guests.end(), [&](const Guest* guest) {
         return guest->carriesEnvironment(picture.scene);
     });
     views::Bounds beside;
-    for (const Guest* guest : shading) {
-        const views::Bounds box = guest->lit(picture);
-        beside = {glm::min(beside.low, box.low), glm::max(beside.high, box.high)};
-    }
+    for (const Guest* guest : shading)
+        beside.add(guest->lit(picture));
     const views::Lit lit{.eye = picture.eye,
                          .size = size,
                          .surface = passes.surface,
-                         .fields = picture.drawn.fields,
-                         .solids = solids,
-                         .casters = passes.posed.fields,
-                         .opaque = passes.posed.solid,
-                         .refractive = refractive,
+                         .drawables = changingLight(picture.scene, passes.posed),
                          .shadowSize = views::samplingOf(picture.scene).shadowSize,
                          .carriesEnvironment = carriesEnvironment,
                          .beside = beside,
@@ -209,7 +193,7 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
 // Over the complete sum: what is not summed sample by sample, what is seen through other things, and the
 // environment behind all of it.
 Status Renderer::State::recordRest(graph::FrameGraph& graph, const Picture& picture) {
-    Result<views::Posed> posed = poseKeeping(graph, picture);
+    Result<views::Drawables> posed = poseKeeping(graph, picture);
     if (!posed) return posed.error();
     const TextureId shownId = import(graph, shown);
     const Passes passes{picture, graph, *posed, import(graph, shownSurface)};

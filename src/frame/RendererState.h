@@ -48,7 +48,7 @@ struct Renderer::State {
     struct Moment {
         scene::Scene scene; // with the settings that this picture is made with
         views::Eye eye;
-        views::Drawn drawn, all;
+        views::Drawables drawables;
         graph::TextureHandle environment = graph::TextureHandle::None;
     };
 
@@ -210,8 +210,7 @@ struct Renderer::State {
                 .waters = waters,
                 .eye = moment.eye,
                 .size = size,
-                .drawn = moment.drawn,
-                .all = moment.all,
+                .drawables = moment.drawables,
                 .environment = moment.environment,
                 .surroundings = given ? given : &surroundings,
                 .scenery = scenery,
@@ -231,7 +230,7 @@ struct Renderer::State {
     Status recordRest(graph::FrameGraph& graph, const technique::Picture& picture);
     Status recordBackground(const technique::Passes& passes, graph::TextureId shownId,
                             graph::TextureId target);
-    Result<views::Posed> poseKeeping(graph::FrameGraph& graph, const technique::Picture& picture);
+    Result<views::Drawables> poseKeeping(graph::FrameGraph& graph, const technique::Picture& picture);
     Status beginRest(Moment moment, Running::Work work);
     Status recordMean(graph::FrameGraph& graph, graph::TextureId target);
 

@@ -106,10 +106,7 @@ Status Renderer::State::survey(const Moment& moment) {
             guest->lookAround(picture, asked);
     surroundings.bounds = {};
     for (const scene::Object& object : moment.scene.objects)
-        if (const views::Bounds one = views::boundsOf(object); object.visible) {
-            surroundings.bounds.add(one.low);
-            surroundings.bounds.add(one.high);
-        }
+        if (object.visible) surroundings.bounds.add(views::boundsOf(object));
     surveyCubes(moment, std::move(asked.cubes));
     surveyFlat(moment, std::move(asked.flat));
     beyondFlat = surroundings;
@@ -264,23 +261,15 @@ Status Renderer::State::keepAside(const scene::Scene& scene, const Aside& aside)
         if (Status s = from.recordDisplay(graph, scene, picture, true); !s) return s;
         TextureId surface, solid;
         if (isCube) {
-            Result<views::Posed> posed =
-                views::recordPosed(graph, context, moment->all, scene.view.time, nullptr);
+            Result<views::Drawables> posed =
+                views::recordPose(graph, context, moment->drawables, scene.view.time);
             if (!posed) return posed.error();
-            std::vector<views::PosedMesh> meshes = views::Posed::visible(posed->solid);
-            const std::vector<views::PosedMesh> glass = views::Posed::visible(posed->glass);
-            meshes.insert(meshes.end(), glass.begin(), glass.end());
-            const auto& fields = moment->drawn.fields;
+            const views::Drawables seen = visible(*posed);
             surface = graph.create("frame.asideSurface", desc);
             solid = graph.create("frame.asideSolid", desc);
-            if (Status s =
-                    views::recordSurface(graph, context, moment->eye, fields, meshes, surface, from.size);
-                !s)
-                return s;
-            if (Status s = views::recordSolid(graph, context, moment->eye, fields, meshes, surface, solid,
-                                              from.size);
-                !s)
-                return s;
+            Status s = views::recordSurface(graph, context, moment->eye, seen, surface, from.size);
+            if (s) s = views::recordSolid(graph, context, moment->eye, seen, surface, solid, from.size);
+            if (!s) return s;
         }
         const TextureId radiances = import(graph, isCube ? aroundRadiance : flatPictures);
         const TextureId solids = isCube ? import(graph, aroundSolid) : TextureId{};

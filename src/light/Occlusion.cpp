@@ -1,6 +1,7 @@
 #include "light/Occlusion.h"
 
 #include "shaders/light/Blocks.h"
+#include "views/Fields.h"
 
 #include <algorithm>
 
@@ -18,28 +19,26 @@ constexpr int kLeastShadowSize = 16; // texels a side
 
 // Pixels that the same things can shade: those of one height field, or of all other shapes.
 struct Group {
-    const DrawnObject* field; // null: other shapes
+    const DrawnField* field; // null: other shapes
     Bounds bounds;
-    std::vector<DrawnObject> casters;
+    Drawables casters;
 };
 
 bool isEmpty(const Bounds& bounds) { return glm::any(glm::lessThan(bounds.high, bounds.low)); }
 
 std::vector<Group> groupsOf(const Lit& in) {
     std::vector<Group> groups;
-    Bounds meshes = in.beside;
     const auto reached = [&](const Bounds& all) { return in.allAround ? all : seenBy(in.eye, all); };
-    const Bounds seen =
-        in.solids.empty() ? Bounds() : reached(boundsOfAll(in.allAround ? in.opaque : in.solids));
-    for (const vec3& corner : {seen.low, seen.high})
-        if (!isEmpty(seen)) meshes.add(corner);
-    if (!isEmpty(meshes)) groups.push_back({nullptr, meshes, in.casters});
-    for (const DrawnObject& field : in.fields) {
-        std::vector<DrawnObject> others;
-        std::copy_if(in.casters.begin(), in.casters.end(), std::back_inserter(others),
-                     [&](const DrawnObject& caster) { return caster.index != field.index; });
-        groups.push_back({&field, reached(boundsOf(*field.object)), std::move(others)});
-    }
+    const Drawables solids = filtered(opaque(in.drawables), [](const Drawable& one) { return !one.field(); });
+    const Drawables seen = visible(solids);
+    Bounds bounds = in.beside;
+    if (!seen.empty()) bounds.add(reached(boundsOfAll(in.allAround ? solids : seen)));
+    if (!isEmpty(bounds)) groups.push_back({nullptr, bounds, in.drawables});
+    for (const auto& one : visible(in.drawables))
+        if (one->field())
+            groups.push_back(
+                {one->field(), reached(one->bounds()),
+                 filtered(in.drawables, [&](const Drawable& other) { return &other != &*one; })});
     return groups;
 }
 
@@ -55,7 +54,7 @@ struct Target {
     const Eye& eye;
     ivec2 size;
     TextureId surface;
-    const DrawnObject* field; // null: its meshes
+    const DrawnField* field; // null: all but fields
 };
 
 light::OcclusionBlock blockOf(const Target& target, const LampPoint& sample, const ShadowViews& views,
@@ -112,16 +111,13 @@ Status add(graph::FrameGraph& graph, gl::Context& context, const Target& target,
 
 // What is kept of a sample's shadow, or a new one.
 Result<TextureId> shadowOf(graph::FrameGraph& graph, gl::Context& context, KeptShadows* kept,
-                           const ShadowViews& views, const std::vector<PosedMesh>& meshes,
-                           const Group& group) {
-    std::vector<int> casters;
-    for (const PosedMesh& mesh : meshes)
-        casters.push_back(mesh.drawn.index);
-    for (const DrawnObject& field : group.casters)
-        casters.push_back(field.index);
-    if (const TextureId known = kept ? kept->find(graph, views, casters) : TextureId{}) return known;
-    Result<TextureId> map = recordShadow(graph, context, views, meshes, group.bounds, group.casters);
-    if (map && kept) kept->keep(graph, views, std::move(casters), *map);
+                           const ShadowViews& views, const Drawables& casters, const Bounds& receivers) {
+    std::vector<int> numbers;
+    for (const auto& one : casters)
+        numbers.push_back(one->index);
+    if (const TextureId known = kept ? kept->find(graph, views, numbers) : TextureId{}) return known;
+    Result<TextureId> map = recordShadow(graph, context, views, casters, receivers);
+    if (map && kept) kept->keep(graph, views, std::move(numbers), *map);
     return map;
 }
 
@@ -134,19 +130,18 @@ int mostSamplesAtOnce(const gl::Context& context, ivec2 size) {
 
 Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const Lit& in,
                                   std::span<const LampPoint> samples) {
-    std::vector<PosedMesh> all = in.opaque;
-    all.insert(all.end(), in.refractive.begin(), in.refractive.end());
     Occlusion occlusion = emptyFor(context, in.size, samples.size());
     for (const Group& group : groupsOf(in))
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const LampPoint& sample = samples[i];
-            const std::vector<PosedMesh>& meshes =
-                sample.isEnvironment && !in.carriesEnvironment ? in.opaque : all;
-            Shadow shadow{shadowViews(sample.source, boundsOfAll(meshes, group.casters), group.bounds,
+            const bool passes = sample.isEnvironment && !in.carriesEnvironment;
+            const Drawables casters = passes ? opaque(group.casters) : group.casters;
+            Shadow shadow{shadowViews(sample.source, boundsOfAll(casters), group.bounds,
                                       shadowSizeFor(sample, in.shadowSize)),
                           {}};
             if (!shadow.views.faces.empty()) {
-                Result<TextureId> map = shadowOf(graph, context, in.kept, shadow.views, meshes, group);
+                Result<TextureId> map =
+                    shadowOf(graph, context, in.kept, shadow.views, casters, group.bounds);
                 if (!map) return map.error();
                 shadow.map = *map;
                 const Target target{in.eye, in.size, in.surface, group.field};

@@ -13,18 +13,15 @@ namespace lucent::views {
 struct Lit {
     const Eye& eye;
     ivec2 size;
-    graph::TextureId surface;                 ///< views.surface
-    const std::vector<DrawnObject>& fields;   ///< visible ones
-    const std::vector<PosedMesh>& solids;     ///< visible opaque objects
-    const std::vector<DrawnObject>& casters;  ///< all height fields, hidden ones too
-    const std::vector<PosedMesh>& opaque;     ///< all that lets nothing through, hidden or not
-    const std::vector<PosedMesh>& refractive; ///< all that bends light: what lamps send through is light of
-                                              ///< caustics; light of an environment passes straight on
-    int shadowSize;                           ///< texels a side of a lamp's shadow view
-    bool carriesEnvironment = false;          ///< unless caustics hold that as well
-    Bounds beside{};                          ///< box around what else the shadows on meshes shall reach
-    bool allAround = false;                   ///< shadows reach what the view does not show, too
-    KeptShadows* kept = nullptr;              ///< null: no picture that follows needs them
+    graph::TextureId surface; ///< views.surface
+    /// All that stands in the way of light, hidden or not; what is visible and opaque is lit. What lamps send
+    /// through what bends light is light of caustics; light of an environment passes straight on.
+    Drawables drawables;
+    int shadowSize;                  ///< texels a side of a lamp's shadow view
+    bool carriesEnvironment = false; ///< unless caustics hold that as well
+    Bounds beside{};                 ///< box around what else the shadows on meshes shall reach
+    bool allAround = false;          ///< shadows reach what the view does not show, too
+    KeptShadows* kept = nullptr;     ///< null: no picture that follows needs them
 };
 
 /// What a light sample sees of all that stands in its way.

@@ -182,9 +182,8 @@ ShadowViews shadowViews(const ShadowSource& source, const Bounds& casters, const
 }
 
 Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& context,
-                                      const ShadowViews& views, const std::vector<PosedMesh>& casters,
-                                      const Bounds& receivers, const std::vector<DrawnObject>& fields,
-                                      graph::TextureId first) {
+                                      const ShadowViews& views, const Drawables& casters,
+                                      const Bounds& receivers, graph::TextureId first) {
     const ivec2 imageSize = views.imageSize();
     const int most = context.caps().maxTextureSize;
     if (std::max(imageSize.x, imageSize.y) > most)
@@ -192,27 +191,17 @@ Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& con
                          std::to_string(imageSize.y) + " texels; must be at most " + std::to_string(most) +
                          " a side on this GPU",
                      Fault::Machine};
-    std::vector<std::string> defines;
-    if (first) defines.push_back("BEHIND");
-    const gl::Program* program = context.program("views/shadow", defines);
-    const gl::Program* ofFields = nullptr;
-    if (!fields.empty()) {
-        defines.push_back("AS_SHADOW");
-        ofFields = context.program("views/surface", defines);
-    }
+    const std::vector<std::string> defines(first ? 1 : 0, "BEHIND");
     std::vector<Bounds> bounds;
-    for (const PosedMesh& caster : casters)
-        bounds.push_back(boundsOf(*caster.drawn.object));
+    for (const auto& caster : casters)
+        bounds.push_back(caster->bounds());
     graph::TextureId depths;
     graph.addPass("views.shadow", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason((first ? "what lies behind what one point of a light sees, in "
                            : "what stands in the way of one point of a light, in ") +
                     std::to_string(views.faces.size()) + " view(s)");
         if (first) pass.sample(first);
-        for (const PosedMesh& caster : casters) {
-            pass.sample(caster.positions);
-            pass.sample(caster.normals);
-        }
+        std::vector<Drawing> drawings = drawingsOf(context, pass, casters, ViewKind::Shadow, defines);
         depths = pass.createColor("views.shadow", {.size = imageSize, .format = kShadowFormat});
         pass.clear(depths, vec4(kNothing));
         pass.clear(pass.createDepth("views.shadowDepth", imageSize, graph::Format::Depth32F), 1.0f);
@@ -225,13 +214,9 @@ Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& con
                 const graph::Draw draw{.region = ivec4(views.corner(int(face)), views.size, views.size),
                                        .depthTest = graph::DepthTest::Less,
                                        .textures = before};
-                for (std::size_t i = 0; i < casters.size(); ++i)
+                for (std::size_t i = 0; i < drawings.size(); ++i)
                     if (mayShow(eye, bounds[i]))
-                        drawMesh(commands, *program, resources, casters[i], eye, ivec2(views.size), int(i),
-                                 draw);
-                for (const DrawnObject& field : fields)
-                    if (mayShow(eye, boundsOf(*field.object)))
-                        drawField(commands, *ofFields, field, eye, ivec2(views.size), draw);
+                        drawings[i](resources, commands, eye, ivec2(views.size), draw);
             }
         };
     });

@@ -2,8 +2,7 @@
 /// What a light sees of the things that stand in its way: depths by which a place is lit or not
 /// (shaders/views/shadow.glsl).
 
-#include "views/Meshes.h"
-#include "views/Surface.h"
+#include "views/Drawable.h"
 
 #include <array>
 #include <limits>
@@ -48,24 +47,11 @@ ShadowViews shadowViews(const ShadowSource& source, const Bounds& casters, const
 /// Draws the depths of what casts shadows, R32F, 1e30 where there is nothing.
 ///
 /// @param receivers  as in shadowViews(): views in which none of them can be are not drawn
-/// @param fields     height fields that cast shadows too
 /// @param first      none, or such depths: then those of the next surfaces behind them that face the light
 /// @return           Error (Fault::Machine) when the image is larger than this GPU's textures
 Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& context,
-                                      const ShadowViews& views, const std::vector<PosedMesh>& casters,
-                                      const Bounds& receivers, const std::vector<DrawnObject>& fields = {},
-                                      graph::TextureId first = {});
-/// The box around meshes and height fields in world space.
-template <class Mesh>
-Bounds boundsOfAll(const std::vector<Mesh>& meshes, const std::vector<DrawnObject>& fields) {
-    Bounds all = boundsOfAll(meshes);
-    for (const DrawnObject& field : fields) {
-        const Bounds one = boundsOf(*field.object);
-        all.add(one.low);
-        all.add(one.high);
-    }
-    return all;
-}
+                                      const ShadowViews& views, const Drawables& casters,
+                                      const Bounds& receivers, graph::TextureId first = {});
 
 /// The box around the part of a box that a view shows.
 Bounds seenBy(const Eye& eye, const Bounds& bounds);

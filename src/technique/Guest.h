@@ -4,8 +4,8 @@
 
 #include "light/Occlusion.h"
 #include "light/Samples.h"
+#include "views/Drawable.h"
 #include "views/FieldTextures.h"
-#include "views/Objects.h"
 #include "views/Surroundings.h"
 
 #include <functional>
@@ -28,11 +28,10 @@ struct Store {
 struct Picture {
     const scene::Scene& scene; ///< with the settings that this picture is made with
     const views::Waters& waters;
-    const views::Eye& eye;            ///< the camera's
-    ivec2 size;                       ///< pixels
-    const views::Drawn& drawn;        ///< what the camera sees
-    const views::Drawn& all;          ///< with what is hidden from it
-    graph::TextureHandle environment; ///< lat-long map; None without one, or where it is switched off
+    const views::Eye& eye;             ///< the camera's
+    ivec2 size;                        ///< pixels
+    const views::Drawables& drawables; ///< all objects, those too that are hidden from the camera
+    graph::TextureHandle environment;  ///< lat-long map; None without one, or where it is switched off
     const views::Surroundings* surroundings = nullptr; ///< what Guest::lookAround() asked for; null: nothing
     std::uint64_t scenery = 0; ///< another number where anything is as it was not but the camera
     bool allAround = false;    ///< what is fitted to what the camera sees is fitted to all: pictures in other
@@ -44,8 +43,8 @@ struct Picture {
 struct Passes {
     const Picture& picture;
     graph::FrameGraph& graph;
-    const views::Posed& posed; ///< all objects, hidden ones too
-    graph::TextureId surface;  ///< views.surface: first hits of the camera's rays
+    const views::Drawables& posed; ///< all objects as they stand, hidden ones too
+    graph::TextureId surface;      ///< views.surface: first hits of the camera's rays
 };
 
 /// Some of the light samples, to be added to what earlier slices summed.

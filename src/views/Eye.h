@@ -44,6 +44,10 @@ struct Bounds {
         low = glm::min(low, point);
         high = glm::max(high, point);
     }
+    void add(const Bounds& other) {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+    }
     vec3 center() const { return 0.5f * (low + high); }
     float radius() const { return 0.5f * glm::length(high - low); }
 };

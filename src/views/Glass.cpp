@@ -16,10 +16,9 @@ vec3 iorsOf(const scene::Clear& material) {
     return vec3(material.ior) + b * vec3(c - d, 0, f - d);
 }
 
-bool disperses(const std::vector<PosedMesh>& glass) {
-    return std::any_of(glass.begin(), glass.end(), [](const PosedMesh& mesh) {
-        return mesh.drawn.object->material.clear().dispersion > 0;
-    });
+bool disperses(const Drawables& glass) {
+    return std::any_of(glass.begin(), glass.end(),
+                       [](const auto& one) { return one->object->material.clear().dispersion > 0; });
 }
 
 } // namespace lucent::views

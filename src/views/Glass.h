@@ -1,7 +1,7 @@
 #pragma once
 /// Refractive objects as shaders see them (shaders/views/glass_block.glsl).
 
-#include "views/Meshes.h"
+#include "views/Drawable.h"
 
 namespace lucent::views {
 
@@ -14,6 +14,6 @@ GlassBlock glassBlock(const scene::Material& material);
 vec3 iorsOf(const scene::Clear& material);
 
 /// Whether light of different colours takes different ways through any of them.
-bool disperses(const std::vector<PosedMesh>& glass);
+bool disperses(const Drawables& glass);
 
 } // namespace lucent::views

@@ -1,6 +1,7 @@
 #include "views/Layers.h"
 
 #include "base/Log.h"
+#include "views/Meshes.h"
 
 #include <algorithm>
 
@@ -25,24 +26,14 @@ TextureDesc depthDesc(ivec2 size, bool first) {
 // An array of one layer would be a plain image to shaders.
 int arrayLayers(int count) { return std::max(2, count); }
 
-void samplePosed(graph::PassBuilder& pass, const std::vector<PosedMesh>& meshes) {
-    for (const PosedMesh& mesh : meshes) {
-        pass.sample(mesh.positions);
-        pass.sample(mesh.normals);
-    }
-}
-
-Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                  const std::vector<PosedMesh>& meshes, ivec2 size, const Layers& layers, int layer,
-                  TextureId& done, graph::Query* query) {
+Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye, const Drawables& glass,
+                  ivec2 size, const Layers& layers, int layer, TextureId& done, graph::Query* query) {
     const bool first = layer == 0;
-    const gl::Program* program = context.program("views/peel", first ? std::vector<std::string>{"PEEL_FIRST"}
-                                                                     : std::vector<std::string>{});
+    const std::vector<std::string> defines(first ? 1 : 0, "PEEL_FIRST");
     const TextureId before = done, images = layers.images;
     graph.addPass("views.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("surface " + std::to_string(layer + 1) + " of the refractive objects behind each pixel");
-        for (const PosedMesh& mesh : meshes)
-            pass.sample(mesh.triangles.corners);
+        std::vector<Drawing> drawings = drawingsOf(context, pass, glass, ViewKind::Peel, defines);
         if (!first) pass.sample(before);
         pass.write(images, layer);
         pass.clear(images, vec4(0));
@@ -53,12 +44,11 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye
         pass.write(depth);
         pass.clear(depth, 1.0f);
         return [=](const graph::Resources& resources, graph::Commands& commands) {
-            for (std::size_t i = 0; i < meshes.size(); ++i) {
-                graph::Draw draw{.depthTest = graph::DepthTest::Less};
-                if (first) draw.stencil = graph::Stencil::Count;
-                if (!first) draw.textures.push_back({"uBefore", resources[before]});
-                drawTriangles(commands, *program, resources, meshes[i], eye, size, int(i), std::move(draw));
-            }
+            graph::Draw how{.depthTest = graph::DepthTest::Less};
+            if (first) how.stencil = graph::Stencil::Count;
+            if (!first) how.textures.push_back({"uBefore", resources[before]});
+            for (const Drawing& draw : drawings)
+                draw(resources, commands, eye, size, how);
         };
     });
     return Done{};
@@ -178,23 +168,21 @@ void importKept(graph::FrameGraph& graph, gl::Context& context, KeptLayers& kept
 } // namespace
 
 Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
-                        const std::vector<DrawnMesh>& meshes, float time, ivec2 size) {
-    const gl::Program* program = context.program("views/count");
+                        const Drawables& glass, float time, ivec2 size) {
     const graph::Texture counts(context.device(), {.size = size, .format = Format::RGBA16F}, "views.counts");
     graph::FrameGraph graph;
     const TextureId target = graph.import(counts.handle(), counts.desc(), counts.label());
     graph.keep(target);
-    Result<std::vector<PosedMesh>> posed = recordPose(graph, context, meshes, time);
+    Result<Drawables> posed = recordPose(graph, context, glass, time);
     if (!posed) return posed.error();
     graph.addPass("views.count", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how many surfaces of refractive objects lie behind each other");
-        samplePosed(pass, *posed);
+        std::vector<Drawing> drawings = drawingsOf(context, pass, *posed, ViewKind::Count);
         pass.write(target);
         pass.clear(target, vec4(0));
-        return [=, meshes = *posed](const graph::Resources& resources, graph::Commands& commands) {
-            for (std::size_t i = 0; i < meshes.size(); ++i)
-                drawMesh(commands, *program, resources, meshes[i], eye, size, int(i),
-                         {.blend = graph::Blend::Add});
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            for (const Drawing& draw : drawings)
+                draw(resources, commands, eye, size, {.blend = graph::Blend::Add});
         };
     });
     if (Status compiled = graph.compile(); !compiled) return compiled.error();
@@ -232,11 +220,11 @@ bool LayerCount::poll() {
 }
 
 Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                            const std::vector<PosedMesh>& meshes, ivec2 size, int count, TextureId solid,
+                            const Drawables& glass, ivec2 size, int count, TextureId solid,
                             const LayerQueries& queries, KeptLayers* kept) {
     Layers layers;
     layers.count = count;
-    if (!meshes.empty()) layers.triangles = meshes.front().triangles;
+    if (!glass.empty()) layers.triangles = glass.front()->mesh()->triangles;
     if (kept && count > 0) {
         importKept(graph, context, *kept, size, bool(solid), layers);
         if (kept->current) return layers;
@@ -252,7 +240,7 @@ Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, cons
     TextureId done;
     for (int layer = 0; layer < count; ++layer) {
         graph::Query* query = layer == count - 1 ? queries.last : nullptr;
-        if (Status s = recordPeel(graph, context, eye, meshes, size, layers, layer, done, query); !s)
+        if (Status s = recordPeel(graph, context, eye, glass, size, layers, layer, done, query); !s)
             return s.error();
     }
     if (count > 0 && queries.behind)

@@ -2,7 +2,8 @@
 /// Layered images of a view: all surfaces of refractive objects behind each other, nearest first.
 
 #include "gl/Query.h"
-#include "views/Meshes.h"
+#include "views/Drawable.h"
+#include "views/Triangles.h"
 
 #include <algorithm>
 
@@ -30,7 +31,7 @@ struct KeptLayers {
 /// How many surfaces lie behind each other at most in any pixel, by drawing all of them once and reading the
 /// picture back. At most kMostLayers; more are named in a warning.
 Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
-                        const std::vector<DrawnMesh>& meshes, float time, ivec2 size);
+                        const Drawables& glass, float time, ivec2 size);
 
 /// Asks what the layers of a frame leave out; null: nobody asks.
 struct LayerQueries {
@@ -77,16 +78,13 @@ private:
 
 /// Draws `count` layers, one a pass.
 ///
-/// @param meshes  a texel's object is the place in this list
-/// @param solid   opaque surfaces (views::recordSolid), to be traced with the layers as one more; or
-/// none
-/// @param kept    where they stay, and are only drawn where they are not current or another number is wanted;
-/// null:
-///                images of this frame
+/// @param glass  refractive objects; a texel's is the place in this list
+/// @param solid  opaque surfaces (views::recordSolid), to be traced with the layers as one more; or none
+/// @param kept   where they stay, and are only drawn where they are not current or another number is wanted;
+///               null: images of this frame
 Result<Layers> recordLayers(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                            const std::vector<PosedMesh>& meshes, ivec2 size, int count,
-                            graph::TextureId solid, const LayerQueries& queries = {},
-                            KeptLayers* kept = nullptr);
+                            const Drawables& glass, ivec2 size, int count, graph::TextureId solid,
+                            const LayerQueries& queries = {}, KeptLayers* kept = nullptr);
 
 /// What shaders/views/layers.glsl samples.
 void sampleLayers(graph::PassBuilder& pass, const Layers& layers);

@@ -2,12 +2,6 @@
 
 #include "views/FieldTextures.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <iterator>
-#include <numeric>
-
 namespace lucent::views {
 
 using graph::Format;
@@ -37,8 +31,7 @@ Bounds meshBounds(const scene::Mesh& mesh) {
     for (int i = 0; i < times; ++i) {
         const scene::Pose pose = scene::poseAt(mesh.rig, mesh.rig.duration * float(i) / float(times));
         const Bounds at = boundsOfPoints(scene::posed(mesh, pose).positions);
-        bounds.add(at.low);
-        bounds.add(at.high);
+        bounds.add(at);
     }
     if (times > 1) { // between those times it may swing out a little farther
         const vec3 margin = 0.1f * (bounds.high - bounds.low);
@@ -71,62 +64,58 @@ std::size_t MeshTextures::bytes() const {
            (pose_ ? pose_->bytes() : 0) + (triangles_ ? triangles_->bytes() : 0);
 }
 
-Result<DrawnMeshes> drawnMeshes(const scene::Scene& scene, ImageCache& images, bool hiddenToo,
-                                const Waters* waters) {
-    DrawnMeshes drawn;
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const scene::Object& object = scene.objects[i];
-        if (object.isField() || !(object.visible || hiddenToo)) continue;
-        std::shared_ptr<const scene::Mesh> source = meshOf(object);
-        std::optional<Paint> paint;
-        if (isPainted(object)) {
-            auto atlas = scene::atlasOf(object, object.painting->side());
-            if (!atlas) return atlas.error();
-            Result<Paint> maps = images.paint(*object.painting, *atlas);
-            if (!maps) return maps.error();
-            paint = *maps;
-            source = (*atlas)->mesh;
-        }
-        Result<const MeshTextures*> mesh = images.mesh(source, object.material.isRefractive());
-        if (!mesh) return mesh.error();
-        (object.material.isRefractive() ? drawn.glass : drawn.solid)
-            .push_back({&object, int(i), *mesh, waters ? waters->of(int(i)) : nullptr, paint});
+Result<Drawable::Ptr> DrawnMesh::create(const scene::Object& object, int index, ImageCache& images,
+                                        const Waters* waters) {
+    const auto drawn = std::make_shared<DrawnMesh>(object, index);
+    std::shared_ptr<const scene::Mesh> source = meshOf(object);
+    if (isPainted(object)) {
+        auto atlas = scene::atlasOf(object, object.painting->side());
+        if (!atlas) return atlas.error();
+        Result<Paint> maps = images.paint(*object.painting, *atlas);
+        if (!maps) return maps.error();
+        drawn->paint = *maps;
+        source = (*atlas)->mesh;
     }
-    return drawn;
+    Result<const MeshTextures*> textures = images.mesh(source, object.material.isRefractive());
+    if (!textures) return textures.error();
+    drawn->textures = *textures;
+    if (waters) drawn->water = waters->of(index);
+    return Ptr(drawn);
 }
 
-Result<std::vector<PosedMesh>> recordPose(graph::FrameGraph& graph, gl::Context& context,
-                                          const std::vector<DrawnMesh>& meshes, float time,
-                                          KeptTriangles* kept) {
-    const auto imagesOf = [&](const DrawnMesh& drawn) -> Result<VertexImages> {
-        const scene::Object& object = *drawn.object;
-        if (drawn.water) return recordWater(graph, context, *drawn.water, object.name);
+void DrawnMesh::sampleFrom(graph::PassBuilder& pass) const {
+    pass.sample(positions);
+    pass.sample(normals);
+}
+
+Result<Drawable::Ptr> DrawnMesh::posed(graph::FrameGraph& graph, gl::Context& context, float time,
+                                       std::vector<DrawnMesh*>& refractive) const {
+    const auto images = [&]() -> Result<VertexImages> {
+        if (water) return recordWater(graph, context, *water, object->name);
         const auto import = [&](const graph::Texture& texture) {
             return graph.import(texture.handle(), texture.desc(), texture.label());
         };
-        const VertexImages rest{import(drawn.mesh->positions()), import(drawn.mesh->normals())};
-        const PoseTextures* pose = drawn.mesh->pose();
-        if (!pose && !isWaved(object)) return rest;
-        if (pose) pose->take(context.device(), drawn.mesh->source().rig, time);
-        const graph::TextureDesc& desc = drawn.mesh->positions().desc();
+        const VertexImages rest{import(textures->positions()), import(textures->normals())};
+        const PoseTextures* pose = textures->pose();
+        if (!pose && !isWaved(*object)) return rest;
+        if (pose) pose->take(context.device(), textures->source().rig, time);
+        const graph::TextureDesc& desc = textures->positions().desc();
         const Result<VertexImages> moved = recordMotion(
-            graph, context, rest, desc, pose, isWaved(object) ? &object.wave : nullptr, time, object.name);
-        return moved && isFlat(object) ? recordFlat(graph, context, *moved, desc, object.name) : moved;
-    };
-    std::vector<PosedMesh> posed;
-    for (const DrawnMesh& drawn : meshes) {
-        Result<VertexImages> images = imagesOf(drawn);
-        if (!images) return images.error();
-        posed.push_back({drawn, images->positions, images->normals});
-    }
-    if (Status s = recordTriangles(graph, context, posed, kept); !s) return s.error();
-    return posed;
+            graph, context, rest, desc, pose, isWaved(*object) ? &object->wave : nullptr, time, object->name);
+        return moved && isFlat(*object) ? recordFlat(graph, context, *moved, desc, object->name) : moved;
+    }();
+    if (!images) return images.error();
+    const auto standing = std::make_shared<DrawnMesh>(*this);
+    standing->positions = images->positions;
+    standing->normals = images->normals;
+    if (isRefractive()) refractive.push_back(standing.get());
+    return Ptr(standing);
 }
 
 namespace {
 void setMesh(graph::Draw& draw, const gl::Program& program, const graph::Indices& indices,
-             const PosedMesh& mesh, const Eye& eye, ivec2 size, int number) {
-    const scene::Transform& transform = mesh.drawn.object->transform;
+             const DrawnMesh& mesh, const Eye& eye, ivec2 size, int number) {
+    const scene::Transform& transform = mesh.object->transform;
     draw.program = &program;
     draw.indices = indices.handle();
     draw.vertices = indices.count();
@@ -137,38 +126,38 @@ void setMesh(graph::Draw& draw, const gl::Program& program, const graph::Indices
                            .object = number,
                            .firstCorner = mesh.firstCorner};
 }
+
+// With its numbered triangles (shaders/views/peel.vert).
+void drawTriangles(graph::Commands& commands, const gl::Program& program, const graph::Resources& resources,
+                   const DrawnMesh& mesh, const Eye& eye, ivec2 size, int number, graph::Draw draw) {
+    setMesh(draw, program, mesh.textures->triangles()->indices(), mesh, eye, size, number);
+    draw.textures.push_back({"uCorners", resources[mesh.triangles.corners]});
+    commands.draw(draw);
+}
 } // namespace
 
 void drawMesh(graph::Commands& commands, const gl::Program& program, const graph::Resources& resources,
-              const PosedMesh& mesh, const Eye& eye, ivec2 size, int number, graph::Draw draw) {
-    setMesh(draw, program, mesh.drawn.mesh->indices(), mesh, eye, size, number);
+              const DrawnMesh& mesh, const Eye& eye, ivec2 size, int number, graph::Draw draw) {
+    setMesh(draw, program, mesh.textures->indices(), mesh, eye, size, number);
     draw.textures.push_back({"uPositions", resources[mesh.positions]});
     draw.textures.push_back({"uNormals", resources[mesh.normals]});
     commands.draw(draw);
 }
 
-void drawTriangles(graph::Commands& commands, const gl::Program& program, const graph::Resources& resources,
-                   const PosedMesh& mesh, const Eye& eye, ivec2 size, int number, graph::Draw draw) {
-    setMesh(draw, program, mesh.drawn.mesh->triangles()->indices(), mesh, eye, size, number);
-    draw.textures.push_back({"uCorners", resources[mesh.triangles.corners]});
-    commands.draw(draw);
-}
-
-Bounds boundsOfAll(const std::vector<DrawnMesh>& meshes) {
-    Bounds all;
-    for (const DrawnMesh& mesh : meshes) {
-        const Bounds one = boundsOf(*mesh.object);
-        all.add(one.low);
-        all.add(one.high);
-    }
-    return all;
-}
-
-Bounds boundsOfAll(const std::vector<PosedMesh>& meshes) {
-    std::vector<DrawnMesh> drawn;
-    std::transform(meshes.begin(), meshes.end(), std::back_inserter(drawn),
-                   [](const PosedMesh& mesh) { return mesh.drawn; });
-    return boundsOfAll(drawn);
+Drawing DrawnMesh::drawing(gl::Context& context, graph::PassBuilder& pass, ViewKind kind, int number,
+                           std::vector<std::string> defines) const {
+    constexpr const char* kStems[] = {"views/solid", "views/shadow",       "views/peel",
+                                      "views/count", "views/voxel_bounds", "views/voxel_slice"};
+    const gl::Program* program = context.program(kStems[int(kind)], defines);
+    const auto draws = kind == ViewKind::Peel ? drawTriangles : drawMesh;
+    if (kind == ViewKind::Peel)
+        pass.sample(triangles.corners);
+    else
+        sampleFrom(pass);
+    return [=, drawn = *this](const graph::Resources& resources, graph::Commands& commands, const Eye& eye,
+                              ivec2 size, graph::Draw draw) {
+        draws(commands, *program, resources, drawn, eye, size, number, std::move(draw));
+    };
 }
 
 } // namespace lucent::views

@@ -42,7 +42,7 @@ enum class Part { Entering, EnteringMap, Leaving };
 // What is painted on the nearest of the meshes in each pixel. A surface image that shows one of them shows
 // its nearest place, which no other of them hides: depths need no comparison with those of the image.
 Result<graph::TextureId> recordPaint(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                     const std::vector<PosedMesh>& meshes, ivec2 size, Part part) {
+                                     const std::vector<DrawnMesh>& meshes, ivec2 size, Part part) {
     std::vector<std::string> defines{"PAINTED"};
     if (part == Part::Entering) defines.push_back("ENTERING");
     if (part == Part::EnteringMap) defines.push_back("ENTERING_MAP");
@@ -50,26 +50,24 @@ Result<graph::TextureId> recordPaint(graph::FrameGraph& graph, gl::Context& cont
     const gl::Program* program = context.program("views/paint", defines);
     graph::TextureId target;
     graph.addPass("views.paint", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason(
-            part == Part::Entering
-                ? "what is painted where light enters object \"" + meshes.front().drawn.object->name + "\""
-                : "what is painted where the camera sees " + std::to_string(meshes.size()) + " object(s)");
-        for (const PosedMesh& mesh : meshes) {
-            pass.sample(mesh.positions);
-            pass.sample(mesh.normals);
-        }
+        pass.reason(part == Part::Entering
+                        ? "what is painted where light enters object \"" + meshes.front().object->name + "\""
+                        : "what is painted where the camera sees " + std::to_string(meshes.size()) +
+                              " object(s)");
+        for (const DrawnMesh& mesh : meshes)
+            mesh.sampleFrom(pass);
         target = pass.createColor(leaves ? "views.paintLeaving" : "views.paintEntering",
                                   {.size = size, .format = Format::RGBA32F});
         pass.clear(target, vec4(1));
         pass.clear(pass.createDepth("views.depth", size), 1.0f);
         return [=](const graph::Resources& resources, graph::Commands& commands) {
-            for (const PosedMesh& mesh : meshes) {
-                const Paint& paint = *mesh.drawn.paint;
+            for (const DrawnMesh& mesh : meshes) {
+                const Paint& paint = *mesh.paint;
                 graph::Draw draw{.depthTest = graph::DepthTest::Less};
                 draw.textures = {{"uPlaces", paint.places}};
                 if (part != Part::Leaving) draw.textures.push_back({"uEntering", paint.entering});
                 if (part != Part::EnteringMap) draw.textures.push_back({"uLeaving", paint.leaving});
-                drawMesh(commands, *program, resources, mesh, eye, size, mesh.drawn.index, std::move(draw));
+                drawMesh(commands, *program, resources, mesh, eye, size, mesh.index, std::move(draw));
             }
         };
     });
@@ -79,17 +77,17 @@ Result<graph::TextureId> recordPaint(graph::FrameGraph& graph, gl::Context& cont
 } // namespace
 
 Result<graph::TextureId> recordEntering(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                        const PosedMesh& mesh, ivec2 size) {
+                                        const DrawnMesh& mesh, ivec2 size) {
     return recordPaint(graph, context, eye, {mesh}, size, Part::Entering);
 }
 
 Result<graph::TextureId> recordEnteringMap(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                           const std::vector<PosedMesh>& meshes, ivec2 size) {
+                                           const std::vector<DrawnMesh>& meshes, ivec2 size) {
     return recordPaint(graph, context, eye, meshes, size, Part::EnteringMap);
 }
 
 Result<graph::TextureId> recordLeaving(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                       const std::vector<PosedMesh>& meshes, ivec2 size) {
+                                       const std::vector<DrawnMesh>& meshes, ivec2 size) {
     return recordPaint(graph, context, eye, meshes, size, Part::Leaving);
 }
 

@@ -11,7 +11,7 @@
 
 namespace lucent::views {
 
-struct PosedMesh;
+struct DrawnMesh;
 
 /// Whether paint on the object does anything: it must be translucent.
 bool isPainted(const scene::Object& object);
@@ -51,14 +51,14 @@ std::vector<graph::Binding> enteringBindings(const Paint& paint);
 /// @param eye, size  of a surface image: what is painted belongs to those of its pixels that show the object
 /// @return           RGBA32F. rgb: M_i times translucency, a: M_d
 Result<graph::TextureId> recordEntering(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                        const PosedMesh& mesh, ivec2 size);
+                                        const DrawnMesh& mesh, ivec2 size);
 
 /// The map itself on painted objects. rgb: M_i, a: M_d
 Result<graph::TextureId> recordEnteringMap(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                           const std::vector<PosedMesh>& meshes, ivec2 size);
+                                           const std::vector<DrawnMesh>& meshes, ivec2 size);
 
 /// The same for what leaves painted objects. rgb: its factor; a: translucency
 Result<graph::TextureId> recordLeaving(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                       const std::vector<PosedMesh>& meshes, ivec2 size);
+                                       const std::vector<DrawnMesh>& meshes, ivec2 size);
 
 } // namespace lucent::views

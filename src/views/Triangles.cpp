@@ -144,14 +144,13 @@ TriangleImages importKept(graph::FrameGraph& graph, gl::Context& context, KeptTr
 
 } // namespace
 
-Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vector<PosedMesh>& meshes,
+Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, const std::vector<DrawnMesh*>& meshes,
                        KeptTriangles* kept) {
     int rows = 0;
-    for (PosedMesh& mesh : meshes)
-        if (const TriangleTextures* triangles = mesh.drawn.mesh->triangles()) {
-            mesh.firstCorner = rows * kVerticesPerRow;
-            rows += triangles->sources().desc().size.y;
-        }
+    for (DrawnMesh* mesh : meshes) {
+        mesh->firstCorner = rows * kVerticesPerRow;
+        rows += mesh->textures->triangles()->sources().desc().size.y;
+    }
     if (rows == 0) return Done{};
     const int most = std::min(context.caps().maxTextureSize, int(kNone) / kVerticesPerRow);
     if (rows > most)
@@ -163,8 +162,8 @@ Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vect
     TriangleImages images;
     if (kept) images = importKept(graph, context, *kept, size);
     const auto tell = [&] {
-        for (PosedMesh& mesh : meshes)
-            if (mesh.drawn.mesh->triangles()) mesh.triangles = images;
+        for (DrawnMesh* mesh : meshes)
+            mesh->triangles = images;
         return Done{};
     };
     if (kept && kept->current) return tell();
@@ -181,16 +180,15 @@ Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vect
             images = {pass.createColor(kCornersLabel, floats), pass.createColor(kNormalsLabel, floats),
                       pass.createColor(kLinksLabel, {.size = size, .format = Format::RGBA32UI})};
         }
-        for (const PosedMesh& mesh : meshes) {
-            if (!mesh.drawn.mesh->triangles()) continue;
-            pass.sample(mesh.positions);
-            pass.sample(mesh.normals);
+        std::vector<DrawnMesh> drawn;
+        for (const DrawnMesh* mesh : meshes) {
+            mesh->sampleFrom(pass);
+            drawn.push_back(*mesh);
         }
         return [=](const graph::Resources& resources, graph::Commands& commands) {
-            for (const PosedMesh& mesh : meshes) {
-                const TriangleTextures* triangles = mesh.drawn.mesh->triangles();
-                if (!triangles) continue;
-                const scene::Transform& transform = mesh.drawn.object->transform;
+            for (const DrawnMesh& mesh : drawn) {
+                const TriangleTextures* triangles = mesh.textures->triangles();
+                const scene::Transform& transform = mesh.object->transform;
                 const ivec2 part = triangles->sources().desc().size;
                 commands.draw({.program = program,
                                .region = {0, mesh.firstCorner / kVerticesPerRow, part},

@@ -14,7 +14,7 @@
 
 namespace lucent::views {
 
-struct PosedMesh;
+struct DrawnMesh;
 
 /// A mesh whose triangles each have their last corner to themselves: flat varyings take the last vertex, so
 /// that its number is the triangle's while vertices are still shared and drawn once. Vertices are copied only
@@ -65,11 +65,11 @@ struct KeptTriangles {
     bool current = false; ///< they hold the meshes as they stand: who keeps them says so
 };
 
-/// Puts those of the meshes into images that are refractive, one behind the other, and tells each mesh where.
+/// Puts refractive meshes into images, one behind the other, and tells each of them where.
 /// Error (Fault::Machine) where a texture, or a float, cannot number so many.
 ///
 /// @param kept  where they stay, and are only drawn where they are not current; null: images of this frame
-Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, std::vector<PosedMesh>& meshes,
+Status recordTriangles(graph::FrameGraph& graph, gl::Context& context, const std::vector<DrawnMesh*>& meshes,
                        KeptTriangles* kept = nullptr);
 
 /// What shaders/views/triangles.glsl samples.

@@ -19,11 +19,11 @@ int blocksOf(int size, int side) { return (size + side - 1) / side; }
 int imagesOfBits(const VoxelSettings& settings) { return settings.slices / 32; }
 int imagesOf(const VoxelSettings& settings) { return imagesOfBits(settings) + settings.slices / 64; }
 
-// Nearest and farthest depth of the boxes around all meshes.
-vec2 boundsOfAll(const Eye& eye, const std::vector<PosedMesh>& meshes) {
+// Nearest and farthest depth of the boxes around all of them.
+vec2 depthsOf(const Eye& eye, const Drawables& glass) {
     vec2 all(1e30f, kNoDepth);
-    for (const PosedMesh& mesh : meshes) {
-        const Bounds box = boundsOf(*mesh.drawn.object);
+    for (const auto& one : glass) {
+        const Bounds box = one->bounds();
         for (int corner = 0; corner < 8; ++corner) {
             const vec3 point(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
                              corner & 4 ? box.high.z : box.low.z);
@@ -34,18 +34,11 @@ vec2 boundsOfAll(const Eye& eye, const std::vector<PosedMesh>& meshes) {
     return {std::max(all.x, eye.perspective ? 0.0f : all.x), all.y};
 }
 
-// The eye that drawing goes by: its depths are those between which the meshes lie.
+// The eye that drawing goes by: its depths are those between which all of them lie.
 Eye between(Eye eye, vec2 bounds) {
     eye.nearest = bounds.x;
     eye.farthest = bounds.y;
     return eye;
-}
-
-void samplePosed(graph::PassBuilder& pass, const std::vector<PosedMesh>& meshes) {
-    for (const PosedMesh& mesh : meshes) {
-        pass.sample(mesh.positions);
-        pass.sample(mesh.normals);
-    }
 }
 
 std::string number(const char* name, int value) { return name + (" " + std::to_string(value)); }
@@ -68,10 +61,10 @@ Status inTurns(const gl::Context& context, const VoxelSettings& settings, int im
 // Records the passes of one method.
 class Recorder {
 public:
-    Recorder(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-             const std::vector<PosedMesh>& meshes, ivec2 size)
-        : graph_(graph), context_(context), bounds_(boundsOfAll(eye, meshes)), eye_(between(eye, bounds_)),
-          meshes_(meshes), size_(size) {}
+    Recorder(graph::FrameGraph& graph, gl::Context& context, const Eye& eye, const Drawables& glass,
+             ivec2 size)
+        : graph_(graph), context_(context), bounds_(depthsOf(eye, glass)), eye_(between(eye, bounds_)),
+          glass_(glass), size_(size) {}
 
     Result<TextureId> extreme(const VoxelSettings& settings);
     Result<TextureId> slices(const VoxelSettings& settings, TextureId extreme);
@@ -91,8 +84,11 @@ public:
     }
 
 private:
-    void drawAll(const graph::Resources& resources, graph::Commands& commands, const gl::Program& program,
-                 const graph::Draw& draw) const;
+    void drawAll(const graph::Resources& resources, graph::Commands& commands,
+                 const std::vector<Drawing>& drawings, const graph::Draw& how) const {
+        for (const Drawing& draw : drawings)
+            draw(resources, commands, eye_, size_, how);
+    }
     Status extremeByDepthTest(TextureId extreme, int layer, const char* define);
     VoxelBlock block(int count) const {
         return {.bounds = bounds_, .size = size_, .blocks = {}, .count = count};
@@ -102,7 +98,7 @@ private:
     gl::Context& context_;
     vec2 bounds_;
     Eye eye_;
-    std::vector<PosedMesh> meshes_;
+    Drawables glass_;
     ivec2 size_;
 };
 
@@ -118,40 +114,32 @@ Result<TextureId> Recorder::extreme(const VoxelSettings& settings) {
         if (Status s = extremeByDepthTest(extreme, 1, "ONLY_FARTHEST"); !s) return s.error();
         return extreme;
     }
-    const gl::Program* program = context_.program("views/voxel_bounds");
     graph_.addPass("views.voxelBounds", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("first and last surface of the refractive objects in each pixel");
-        samplePosed(pass, meshes_);
+        std::vector<Drawing> drawings = drawingsOf(context_, pass, glass_, ViewKind::VoxelBounds);
         pass.write(extreme, 0);
         pass.write(extreme, 1);
         pass.clear(extreme, vec4(kNoDepth));
-        return [self = *this, program](const graph::Resources& resources, graph::Commands& commands) {
-            self.drawAll(resources, commands, *program, {.blend = graph::Blend::Max});
+        return [self = *this, drawings](const graph::Resources& resources, graph::Commands& commands) {
+            self.drawAll(resources, commands, drawings, {.blend = graph::Blend::Max});
         };
     });
     return extreme;
 }
 
 Status Recorder::extremeByDepthTest(TextureId extreme, int layer, const char* define) {
-    const gl::Program* program = context_.program("views/voxel_bounds", {define});
     graph_.addPass("views.voxelBounds", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(layer == 0 ? "first surface of the refractive objects in each pixel"
                                : "last surface of the refractive objects in each pixel");
-        samplePosed(pass, meshes_);
+        std::vector<Drawing> drawings = drawingsOf(context_, pass, glass_, ViewKind::VoxelBounds, {define});
         pass.write(extreme, layer);
         pass.clear(extreme, vec4(kNoDepth));
         pass.clear(pass.createDepth("views.voxelDepth", size_, Format::Depth32F), 1.0f);
-        return [self = *this, program](const graph::Resources& resources, graph::Commands& commands) {
-            self.drawAll(resources, commands, *program, {.depthTest = graph::DepthTest::LessEqual});
+        return [self = *this, drawings](const graph::Resources& resources, graph::Commands& commands) {
+            self.drawAll(resources, commands, drawings, {.depthTest = graph::DepthTest::LessEqual});
         };
     });
     return Done{};
-}
-
-void Recorder::drawAll(const graph::Resources& resources, graph::Commands& commands,
-                       const gl::Program& program, const graph::Draw& draw) const {
-    for (std::size_t i = 0; i < meshes_.size(); ++i)
-        drawMesh(commands, program, resources, meshes_[i], eye_, size_, int(i), draw);
 }
 
 Result<TextureId> Recorder::slices(const VoxelSettings& settings, TextureId extreme) {
@@ -161,21 +149,20 @@ Result<TextureId> Recorder::slices(const VoxelSettings& settings, TextureId extr
         std::vector<std::string> defines = sliceDefines(settings);
         defines.push_back(number("FIRST", first));
         defines.push_back(number("TARGETS", count));
-        const gl::Program* program = context_.program("views/voxel_slice", defines);
         graph_.addPass("views.voxels", [&](graph::PassBuilder& pass) -> graph::Execute {
             pass.reason("surfaces as bits in " + std::to_string(settings.slices) +
                         " slices of depth, images " + std::to_string(first + 1) + " to " +
                         std::to_string(first + count) + " of " + std::to_string(imagesOf(settings)));
-            samplePosed(pass, meshes_);
+            std::vector<Drawing> drawings = drawingsOf(context_, pass, glass_, ViewKind::VoxelSlice, defines);
             if (settings.local) pass.sample(extreme);
             for (int i = 0; i < count; ++i)
                 pass.write(images, first + i);
             pass.clear(images, vec4(0));
-            return [self = *this, program, extreme, local = settings.local](const graph::Resources& resources,
-                                                                            graph::Commands& commands) {
+            return [self = *this, drawings, extreme,
+                    local = settings.local](const graph::Resources& resources, graph::Commands& commands) {
                 graph::Draw draw{.blend = graph::Blend::Add};
                 if (local) draw.textures.push_back({"uBounds", resources[extreme]});
-                self.drawAll(resources, commands, *program, draw);
+                self.drawAll(resources, commands, drawings, draw);
             };
         });
         return Done{};
@@ -251,9 +238,9 @@ Status Recorder::deepest(DepthLayers& depths) {
 } // namespace
 
 Result<DepthLayers> recordVoxels(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                 const std::vector<PosedMesh>& meshes, ivec2 size, int count,
+                                 const Drawables& glass, ivec2 size, int count,
                                  const VoxelSettings& settings) {
-    Recorder recorder(graph, context, eye, meshes, size);
+    Recorder recorder(graph, context, eye, glass, size);
     DepthLayers depths = recorder.begin(DepthLayers::From::Bits, count);
     depths.voxels = settings;
     Result<TextureId> extreme = recorder.extreme(settings);
@@ -273,8 +260,8 @@ Result<DepthLayers> recordVoxels(graph::FrameGraph& graph, gl::Context& context,
 }
 
 Result<DepthLayers> recordFrontBack(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                    const std::vector<PosedMesh>& meshes, ivec2 size) {
-    Recorder recorder(graph, context, eye, meshes, size);
+                                    const Drawables& glass, ivec2 size) {
+    Recorder recorder(graph, context, eye, glass, size);
     DepthLayers depths = recorder.begin(DepthLayers::From::Bounds, 2);
     Result<TextureId> extreme = recorder.extreme({});
     if (!extreme) return extreme.error();
@@ -284,8 +271,8 @@ Result<DepthLayers> recordFrontBack(graph::FrameGraph& graph, gl::Context& conte
 }
 
 Result<DepthLayers> recordDepths(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                 const std::vector<PosedMesh>& meshes, ivec2 size, const Layers& layers) {
-    Recorder recorder(graph, context, eye, meshes, size);
+                                 const Drawables& glass, ivec2 size, const Layers& layers) {
+    Recorder recorder(graph, context, eye, glass, size);
     DepthLayers depths = recorder.begin(DepthLayers::From::Peel, layers.count);
     depths.images = layers.images;
     if (Status s = recorder.deepest(depths); !s) return s.error();
@@ -293,14 +280,14 @@ Result<DepthLayers> recordDepths(graph::FrameGraph& graph, gl::Context& context,
 }
 
 Result<VoxelCount> countVoxels(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
-                               const std::vector<DrawnMesh>& meshes, float time, ivec2 size,
+                               const Drawables& glass, float time, ivec2 size,
                                const VoxelSettings& settings) {
     const graph::Texture counts(context.device(), {.size = size, .format = Format::RGBA16F},
                                 "views.voxelCounts");
     graph::FrameGraph graph;
     const TextureId target = graph.import(counts.handle(), counts.desc(), counts.label());
     graph.keep(target);
-    Result<std::vector<PosedMesh>> posed = recordPose(graph, context, meshes, time);
+    Result<Drawables> posed = recordPose(graph, context, glass, time);
     if (!posed) return posed.error();
     VoxelSettings bits = settings;
     bits.onTheFly = true;

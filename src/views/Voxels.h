@@ -35,14 +35,14 @@ struct DepthLayers {
 ///
 /// @param count  layers that are found, nearest first, at most kMostLayers
 Result<DepthLayers> recordVoxels(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                 const std::vector<PosedMesh>& meshes, ivec2 size, int count,
+                                 const Drawables& glass, ivec2 size, int count,
                                  const VoxelSettings& settings);
 /// Only the first and the last surface of each pixel: the two faces of earlier methods.
 Result<DepthLayers> recordFrontBack(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                    const std::vector<PosedMesh>& meshes, ivec2 size);
+                                    const Drawables& glass, ivec2 size);
 /// The depths of peeled layers.
 Result<DepthLayers> recordDepths(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                 const std::vector<PosedMesh>& meshes, ivec2 size, const Layers& layers);
+                                 const Drawables& glass, ivec2 size, const Layers& layers);
 
 /// What slices can tell apart, summed over a picture.
 struct VoxelCount {
@@ -54,8 +54,7 @@ struct VoxelCount {
 /// those behind them stay what they are, and lie at the slice; of more than two that share one some may lie a
 /// slice off, and of a saturated group up to seven.
 Result<VoxelCount> countVoxels(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
-                               const std::vector<DrawnMesh>& meshes, float time, ivec2 size,
-                               const VoxelSettings& settings);
+                               const Drawables& glass, float time, ivec2 size, const VoxelSettings& settings);
 
 /// What shaders/views/depth_layers.glsl is compiled with and samples.
 std::vector<std::string> depthDefines(const DepthLayers& depths);

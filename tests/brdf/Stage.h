@@ -78,20 +78,16 @@ struct Brdf : support::GlTest {
         graph.keep(targetId);
         const support::Seen posed(graph, *context, images, scene, surfaceId, size);
         context->device().checkTargets(true);
-        std::vector<views::PosedMesh> matt, mirrors, opaque, glass;
-        for (const views::PosedMesh& mesh : posed.solids)
-            (mesh.drawn.object->material.isMirror() ? mirrors : matt).push_back(mesh);
-        for (const views::PosedMesh& mesh : posed.all)
-            (mesh.drawn.object->material.isRefractive() ? glass : opaque).push_back(mesh);
+        const views::Drawables mirrors = filtered(posed.solids, &views::Drawable::isMirror),
+                               matt = filtered(posed.solids, std::not_fn(&views::Drawable::isMirror));
         graph::Texture table;
         support::recordMatt(graph, *context,
                             {.scene = scene,
                              .eye = posed.eye,
                              .size = size,
                              .surface = surfaceId,
-                             .solids = matt,
-                             .opaque = opaque,
-                             .refractive = glass,
+                             .matt = matt,
+                             .all = posed.all,
                              .show = show,
                              .flux = fluxId},
                             table, targetId, sampling);

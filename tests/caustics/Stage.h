@@ -7,6 +7,7 @@
 #include "tests/truth/scenes.h"
 #include "truth/Glass.h"
 #include "truth/LightTracer.h"
+#include "views/FieldTextures.h"
 #include "views/Surface.h"
 #include "views/Water.h"
 
@@ -45,8 +46,7 @@ struct Caustics : support::GlTest {
         views::ImageCache images;
         views::Waters waters;
         views::Eye eye;
-        views::DrawnMeshes drawn{};
-        std::vector<views::DrawnObject> fields{};
+        views::Drawables drawn{};
         Plan plan{};
 
         Stage(gl::Context& context, const scene::Scene& scene, ivec2 size, const Settings& settings)
@@ -56,10 +56,9 @@ struct Caustics : support::GlTest {
             while (there && !*there)
                 there = waters.advance(scene);
             EXPECT_TRUE(there.ok());
-            drawn = *views::drawnMeshes(scene, images, true, &waters);
-            fields = *views::drawnObjects(scene, images);
+            drawn = *views::drawablesOf(scene, images, &waters);
             const caustics::Caustics technique(context);
-            auto planned = technique.plan(pool, scene, &eye, drawn, fields, settings);
+            auto planned = technique.plan(pool, scene, &eye, drawn, settings);
             EXPECT_TRUE(planned.ok()) << planned.error().message;
             plan = std::move(*planned);
         }
@@ -69,7 +68,7 @@ struct Caustics : support::GlTest {
         Stage stage(*context, scene, size, settings);
         context->device().checkTargets(false); // they have passed in lightOf()
         const auto energy = caustics::Caustics(*context).measure(stage.pool, scene, stage.eye, stage.drawn,
-                                                                 stage.fields, stage.plan, settings);
+                                                                 stage.plan, settings);
         EXPECT_TRUE(energy.ok()) << energy.error().message;
         return *energy;
     }
@@ -81,14 +80,12 @@ struct Caustics : support::GlTest {
         const graph::TextureDesc desc{.size = size, .format = graph::Format::RGBA32F};
         const graph::Texture target(context->device(), desc, "target");
         graph::FrameGraph graph;
-        const auto glass = views::recordPose(graph, *context, stage.drawn.glass, scene.view.time);
-        const auto solids = views::recordPose(graph, *context, stage.drawn.solid, scene.view.time);
+        const auto posed = views::recordPose(graph, *context, stage.drawn, scene.view.time);
         const graph::TextureId surface = graph.create("surface", desc);
-        std::vector<views::PosedMesh> seen = *solids;
-        std::erase_if(seen, [](const views::PosedMesh& mesh) { return !mesh.drawn.object->visible; });
-        EXPECT_TRUE(views::recordSurface(graph, *context, eye, stage.fields, seen, surface, size).ok());
+        const views::Drawables solids = opaque(*posed), seen = visible(solids);
+        EXPECT_TRUE(views::recordSurface(graph, *context, eye, seen, surface, size).ok());
         const auto light = caustics::Caustics(*context).record(
-            graph, {scene, eye, *glass, *solids, surface, size, stage.fields}, stage.plan, settings);
+            graph, {scene, eye, refractive(*posed), solids, surface, size}, stage.plan, settings);
         EXPECT_TRUE(light.ok()) << light.error().message;
         const graph::TextureId targetId = graph.import(target.handle(), desc, target.label());
         graph.keep(targetId);
@@ -100,9 +97,8 @@ struct Caustics : support::GlTest {
                              .eye = eye,
                              .size = size,
                              .surface = surface,
-                             .solids = seen,
-                             .opaque = *solids,
-                             .refractive = *glass,
+                             .matt = seen,
+                             .all = *posed,
                              .show = scene::Aov::Irradiance,
                              .flux = light->irradiance},
                             table, targetId, {.lamp = 16, .directions = 0});

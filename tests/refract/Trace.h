@@ -65,10 +65,11 @@ struct Refraction : support::GlTest {
         const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y), nearest);
         graph::TexturePool pool(context->device());
         views::ImageCache images(*context);
-        const auto drawn = views::drawnMeshes(scene, images);
+        const auto drawn = views::drawablesOf(scene, images);
         EXPECT_TRUE(drawn.ok());
         if (layers == 0)
-            layers = *views::countLayers(pool, *context, eye, drawn->glass, scene.view.time, size);
+            layers =
+                *views::countLayers(pool, *context, eye, refractive(visible(*drawn)), scene.view.time, size);
 
         graph::FrameGraph graph;
         const auto import = [&](const graph::Texture& texture) {
@@ -76,27 +77,27 @@ struct Refraction : support::GlTest {
         };
         const graph::TextureId surfaceId = import(surface), targetId = import(target);
         graph.keep(targetId);
-        const auto glass = views::recordPose(graph, *context, drawn->glass, scene.view.time);
-        graph::TextureId opaque, solid;
-        if (!drawn->solid.empty()) {
-            const auto solids = views::recordPose(graph, *context, drawn->solid, scene.view.time);
-            EXPECT_TRUE(views::recordSurface(graph, *context, eye, {}, *solids, surfaceId, size).ok());
-            opaque = import(places);
+        const auto posed = views::recordPose(graph, *context, visible(*drawn), scene.view.time);
+        const views::Drawables glass = refractive(*posed), solids = opaque(*posed);
+        graph::TextureId shown, solid;
+        if (!solids.empty()) {
+            EXPECT_TRUE(views::recordSurface(graph, *context, eye, solids, surfaceId, size).ok());
+            shown = import(places);
             solid = graph.create("solid", desc);
-            EXPECT_TRUE(views::recordGeometry(graph, *context, eye, {}, *solids, surfaceId, opaque,
+            EXPECT_TRUE(views::recordGeometry(graph, *context, eye, solids, surfaceId, shown,
                                               scene::Aov::Position, size)
                             .ok());
-            EXPECT_TRUE(views::recordSolid(graph, *context, eye, {}, *solids, surfaceId, solid, size).ok());
+            EXPECT_TRUE(views::recordSolid(graph, *context, eye, solids, surfaceId, solid, size).ok());
         }
         const int peeled = settings.layers == LayerMethod::Peel ? layers : 1;
-        const auto recorded = views::recordLayers(graph, *context, eye, *glass, size, peeled, solid);
+        const auto recorded = views::recordLayers(graph, *context, eye, glass, size, peeled, solid);
         EXPECT_TRUE(recorded.ok());
         auto environment = graph::TextureHandle::None;
         if (scene.environment) environment = *images.image(scene.environment->map);
         const Inputs in{.eye = eye,
-                        .glass = *glass,
+                        .glass = glass,
                         .layers = *recorded,
-                        .opaque = opaque,
+                        .opaque = shown,
                         .solid = solid,
                         .environment = environment,
                         .light = scene.environment ? &*scene.environment : nullptr,

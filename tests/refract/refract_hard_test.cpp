@@ -242,7 +242,7 @@ TEST_F(HardRefraction, TheScaleOfTheSceneDoesNotMatter) {
 }
 
 TEST_F(HardRefraction, MoreObjectsThanBitsAreRefused) {
-    std::vector<views::PosedMesh> many(views::kMostGlass + 1);
+    const views::Drawables many(views::kMostGlass + 1);
     const scene::Scene scene = seenFrom(3, {});
     const views::Eye eye = views::makeEye(seenFrom(3, {glass(scene::Sphere{1}, 1.5f)}), 1);
     const views::Layers layers;

@@ -67,7 +67,10 @@ struct SubsurfaceTest : support::GlTest {
         const support::Seen posed(graph, *context, images, scene, surfaceId, size);
         context->device().checkTargets(true);
         Subsurface subsurface(*context);
-        const auto plan = subsurface.plan(pool, scene, posed.drawn.solid, settings);
+        const auto bodies = [](const views::Drawables& list) {
+            return meshesOf(filtered(list, [](const views::Drawable& one) { return scatters(*one.object); }));
+        };
+        const auto plan = subsurface.plan(pool, scene, bodies(posed.drawn), settings);
         EXPECT_TRUE(plan.ok()) << plan.error().message;
         const std::vector<views::LampPoint> samples = views::lightSamples(scene, views::samplingOf(scene));
         const Image table = views::sampleTable(samples);
@@ -76,10 +79,6 @@ struct SubsurfaceTest : support::GlTest {
         context->device().upload(tableTexture.handle(), 0, table.pixels);
         const graph::TextureId tableId = graph.import(tableTexture.handle(), tableDesc, "samples");
         const int count = int(samples.size()), most = views::mostSamplesAtOnce(*context, size);
-        const std::vector<views::DrawnObject> none;
-        std::vector<views::PosedMesh> bodies = posed.solids;
-        std::erase_if(bodies, [](const auto& mesh) { return !scatters(*mesh.drawn.object); });
-        const std::vector<views::PosedMesh> noGlass;
         for (int first = 0; first == 0 || first < count; first += most) {
             const int end = std::min(count, first + most);
             const auto occlusion = views::recordOcclusion(
@@ -87,11 +86,7 @@ struct SubsurfaceTest : support::GlTest {
                 {.eye = posed.eye,
                  .size = size,
                  .surface = surfaceId,
-                 .fields = none,
-                 .solids = posed.solids,
-                 .casters = none,
-                 .opaque = posed.all,
-                 .refractive = noGlass,
+                 .drawables = posed.all,
                  .shadowSize = views::samplingOf(scene).shadowSize,
                  .beside = boundsOfAll(posed.solids)},
                 std::span(samples).subspan(std::size_t(first), std::size_t(end - first)));
@@ -101,10 +96,8 @@ struct SubsurfaceTest : support::GlTest {
                 {.scene = scene,
                  .eye = posed.eye,
                  .size = size,
-                 .solids = bodies,
-                 .opaque = posed.all,
-                 .refractive = noGlass,
-                 .fields = none,
+                 .solids = bodies(posed.all),
+                 .casters = posed.all,
                  .surface = surfaceId,
                  .samples = samples,
                  .table = tableId,
@@ -119,7 +112,7 @@ struct SubsurfaceTest : support::GlTest {
         }
         const Inputs in{.scene = scene,
                         .eye = posed.eye,
-                        .solids = posed.solids,
+                        .solids = bodies(posed.all),
                         .casters = posed.all,
                         .surface = surfaceId,
                         .environment = posed.environment,

@@ -13,9 +13,8 @@ struct MattView {
     const views::Eye& eye;
     ivec2 size;
     graph::TextureId surface;
-    const std::vector<views::PosedMesh>& solids; ///< visible and matt
-    const std::vector<views::PosedMesh>& opaque; ///< all that casts shadows
-    const std::vector<views::PosedMesh>& refractive;
+    views::Drawables matt; ///< visible
+    views::Drawables all;  ///< that stands in the way of light
     scene::Aov show;
     graph::TextureId flux{};
 };
@@ -29,7 +28,6 @@ inline void recordMatt(graph::FrameGraph& graph, gl::Context& context, const Mat
     lightTable = graph::Texture(context.device(), desc, "samples");
     context.device().upload(lightTable.handle(), 0, table.pixels);
     const graph::TextureId tableId = graph.import(lightTable.handle(), desc, "samples");
-    const std::vector<views::DrawnObject> none;
     const int count = int(samples.size()), most = views::mostSamplesAtOnce(context, in.size);
     graph::TextureId sum;
     for (int first = 0; first == 0 || first < count; first += most) {
@@ -39,11 +37,7 @@ inline void recordMatt(graph::FrameGraph& graph, gl::Context& context, const Mat
                                    {.eye = in.eye,
                                     .size = in.size,
                                     .surface = in.surface,
-                                    .fields = none,
-                                    .solids = in.solids,
-                                    .casters = none,
-                                    .opaque = in.opaque,
-                                    .refractive = in.refractive,
+                                    .drawables = in.all,
                                     .shadowSize = sampling.shadowSize},
                                    std::span(samples).subspan(std::size_t(first), std::size_t(end - first)));
         ASSERT_TRUE(occlusion.ok()) << occlusion.error().message;
@@ -57,7 +51,7 @@ inline void recordMatt(graph::FrameGraph& graph, gl::Context& context, const Mat
         const Status recorded = brdf::Brdf(context).record(graph, {.scene = in.scene,
                                                                    .eye = in.eye,
                                                                    .size = in.size,
-                                                                   .solids = in.solids,
+                                                                   .solids = in.matt,
                                                                    .surface = in.surface,
                                                                    .lightTable = tableId,
                                                                    .first = first,

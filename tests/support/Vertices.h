@@ -30,18 +30,16 @@ inline Vertices verticesAt(gl::Context& context, const scene::Scene& scene, floa
                            const views::Waters* waters = nullptr) {
     graph::TexturePool pool(context.device());
     views::ImageCache images(context);
-    const views::DrawnMeshes drawn = *views::drawnMeshes(scene, images, false, waters);
     graph::FrameGraph graph;
-    const auto posed = views::recordPose(graph, context, drawn.solid, time);
+    const auto posed = views::recordPose(graph, context, *views::drawablesOf(scene, images, waters), time);
     EXPECT_TRUE(posed.ok()) << posed.error().message;
     const graph::Texture target(context.device(), {.size = {1, 1}}, "reader");
     const graph::TextureId targetId = graph.import(target.handle(), target.desc(), target.label());
     graph.keep(targetId);
     Vertices found;
     graph.addPass("reader", [&](graph::PassBuilder& pass) -> graph::Execute {
-        const views::PosedMesh& mesh = posed->front();
-        pass.sample(mesh.positions);
-        pass.sample(mesh.normals);
+        const views::DrawnMesh& mesh = *posed->front()->mesh();
+        mesh.sampleFrom(pass);
         pass.write(targetId);
         return [&](const graph::Resources& resources, graph::Commands&) {
             const std::size_t count = scene::meshOf(scene.objects[0])->positions.size();

@@ -31,16 +31,14 @@ struct LayersTest : support::GlTest {
     int count(const scene::Scene& scene) {
         graph::TexturePool pool(context->device());
         ImageCache images(*context);
-        const auto drawn = drawnMeshes(scene, images);
-        return *countLayers(pool, *context, makeEye(scene, 1), drawn->glass, 0, kSize);
+        return *countLayers(pool, *context, makeEye(scene, 1), *drawablesOf(scene, images), 0, kSize);
     }
     /// Draws layers and gives them back, nearest first.
     std::vector<Image> draw(const scene::Scene& scene, int count, const LayerQueries& queries = {}) {
         graph::TexturePool pool(context->device());
         ImageCache images(*context);
-        const auto drawn = drawnMeshes(scene, images);
         graph::FrameGraph graph;
-        const auto posed = recordPose(graph, *context, drawn->glass, 0);
+        const auto posed = recordPose(graph, *context, *drawablesOf(scene, images), 0);
         const auto layers =
             recordLayers(graph, *context, makeEye(scene, 1), *posed, kSize, count, {}, queries);
         EXPECT_TRUE(layers.ok());

@@ -214,9 +214,9 @@ TEST_F(PoseTest, WhatDoesNotMoveIsNotDrawn) {
     ImageCache images(*context);
     scene::Scene scene;
     scene.objects = {objectOf(ball())};
-    const DrawnMeshes drawn = *drawnMeshes(scene, images);
+    const Drawables drawn = *drawablesOf(scene, images);
     EXPECT_EQ(move(scene.objects[0], 0.5f).passes, 0);
-    EXPECT_EQ(drawn.solid[0].mesh->pose(), nullptr);
+    EXPECT_EQ(drawn[0]->mesh()->textures->pose(), nullptr);
 }
 
 TEST_F(PoseTest, ARigThatStandsIsPosedOnce) {
@@ -237,7 +237,7 @@ TEST_F(PoseTest, BytesCountWhatTheRigNeeds) {
         ImageCache images(*context);
         scene::Scene scene;
         scene.objects = {objectOf(mesh)};
-        EXPECT_TRUE(drawnMeshes(scene, images).ok());
+        EXPECT_TRUE(drawablesOf(scene, images).ok());
         EXPECT_EQ(images.bytes(), context->device().textureBytes() + context->device().indexBytes());
         return images.bytes();
     };

@@ -62,9 +62,9 @@ struct VoxelsTest : support::GlTest {
     Found find(const scene::Scene& scene, int count, const VoxelSettings& settings, bool peels = true) {
         graph::TexturePool pool(context->device());
         const Eye eye = makeEye(scene, float(kSize.x) / float(kSize.y));
-        const auto drawn = drawnMeshes(scene, *cache);
+        const auto drawn = drawablesOf(scene, *cache);
         graph::FrameGraph graph;
-        const auto posed = recordPose(graph, *context, drawn->glass, 0);
+        const auto posed = recordPose(graph, *context, *drawn, 0);
         const auto layers = recordLayers(graph, *context, eye, *posed, kSize, count, {});
         const auto depths = recordVoxels(graph, *context, eye, *posed, kSize, count, settings);
         EXPECT_TRUE(layers.ok() && depths.ok());
@@ -102,9 +102,9 @@ struct VoxelsTest : support::GlTest {
     }
     VoxelCount count(const scene::Scene& scene, const VoxelSettings& settings = {}) {
         graph::TexturePool pool(context->device());
-        const auto drawn = drawnMeshes(scene, *cache);
+        const auto drawn = drawablesOf(scene, *cache);
         const auto found = countVoxels(pool, *context, makeEye(scene, float(kSize.x) / float(kSize.y)),
-                                       drawn->glass, 0, kSize, settings);
+                                       *drawn, 0, kSize, settings);
         EXPECT_TRUE(found.ok());
         return *found;
     }

@@ -1,6 +1,7 @@
 #include "techniques/brdf/Brdf.h"
 
 #include "shaders/brdf/Blocks.h"
+#include "views/Paint.h"
 
 namespace lucent::brdf {
 
@@ -13,21 +14,21 @@ MattBlock mattBlock(const Inputs& in, int first) {
     block.firstLight = in.first;
     block.endLight = in.end;
     block.columns = in.occlusion.columns;
-    for (const views::PosedMesh& solid : in.solids) {
-        const int place = solid.drawn.index - first;
+    for (const auto& solid : in.solids) {
+        const int place = solid->index - first;
         if (place < 0 || place >= kMostMatter) continue;
-        const scene::Material& material = solid.drawn.object->material;
+        const scene::Material& material = solid->object->material;
         const float matt = material.isRelief() ? 1 - material.relief().specularity : 1;
         block.matter[std::size_t(place)] = {vec4(matt * material.base, 0), vec4(matt * material.diffuse, 1)};
     }
     return block;
 }
 
-MirrorBlock mirrorBlock(const MirrorInputs& in, const views::PosedMesh& mesh) {
+MirrorBlock mirrorBlock(const MirrorInputs& in, const views::Drawable& mirror) {
     MirrorBlock block{.view = views::viewBlock(in.eye, in.size),
                       .around = views::aroundBlock(in.surroundings),
-                      .reflectance = vec4(mesh.drawn.object->material.mirror().reflectance, 0),
-                      .object = mesh.drawn.index,
+                      .reflectance = vec4(mirror.object->material.mirror().reflectance, 0),
+                      .object = mirror.index,
                       .cube = -1};
     if (in.surroundings) {
         const auto& cubes = in.surroundings->cubes;
@@ -143,8 +144,8 @@ Status Brdf::recordMirrors(graph::FrameGraph& graph, const MirrorInputs& in) con
     const graph::TextureId seen =
         in.solid ? recordCopy(graph, context_, in.target, in.size) : graph::TextureId{};
     std::vector<graph::Block> blocks;
-    for (const views::PosedMesh& mesh : in.mirrors)
-        blocks.push_back(mirrorBlock(in, mesh));
+    for (const auto& mirror : in.mirrors)
+        blocks.push_back(mirrorBlock(in, *mirror));
     std::vector<graph::Binding> kept;
     if (hasSky) kept.push_back({"uEnvironment", in.environment});
     if (hasFlat) kept.push_back({"uMirrored", in.surroundings->mirrored});

@@ -4,7 +4,7 @@
 #include "graph/FrameGraph.h"
 #include "light/Occlusion.h"
 #include "scene/Scene.h"
-#include "views/Surface.h"
+#include "views/Drawable.h"
 #include "views/Surroundings.h"
 
 #include <optional>
@@ -24,16 +24,16 @@ struct Inputs {
     const scene::Scene& scene;
     const views::Eye& eye;
     ivec2 size;
-    const std::vector<views::PosedMesh>& solids; ///< visible matt objects
-    graph::TextureId surface;                    ///< views.surface
-    graph::TextureId lightTable;                 ///< views::sampleTable()
-    int first, end;                              ///< samples of this slice
-    views::Occlusion occlusion;                  ///< of these
-    graph::TextureId flux;                       ///< irradiance of caustics on each pixel; or none
-    graph::TextureId sum;                        ///< what earlier slices summed; not read when first == 0
-    graph::TextureId target;                     ///< the sum with this slice; RGBA32F
-    scene::Aov show;                             ///< Color or Irradiance
-    bool clears = false;                         ///< nobody has drawn into the target yet
+    views::Drawables solids;     ///< visible matt objects
+    graph::TextureId surface;    ///< views.surface
+    graph::TextureId lightTable; ///< views::sampleTable()
+    int first, end;              ///< samples of this slice
+    views::Occlusion occlusion;  ///< of these
+    graph::TextureId flux;       ///< irradiance of caustics on each pixel; or none
+    graph::TextureId sum;        ///< what earlier slices summed; not read when first == 0
+    graph::TextureId target;     ///< the sum with this slice; RGBA32F
+    scene::Aov show;             ///< Color or Irradiance
+    bool clears = false;         ///< nobody has drawn into the target yet
 };
 
 /// What mirrors show.
@@ -41,9 +41,9 @@ struct MirrorInputs {
     const scene::Scene& scene;
     const views::Eye& eye;
     ivec2 size;
-    const std::vector<views::PosedMesh>& mirrors; ///< visible ones
-    graph::TextureId surface;                     ///< views.surface
-    graph::TextureHandle environment;             ///< lat-long map of scene.environment; None without one
+    views::Drawables mirrors;         ///< visible ones
+    graph::TextureId surface;         ///< views.surface
+    graph::TextureHandle environment; ///< lat-long map of scene.environment; None without one
     const views::Surroundings* surroundings = nullptr; ///< null: none were asked for
     graph::TextureId solid{};  ///< views.geometry: what the camera sees is mirrored; or none
     graph::TextureId target{}; ///< RGBA32F

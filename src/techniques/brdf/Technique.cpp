@@ -2,6 +2,7 @@
 
 #include "technique/Guest.h"
 #include "techniques/brdf/Brdf.h"
+#include "views/Surface.h"
 
 #include <algorithm>
 #include <iterator>
@@ -51,12 +52,11 @@ public:
     }
     Status shade(const technique::Passes& passes, const technique::Slice& slice) override {
         const technique::Picture& picture = passes.picture;
-        std::vector<views::PosedMesh> matt = views::Posed::visible(passes.posed.solid);
-        std::erase_if(matt, [](const views::PosedMesh& mesh) { return !isMatt(*mesh.drawn.object); });
+        const auto isMattHere = [](const views::Drawable& one) { return isMatt(*one.object); };
         return brdf_.record(passes.graph, {.scene = picture.scene,
                                            .eye = picture.eye,
                                            .size = picture.size,
-                                           .solids = matt,
+                                           .solids = filtered(passes.posed, isMattHere),
                                            .surface = passes.surface,
                                            .lightTable = slice.table,
                                            .first = slice.first,
@@ -71,16 +71,14 @@ public:
     Status scatter(const technique::Passes& passes, graph::TextureId shown) override {
         const technique::Picture& picture = passes.picture;
         if (picture.scene.view.show != Aov::Color) return Done{};
-        const std::vector<views::PosedMesh> solids = views::Posed::visible(passes.posed.solid);
-        std::vector<views::PosedMesh> mirrors = solids;
-        std::erase_if(mirrors,
-                      [](const views::PosedMesh& mesh) { return !mesh.drawn.object->material.isMirror(); });
+        const views::Drawables solids = opaque(visible(passes.posed));
+        const views::Drawables mirrors = filtered(solids, &views::Drawable::isMirror);
         graph::TextureId solid;
         if (!mirrors.empty() && aroundOf(picture.scene) == views::Around::View) {
             solid =
                 passes.graph.create("brdf.solid", {.size = picture.size, .format = graph::Format::RGBA32F});
-            if (Status s = views::recordSolid(passes.graph, context_, picture.eye, picture.drawn.fields,
-                                              solids, passes.surface, solid, picture.size);
+            if (Status s = views::recordSolid(passes.graph, context_, picture.eye, solids, passes.surface,
+                                              solid, picture.size);
                 !s)
                 return s;
         }

@@ -18,16 +18,16 @@ constexpr std::string_view kPointMaps[] = {"cube", "paraboloids"};
 
 // A point of a light that looks at meshes no wider than their vertices ask for: their box may be too wide for
 // one view where they are not. Moving ones are looked at by their box.
-views::ShadowSource aimedAt(views::ShadowSource source, const std::vector<views::DrawnMesh>& meshes,
+views::ShadowSource aimedAt(views::ShadowSource source, const views::Drawables& bending,
                             const views::Bounds& bounds) {
     const vec3 place(source.place), towards = bounds.center() - place;
     if (source.place.w == 0 || glm::length(towards) == 0) return source;
     const vec3 axis = glm::normalize(towards);
     float tangent = 0;
-    for (const views::DrawnMesh& mesh : meshes) {
-        if (scene::moves(*mesh.object)) return source;
-        const mat4 worldFromObject = mesh.object->transform.worldFromObject();
-        for (const vec3& position : scene::meshOf(*mesh.object)->positions) {
+    for (const auto& one : bending) {
+        if (scene::moves(*one->object)) return source;
+        const mat4 worldFromObject = one->object->transform.worldFromObject();
+        for (const vec3& position : scene::meshOf(*one->object)->positions) {
             const vec3 v = vec3(worldFromObject * vec4(position, 1)) - place;
             const float depth = glm::dot(v, axis);
             if (depth <= 0) return source;
@@ -51,22 +51,14 @@ int borderOf(const std::vector<views::Eye>& faces, int size) {
 //
 // @param eye  null: it shows all
 // @param ray  m between rays
-views::Bounds seenWithMargin(const views::Eye* eye, const std::vector<views::DrawnMesh>& meshes,
-                             const std::vector<views::DrawnObject>& fields, float ray) {
+views::Bounds seenWithMargin(const views::Eye* eye, const views::Drawables& receivers, float ray) {
     constexpr float kMargin = 1.0f / 16, kRays = 4; // of the longest side; at least
     views::Bounds seen;
-    const auto add = [&](const scene::Object& object) {
-        const views::Bounds all = views::boundsOf(object);
-        const views::Bounds one =
-            !eye || (object.visible && object.material.isScattering()) ? all : views::seenBy(*eye, all);
-        seen.low = glm::min(seen.low, one.low);
-        seen.high = glm::max(seen.high, one.high);
-    };
-    for (const views::DrawnMesh& mesh : meshes)
-        add(*mesh.object);
-    for (const views::DrawnObject& field : fields)
-        add(*field.object);
-    const views::Bounds all = boundsOfAll(meshes, fields);
+    for (const auto& one : receivers) {
+        const bool isWhole = !eye || (one->isVisible() && one->object->material.isScattering());
+        seen.add(isWhole ? one->bounds() : views::seenBy(*eye, one->bounds()));
+    }
+    const views::Bounds all = boundsOfAll(receivers);
     const vec3 size = seen.high - seen.low;
     const vec3 margin(std::max(kMargin * std::max({size.x, size.y, size.z}), kRays * ray));
     return {glm::max(seen.low - margin, all.low), glm::min(seen.high + margin, all.high)};
@@ -100,19 +92,17 @@ bool isConvex(const scene::Object& object) {
 
 // Whether a light sees receivers behind others, farther than where one pixel of its map cannot tell.
 Result<bool> liesBehind(graph::TexturePool& pool, gl::Context& context, views::ShadowViews views,
-                        const std::vector<views::DrawnMesh>& receivers,
-                        const std::vector<views::DrawnObject>& fields, float time) {
-    if (fields.empty() && receivers.size() == 1 && isConvex(*receivers.front().object)) return false;
+                        const views::Drawables& receivers, float time) {
+    if (receivers.size() == 1 && isConvex(*receivers.front()->object)) return false;
     constexpr int kLooked = 128; // pixels a side: smaller things are not looked for
     views.size = std::min(views.size, kLooked);
     graph::FrameGraph graph;
-    Result<std::vector<views::PosedMesh>> posed = views::recordPose(graph, context, receivers, time);
+    Result<views::Drawables> posed = views::recordPose(graph, context, receivers, time);
     if (!posed) return posed.error();
-    const views::Bounds bounds = boundsOfAll(receivers, fields);
-    Result<graph::TextureId> depths = views::recordShadow(graph, context, views, *posed, bounds, fields);
+    const views::Bounds bounds = boundsOfAll(receivers);
+    Result<graph::TextureId> depths = views::recordShadow(graph, context, views, *posed, bounds);
     if (!depths) return depths.error();
-    Result<graph::TextureId> behind =
-        views::recordShadow(graph, context, views, *posed, bounds, fields, *depths);
+    Result<graph::TextureId> behind = views::recordShadow(graph, context, views, *posed, bounds, *depths);
     if (!behind) return behind.error();
     const graph::TextureDesc desc{.size = views.imageSize(), .format = graph::Format::RG32F};
     const graph::Texture both(context.device(), desc, "caustics.both");
@@ -145,8 +135,8 @@ Result<bool> liesBehind(graph::TexturePool& pool, gl::Context& context, views::S
 // How many surfaces lie behind each other in a view of a lamp. Of one convex thing that is known without a
 // look; pictures are read back for all others.
 Result<int> surfacesIn(graph::TexturePool& pool, gl::Context& context, const views::Eye& face,
-                       const std::vector<views::DrawnMesh>& glass, float time, int size) {
-    if (glass.size() == 1 && isConvex(*glass.front().object)) return 2;
+                       const views::Drawables& glass, float time, int size) {
+    if (glass.size() == 1 && isConvex(*glass.front()->object)) return 2;
     return views::countLayers(pool, context, face, glass, time, ivec2(size));
 }
 
@@ -165,21 +155,15 @@ views::Bounds waysTo(const views::LampPoint& lamp, views::Bounds box) {
 
 // Around what may stand between a lamp and what lies in a box; empty where nothing does.
 views::Bounds hidingFrom(const views::LampPoint& lamp, const views::Bounds& box,
-                         const std::vector<views::DrawnMesh>& meshes,
-                         const std::vector<views::DrawnObject>& fields) {
+                         const views::Drawables& solids) {
     const views::Bounds ways = waysTo(lamp, box);
     views::Bounds hiding;
-    const auto add = [&](const scene::Object& object) {
-        const views::Bounds one = views::boundsOf(object);
-        if (glm::any(glm::lessThan(one.high, ways.low)) || glm::any(glm::greaterThan(one.low, ways.high)))
-            return;
-        hiding.add(one.low);
-        hiding.add(one.high);
-    };
-    for (const views::DrawnMesh& mesh : meshes)
-        add(*mesh.object);
-    for (const views::DrawnObject& field : fields)
-        add(*field.object);
+    for (const auto& solid : solids) {
+        const views::Bounds one = solid->bounds();
+        if (glm::all(glm::greaterThanEqual(one.high, ways.low)) &&
+            glm::all(glm::lessThanEqual(one.low, ways.high)))
+            hiding.add(one);
+    }
     return hiding;
 }
 
@@ -316,18 +300,17 @@ std::optional<std::string> Caustics::thrown(const scene::Scene& scene) {
 }
 
 Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye* eye,
-                            const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
-                            const Settings& settings) const {
+                            const views::Drawables& drawables, const Settings& settings) const {
     Plan plan;
-    const views::Bounds glass = boundsOfAll(meshes.glass), mirrors = boundsOfAll(mirrorsOf(meshes.solid));
-    std::vector<views::DrawnMesh> all = meshes.solid; // what stands before glass and mirrors hides them
-    all.insert(all.end(), meshes.glass.begin(), meshes.glass.end());
-    const views::Bounds everything = boundsOfAll(all, fields);
-    const float ray = meshes.glass.empty() ? 0 : 2 * glass.radius() / float(settings.grid);
-    const views::Bounds receivers = seenWithMargin(eye, receiversOf(meshes.solid), fields, ray);
-    views::Bounds throwing = glass;
-    throwing.low = glm::min(throwing.low, mirrors.low);
-    throwing.high = glm::max(throwing.high, mirrors.high);
+    const views::Drawables glass = refractive(drawables), solids = opaque(drawables),
+                           mirrors = mirrorsOf(solids), receivers = receiversOf(solids);
+    const views::Bounds glassBox = boundsOfAll(glass), mirrorBox = boundsOfAll(mirrors);
+    // what stands before glass and mirrors hides them
+    const views::Bounds everything = boundsOfAll(drawables);
+    const float ray = glass.empty() ? 0 : 2 * glassBox.radius() / float(settings.grid);
+    const views::Bounds receiving = seenWithMargin(eye, receivers, ray);
+    views::Bounds throwing = glassBox;
+    throwing.add(mirrorBox);
     const views::Sampling sampling{.lamp = views::samplingOf(scene).lamp,
                                    .directions = settings.directions,
                                    .environment = views::EnvironmentSampling::Importance};
@@ -337,32 +320,31 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
         views::ShadowSource around = lamp.source; // light leaves the cone of a spot where it is bent
         around.tangent = views::ShadowSource().tangent;
         Plan::Light light{.lamp = lamp,
-                          .receivers = views::shadowViews(around, receivers, receivers, settings.mapSize)};
+                          .receivers = views::shadowViews(around, receiving, receiving, settings.mapSize)};
         if (light.receivers.faces.empty()) continue;
         if (settings.pointMap == PointMap::Paraboloids && light.receivers.faces.size() > 1)
-            light.halves = paraboloidsOf(vec3(lamp.source.place), receivers, settings.mapSize);
+            light.halves = paraboloidsOf(vec3(lamp.source.place), receiving, settings.mapSize);
         const int size = viewSizeOf(settings.grid).x;
-        const auto viewsOf = [&](const std::vector<views::DrawnMesh>& bending, const views::Bounds& bounds) {
+        const auto viewsOf = [&](const views::Drawables& bending, const views::Bounds& bounds) {
             return views::shadowViews(aimedAt(lamp.source, bending, bounds), everything, bounds, size).faces;
         };
-        const bool isOnWater = beginsOnWater(settings, lamp, meshes);
+        const bool isOnWater = beginsOnWater(settings, lamp, glass, solids);
         if (isOnWater)
-            light.water = {views::shadowViews(lamp.source, hidingFrom(lamp, glass, meshes.solid, fields),
-                                              glass, settings.mapSize)};
+            light.water = {views::shadowViews(lamp.source, hidingFrom(lamp, glassBox, solids), glassBox,
+                                              settings.mapSize)};
         const std::vector<views::Eye> faces =
-            isOnWater ? std::vector<views::Eye>{} : viewsOf(meshes.glass, glass);
+            isOnWater ? std::vector<views::Eye>{} : viewsOf(glass, glassBox);
         for (const views::Eye& face : faces) {
-            const Result<int> count = surfacesIn(pool, context_, face, meshes.glass, scene.view.time, size);
+            const Result<int> count = surfacesIn(pool, context_, face, glass, scene.view.time, size);
             if (!count) return count.error();
             if (*count > 0) light.glass.push_back({face, *count, borderOf(faces, size)});
         }
-        const std::vector<views::Eye> mirroring = viewsOf(mirrorsOf(meshes.solid), mirrors);
+        const std::vector<views::Eye> mirroring = viewsOf(mirrors, mirrorBox);
         for (const views::Eye& face : mirroring)
             light.mirrors.push_back({face, 0, borderOf(mirroring, size)});
         if (!light.water && light.glass.empty() && light.mirrors.empty()) continue;
         if (settings.receiverLayers > 1 && settings.intersect == Intersect::Hybrid) {
-            Result<bool> lies = liesBehind(pool, context_, light.receivers, receiversOf(meshes.solid), fields,
-                                           scene.view.time);
+            Result<bool> lies = liesBehind(pool, context_, light.receivers, receivers, scene.view.time);
             if (!lies) return lies.error();
             light.hasBehind = *lies;
         }
@@ -395,10 +377,11 @@ Result<Carried> Caustics::record(graph::FrameGraph& graph, const Inputs& in, con
     const std::size_t made = carried.maps.size();
     Targets targets(graph);
     Inputs all = in;
-    if (!in.fields.empty() && !plan.lights.empty()) {
+    const bool hasFields = std::any_of(in.solids.begin(), in.solids.end(),
+                                       [](const auto& one) { return one->field() != nullptr; });
+    if (hasFields && !plan.lights.empty()) {
         all.solid = graph.create("caustics.shown", {.size = in.size, .format = graph::Format::RGBA32F});
-        if (Status s = views::recordSolid(graph, context_, in.eye, in.fields, in.solids, in.surface,
-                                          all.solid, in.size);
+        if (Status s = views::recordSolid(graph, context_, in.eye, in.solids, in.surface, all.solid, in.size);
             !s)
             return s.error();
     }
@@ -467,20 +450,15 @@ private:
 } // namespace
 
 Result<Energy> Caustics::measure(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
-                                 const views::DrawnMeshes& meshes,
-                                 const std::vector<views::DrawnObject>& fields, const Plan& plan,
+                                 const views::Drawables& drawables, const Plan& plan,
                                  const Settings& settings) const {
     Energy energy;
     double rays = 0;
     for (const Plan::Light& light : plan.lights) {
         graph::FrameGraph graph;
-        Result<std::vector<views::PosedMesh>> glass =
-            views::recordPose(graph, context_, meshes.glass, scene.view.time);
-        if (!glass) return glass.error();
-        Result<std::vector<views::PosedMesh>> solids =
-            views::recordPose(graph, context_, meshes.solid, scene.view.time);
-        if (!solids) return solids.error();
-        const Inputs in{scene, eye, *glass, *solids, {}, {}, fields};
+        Result<views::Drawables> posed = views::recordPose(graph, context_, drawables, scene.view.time);
+        if (!posed) return posed.error();
+        const Inputs in{scene, eye, refractive(*posed), opaque(*posed), {}, {}};
         Targets targets(graph, &context_.device());
         graph::TextureId none;
         LightPasses passes(graph, context_, targets, in, light, settings);

@@ -38,13 +38,12 @@ bool carriesEnvironment(const scene::Scene& scene);
 
 struct Inputs {
     const scene::Scene& scene;
-    const views::Eye& eye;                         ///< the camera's
-    const std::vector<views::PosedMesh>& glass;    ///< refractive objects, hidden or not
-    const std::vector<views::PosedMesh>& solids;   ///< opaque objects and mirrors, hidden or not
-    graph::TextureId surface;                      ///< views.surface; none: nothing is looked up
-    ivec2 size;                                    ///< of the camera's picture
-    const std::vector<views::DrawnObject>& fields; ///< height fields, which receive
-    graph::TextureId solid{};                      ///< record() makes it, where there are fields
+    const views::Eye& eye;    ///< the camera's
+    views::Drawables glass;   ///< refractive objects, hidden or not
+    views::Drawables solids;  ///< opaque objects and mirrors, hidden or not
+    graph::TextureId surface; ///< views.surface; none: nothing is looked up
+    ivec2 size;               ///< of the camera's picture
+    graph::TextureId solid{}; ///< record() makes it, where there are height fields
 };
 
 /// What is drawn for each light; made once for as long as lights and objects stay where they are.
@@ -115,11 +114,10 @@ public:
 
     /// Chooses the views of each light and counts their layers, which reads pictures back.
     ///
-    /// @param eye     the camera's: what it does not show receives nothing; null: all receives
-    /// @param fields  height fields, which receive
+    /// @param eye        the camera's: what it does not show receives nothing; null: all receives
+    /// @param drawables  all that bends light or receives it
     Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye* eye,
-                      const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
-                      const Settings& settings) const;
+                      const views::Drawables& drawables, const Settings& settings) const;
 
     /// Adds the passes that give each pixel of opaque objects and height fields the irradiance of caustics.
     ///
@@ -142,8 +140,8 @@ public:
 
     /// Runs the same passes and sums what they carry. Reads pictures back.
     Result<Energy> measure(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
-                           const views::DrawnMeshes& meshes, const std::vector<views::DrawnObject>& fields,
-                           const Plan& plan, const Settings& settings) const;
+                           const views::Drawables& drawables, const Plan& plan,
+                           const Settings& settings) const;
 
 private:
     static std::optional<std::string> thrown(const scene::Scene& scene);

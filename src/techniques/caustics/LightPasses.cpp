@@ -38,7 +38,7 @@ PhotonBlock LightPasses::photonBlock(const Plan::View& view, const Tint& tint) c
                       .border = view.border};
     for (std::size_t i = 0; i < in_.glass.size(); ++i) {
         views::GlassBlock& glass = block.glass[i];
-        glass = views::glassBlock(in_.glass[i].drawn.object->material);
+        glass = views::glassBlock(in_.glass[i]->object->material);
         if (tint.wavelength > 0) glass.ior.g = iorAt(vec3(glass.ior), tint.wavelength);
     }
     return block;
@@ -46,13 +46,12 @@ PhotonBlock LightPasses::photonBlock(const Plan::View& view, const Tint& tint) c
 
 Result<views::Layers> LightPasses::layersOf(const Plan::View& view, TextureId& solid) {
     const ivec2 size = viewSize();
-    if (!in_.solids.empty() || !in_.fields.empty()) {
+    if (!in_.solids.empty()) {
         const TextureDesc desc{.size = size, .format = Format::RGBA32F};
         const TextureId surface = graph_.create("caustics.surface", desc);
         solid = graph_.create("caustics.solid", desc);
-        Status s = views::recordSurface(graph_, context_, view.eye, in_.fields, in_.solids, surface, size);
-        if (s)
-            s = views::recordSolid(graph_, context_, view.eye, in_.fields, in_.solids, surface, solid, size);
+        Status s = views::recordSurface(graph_, context_, view.eye, in_.solids, surface, size);
+        if (s) s = views::recordSolid(graph_, context_, view.eye, in_.solids, surface, solid, size);
         if (!s) return s.error();
     }
     return views::recordLayers(graph_, context_, view.eye, in_.glass, size, view.layers, solid);
@@ -122,20 +121,19 @@ Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views:
 MirrorBlock LightPasses::mirrorBlock(const Plan::View& view) const {
     MirrorBlock block{
         .view = views::viewBlock(view.eye, viewSize()), .lamp = lampBlock(), .border = view.border};
-    for (const views::PosedMesh& mesh : mirrorsOf(in_.solids))
+    for (const auto& mirror : mirrorsOf(in_.solids))
         block.mirrors[std::size_t(block.count++)] =
-            vec4(objectOf(mesh).material.mirror().reflectance, float(mesh.drawn.index));
+            vec4(mirror->object->material.mirror().reflectance, float(mirror->index));
     return block;
 }
 
 // What the light meets first, mirrors or not: what refracts hides mirrors too.
 Result<TextureId> LightPasses::surfaceOf(const views::Eye& eye) {
-    std::vector<views::PosedMesh> everything = in_.solids;
+    views::Drawables everything = in_.solids;
     everything.insert(everything.end(), in_.glass.begin(), in_.glass.end());
     const TextureId surface =
         graph_.create("caustics.surface", {.size = viewSize(), .format = Format::RGBA32F});
-    if (Status s = views::recordSurface(graph_, context_, eye, in_.fields, everything, surface, viewSize());
-        !s)
+    if (Status s = views::recordSurface(graph_, context_, eye, everything, surface, viewSize()); !s)
         return s.error();
     return surface;
 }
@@ -220,7 +218,7 @@ Status LightPasses::carry(const views::Eye& eye, const Trace& trace) {
 
 // A little larger, so that flat ones have an inside.
 views::Bounds LightPasses::boxOfReceivers() const {
-    views::Bounds box = boundsOfAll(receivers_, in_.fields);
+    views::Bounds box = boundsOfAll(receivers_);
     const float margin = 1e-3f * box.radius();
     return {box.low - margin, box.high + margin};
 }
@@ -372,27 +370,24 @@ Status LightPasses::weighOnce(Sheet& sheet, bool sharpen) {
 
 // Depths at which what the light sees ends, where it is solid.
 Status LightPasses::recordBack() {
-    const gl::Program* drawing = program("views/shadow", {"BEHIND", "BACK"});
     graph_.addPass("caustics.back", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how thick what the light sees is, past which it may come");
-        for (const views::PosedMesh& mesh : receivers_) {
-            pass.sample(mesh.positions);
-            pass.sample(mesh.normals);
-        }
+        std::vector<views::Drawing> drawings = // fields have no back
+            drawingsOf(context_, pass, filtered(receivers_, std::not_fn(&views::Drawable::field)),
+                       views::ViewKind::Shadow, {"BEHIND", "BACK"});
         pass.sample(depths_);
         const ivec2 size = light_.receivers.imageSize();
         back_ = pass.createColor("caustics.back", {.size = size, .format = Format::R32F});
         pass.clear(back_, vec4(1e30f));
         pass.clear(pass.createDepth("caustics.backDepth", size, Format::Depth32F), 1.0f);
-        return [program = drawing, views = light_.receivers, meshes = receivers_,
-                first = depths_](const graph::Resources& resources, graph::Commands& commands) {
+        return [drawings, views = light_.receivers, first = depths_](const graph::Resources& resources,
+                                                                     graph::Commands& commands) {
             for (int face = 0; face < int(views.faces.size()); ++face)
-                for (const views::PosedMesh& mesh : meshes)
-                    views::drawMesh(commands, *program, resources, mesh, views.faces[std::size_t(face)],
-                                    ivec2(views.size), mesh.drawn.index,
-                                    {.region = ivec4(views.corner(face), views.size, views.size),
-                                     .depthTest = graph::DepthTest::Less,
-                                     .textures = {{"uFirst", resources[first]}}});
+                for (const views::Drawing& draw : drawings)
+                    draw(resources, commands, views.faces[std::size_t(face)], ivec2(views.size),
+                         {.region = ivec4(views.corner(face), views.size, views.size),
+                          .depthTest = graph::DepthTest::Less,
+                          .textures = {{"uFirst", resources[first]}}});
         };
     });
     return Done{};
@@ -429,14 +424,13 @@ Status LightPasses::recordRound() {
 // --- all of them
 
 Status LightPasses::record(TextureId& sum) {
-    Result<TextureId> depths = views::recordShadow(graph_, context_, light_.receivers, receivers_,
-                                                   boundsOfAll(receivers_, in_.fields), in_.fields);
+    const views::Bounds bounds = boundsOfAll(receivers_);
+    Result<TextureId> depths = views::recordShadow(graph_, context_, light_.receivers, receivers_, bounds);
     if (!depths) return depths.error();
     depths_ = *depths;
     if (light_.hasBehind) {
         Result<TextureId> behind =
-            views::recordShadow(graph_, context_, light_.receivers, receivers_,
-                                boundsOfAll(receivers_, in_.fields), in_.fields, depths_);
+            views::recordShadow(graph_, context_, light_.receivers, receivers_, bounds, depths_);
         if (!behind) return behind.error();
         behind_ = *behind;
         if (Status s = recordBack(); !s) return s;

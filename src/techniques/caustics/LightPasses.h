@@ -11,23 +11,16 @@
 
 namespace lucent::caustics {
 
-inline const scene::Object& objectOf(const views::DrawnMesh& mesh) { return *mesh.object; }
-inline const scene::Object& objectOf(const views::PosedMesh& mesh) { return *mesh.drawn.object; }
-
-template <class Mesh>
-std::vector<Mesh> receiversOf(std::vector<Mesh> solids) {
-    std::erase_if(solids, [](const Mesh& mesh) { return objectOf(mesh).material.isMirror(); });
-    return solids;
+inline views::Drawables mirrorsOf(views::Drawables solids) {
+    return filtered(std::move(solids), &views::Drawable::isMirror);
 }
-
-template <class Mesh>
-std::vector<Mesh> mirrorsOf(std::vector<Mesh> solids) {
-    std::erase_if(solids, [](const Mesh& mesh) { return !objectOf(mesh).material.isMirror(); });
-    return solids;
+inline views::Drawables receiversOf(views::Drawables solids) {
+    return filtered(std::move(solids), std::not_fn(&views::Drawable::isMirror));
 }
 
 /// Whether all that refracts is water that a lamp looks down on, so that rays may begin on it.
-bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const views::DrawnMeshes& meshes);
+bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const views::Drawables& glass,
+                   const views::Drawables& solids);
 
 /// Pixels of a light's view of what bends its light, for a grid of rays.
 ivec2 viewSizeOf(int grid);
@@ -187,7 +180,7 @@ private:
     const Inputs& in_;
     const Plan::Light& light_;
     const Settings& settings_;
-    std::vector<views::PosedMesh> receivers_;
+    views::Drawables receivers_;
     std::vector<Sheet> sheets_;
     graph::TextureId depths_, map_;
     graph::TextureId behind_, back_;         // none where no receiver lies behind another

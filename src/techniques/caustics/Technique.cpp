@@ -29,7 +29,7 @@ public:
         clear();
         Result<Plan> plan =
             caustics_.plan(store_.pool, picture.scene, picture.allAround ? nullptr : &picture.eye,
-                           meshesOf(picture), picture.all.fields, settingsOf(picture.scene));
+                           changingLight(picture.scene, picture.drawables), settingsOf(picture.scene));
         if (!plan) return plan.error();
         plan_ = std::move(*plan);
         key_ = std::move(key);
@@ -59,8 +59,7 @@ public:
                                  .glass = in.glass,
                                  .solids = in.solids,
                                  .surface = view.surface,
-                                 .size = view.size,
-                                 .fields = in.fields},
+                                 .size = view.size},
                                 *plan_, carried_.maps, settingsOf(passes.picture.scene));
     }
 
@@ -69,7 +68,7 @@ public:
     }
 
     bool replaces(const technique::Picture& picture) const override {
-        return picture.scene.view.show == Aov::CausticMap && picture.drawn.count() > 0;
+        return picture.scene.view.show == Aov::CausticMap && !visible(picture.drawables).empty();
     }
     Status through(const technique::Passes& passes, TextureId, TextureId target) override {
         const technique::Picture& picture = passes.picture;
@@ -88,8 +87,9 @@ public:
 
     Result<technique::Balance> balance(const technique::Picture& picture) override {
         if (!plan_) return technique::Balance{};
-        Result<Energy> energy = caustics_.measure(store_.pool, picture.scene, picture.eye, meshesOf(picture),
-                                                  picture.all.fields, *plan_, settingsOf(picture.scene));
+        Result<Energy> energy = caustics_.measure(store_.pool, picture.scene, picture.eye,
+                                                  changingLight(picture.scene, picture.drawables), *plan_,
+                                                  settingsOf(picture.scene));
         if (!energy) return energy.error();
         return technique::Balance{{"incident", energy->incident}, {"received", energy->received},
                                   {"absorbed", energy->absorbed}, {"reflected", energy->reflected},
@@ -165,27 +165,21 @@ private:
         kept_.clear();
     }
 
-    static views::DrawnMeshes meshesOf(const technique::Picture& picture) {
-        return {picture.all.meshes.solid, views::changingLight(picture.scene, picture.all.meshes.glass)};
-    }
-    Inputs inputs(const technique::Passes& passes, TextureId surface) {
-        glass_ = views::changingLight(passes.picture.scene, passes.posed.glass);
+    static Inputs inputs(const technique::Passes& passes, TextureId surface) {
         return {.scene = passes.picture.scene,
                 .eye = passes.picture.eye,
-                .glass = glass_,
-                .solids = passes.posed.solid,
+                .glass = refractive(changingLight(passes.picture.scene, passes.posed)),
+                .solids = opaque(passes.posed),
                 .surface = surface,
-                .size = passes.picture.size,
-                .fields = passes.picture.all.fields};
+                .size = passes.picture.size};
     }
 
     technique::Store store_;
     Caustics caustics_;
     std::optional<Plan> plan_;
-    Key key_{};                           // of the plan
-    std::vector<KeptMap> kept_;           // of the plan's lights, or none
-    Carried carried_;                     // in the graph that is recorded
-    std::vector<views::PosedMesh> glass_; // that bends light, of the graph that is recorded
+    Key key_{};                 // of the plan
+    std::vector<KeptMap> kept_; // of the plan's lights, or none
+    Carried carried_;           // in the graph that is recorded
 };
 
 constexpr Aov kAovs[] = {Aov::CausticMap};

@@ -1,5 +1,6 @@
 #include "techniques/caustics/LightPasses.h"
 #include "views/Glass.h"
+#include "views/Meshes.h"
 
 #include <cmath>
 
@@ -26,10 +27,10 @@ ivec2 raysOn(const scene::Water& water, int grid) {
 
 } // namespace
 
-bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const views::DrawnMeshes& meshes) {
-    if (settings.deposit != Deposit::Beam || meshes.glass.size() != 1 || !mirrorsOf(meshes.solid).empty())
-        return false;
-    const scene::Object& object = objectOf(meshes.glass.front());
+bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const views::Drawables& glass,
+                   const views::Drawables& solids) {
+    if (settings.deposit != Deposit::Beam || glass.size() != 1 || !mirrorsOf(solids).empty()) return false;
+    const scene::Object& object = *glass.front()->object;
     if (!std::holds_alternative<scene::Water>(object.shape)) return false;
     const vec3 up = rotationFromDegrees(object.transform.rotate) * vec3(0, 1, 0);
     if (lamp.place.w == 0) return glm::dot(vec3(lamp.place), up) >= kHighEnough;
@@ -44,7 +45,7 @@ bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const
 }
 
 WaterRaysBlock LightPasses::waterBlock(const Tint& tint, ivec2 rays) const {
-    const scene::Object& object = objectOf(in_.glass.front());
+    const scene::Object& object = *in_.glass.front()->object;
     const auto& water = std::get<scene::Water>(object.shape);
     const vec2 size = object.transform.scale * water.size / vec2(rays - 1);
     WaterRaysBlock block{.faces = views::facesOf(light_.water->over),
@@ -72,13 +73,13 @@ Status LightPasses::beginOnWater(const Tint& tint, ivec2 rays, TextureId shadow,
     const gl::Program* beginning = program("caustics/water", defines);
     graph_.addPass("caustics.water", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(book ? "where their light stays" : "rays of one point of a light from the water on");
-        const views::PosedMesh& mesh = in_.glass.front();
-        pass.sample(mesh.positions);
+        const TextureId positions = in_.glass.front()->mesh()->positions;
+        pass.sample(positions);
         if (shadow) pass.sample(shadow);
         for (const TextureId target : targets)
             pass.write(target);
-        return [=, program = beginning, block = waterBlock(tint, rays),
-                positions = mesh.positions](const graph::Resources& resources, graph::Commands& commands) {
+        return [=, program = beginning, block = waterBlock(tint, rays)](const graph::Resources& resources,
+                                                                        graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uPositions", resources[positions]}};
             if (shadow) textures.push_back({"uShadow", resources[shadow]});
             commands.draw({.program = program, .block = block, .textures = std::move(textures)});
@@ -97,7 +98,7 @@ Status LightPasses::absorb(const Photons& photons, TextureId before, TextureId m
         pass.sample(before);
         if (met) pass.sample(met);
         pass.write(target);
-        const views::GlassBlock glass = views::glassBlock(objectOf(in_.glass.front()).material);
+        const views::GlassBlock glass = views::glassBlock(in_.glass.front()->object->material);
         return [=, program = soaking, block = SoakBlock{glass.absorption}](const graph::Resources& resources,
                                                                            graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uPlace", resources[photons.place]},
@@ -144,11 +145,11 @@ Status LightPasses::carryFromWater(const Tint& tint) {
     if (!light_.water->over.faces.empty()) {
         const views::Bounds below = boundsOfAll(in_.glass);
         Result<TextureId> depths =
-            views::recordShadow(graph_, context_, light_.water->over, in_.solids, below, in_.fields);
+            views::recordShadow(graph_, context_, light_.water->over, in_.solids, below);
         if (!depths) return depths.error();
         shadow = *depths;
     }
-    const auto& water = std::get<scene::Water>(objectOf(in_.glass.front()).shape);
+    const auto& water = std::get<scene::Water>(in_.glass.front()->object->shape);
     const TextureDesc desc{.size = raysOn(water, settings_.grid), .format = Format::RGBA32F};
     Sheet sheet{.eye = light_.receivers.faces.front()};
     sheet.grid.count = desc.size;
@@ -174,7 +175,7 @@ Status LightPasses::carryFromWater(const Tint& tint) {
                             ? 1
                             : glm::distance(vec3(light_.lamp.place), boundsOfAll(in_.glass).center());
     const float cell = std::max(water.size.x, water.size.y) / float(raysAlong(settings_.grid));
-    Result<TextureId> mask = beamsOf(sheet.grid, objectOf(in_.glass.front()).transform.scale * cell / reach);
+    Result<TextureId> mask = beamsOf(sheet.grid, in_.glass.front()->object->transform.scale * cell / reach);
     if (!mask) return mask.error();
     sheet.cells.beams = *mask;
     s = weigh(sheet);

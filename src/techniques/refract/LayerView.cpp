@@ -1,7 +1,7 @@
 #include "techniques/refract/LayerView.h"
 
 #include "shaders/refract/Blocks.h"
-#include "views/Objects.h"
+#include "views/Drawable.h"
 
 namespace lucent::refract {
 

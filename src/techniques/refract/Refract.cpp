@@ -34,7 +34,7 @@ RefractBlock blockOf(const Inputs& in, ivec2 size) {
         block.intensity = in.light->intensity;
     }
     for (std::size_t i = 0; i < in.glass.size(); ++i) {
-        const scene::Object& object = *in.glass[i].drawn.object;
+        const scene::Object& object = *in.glass[i]->object;
         block.glass[i] = views::glassBlock(object.material);
         if (in.eye.perspective && holds(views::boundsOf(object), in.eye.position)) block.atEye |= 1 << i;
     }
@@ -54,9 +54,8 @@ void warnOfLimits(const Inputs& in, const Settings& settings) {
     if (in.opaque)
         warnOnce("refract: trace bisection sees no opaque objects through glass, only the environment");
     const auto& glass = in.glass;
-    if (settings.layers != LayerMethod::Peel &&
-        std::any_of(glass.begin(), glass.end(), [&](const views::PosedMesh& mesh) {
-            return mesh.drawn.object->material.clear() != glass[0].drawn.object->material.clear();
+    if (settings.layers != LayerMethod::Peel && std::any_of(glass.begin(), glass.end(), [&](const auto& one) {
+            return one->object->material.clear() != glass[0]->object->material.clear();
         }))
         warnOnce("refract: layers " + std::string(kLayers[int(settings.layers)]) +
                  " tell objects not apart; light goes on in the one that it hits first");

@@ -43,8 +43,8 @@ views::VoxelSettings voxelSettings(const Settings& settings);
 
 struct Inputs {
     const views::Eye& eye;
-    const std::vector<views::PosedMesh>& glass; ///< refractive objects, as the layers number them
-    const views::Layers& layers;                ///< of other methods than Peel: only the first one
+    views::Drawables glass;           ///< refractive objects, as the layers number them
+    const views::Layers& layers;      ///< of other methods than Peel: only the first one
     graph::TextureId opaque;          ///< shaded opaque surfaces, premultiplied by coverage; or none
     graph::TextureId solid;           ///< their depths (views.geometry); with `opaque`
     graph::TextureHandle environment; ///< lat-long map; None without one

@@ -4,6 +4,8 @@
 #include "technique/Guest.h"
 #include "techniques/refract/LayerView.h"
 #include "techniques/refract/Refract.h"
+#include "views/Meshes.h"
+#include "views/Surface.h"
 #include "views/SurfaceKey.h"
 
 #include <algorithm>
@@ -63,8 +65,7 @@ std::vector<views::Outlook> outlooksOf(const scene::Scene& scene) {
         views::Outlook outlook = views::outlookFrom(scene, i);
         for (std::size_t other = boxes.size(); other-- > 0;) {
             if (!overlap(box, boxes[other])) continue;
-            box.add(boxes[other].low);
-            box.add(boxes[other].high);
+            box.add(boxes[other]);
             outlook.name = outlooks[other].name;
             boxes.erase(boxes.begin() + std::ptrdiff_t(other));
             outlooks.erase(outlooks.begin() + std::ptrdiff_t(other));
@@ -93,8 +94,7 @@ public:
     // Reads a picture back only for the first picture of these objects; slices are counted for each view.
     Status prepare(const Picture& picture) override {
         isUnsure_ = false;
-        const auto& glass = picture.drawn.meshes.glass;
-        if (glass.empty() || !replaces(picture)) {
+        if (seenGlass(picture).empty() || !replaces(picture)) {
             layers_ = {};
             return Done{};
         }
@@ -103,8 +103,8 @@ public:
     void viewChanged() override { count_ = 0; }
 
     bool replaces(const Picture& picture) const override {
-        if (showsLayer(picture.scene.view.show)) return picture.drawn.count() > 0;
-        return !picture.drawn.meshes.glass.empty();
+        if (showsLayer(picture.scene.view.show)) return !visible(picture.drawables).empty();
+        return !seenGlass(picture).empty();
     }
     void lookAround(const Picture& picture, views::Outlooks& asked) const override {
         const scene::Scene& scene = picture.scene;
@@ -120,14 +120,13 @@ public:
         const views::Eye eye = closeEye(picture);
         if (settings.layers == LayerMethod::Voxels)
             if (Status s = checkVoxels(picture, eye, settings); !s) return s;
-        const std::vector<views::PosedMesh> solids = views::Posed::visible(passes.posed.solid),
-                                            glass = views::Posed::visible(passes.posed.glass);
+        const views::Drawables seen = visible(passes.posed), solids = opaque(seen), glass = refractive(seen);
         TextureId solid;
-        if (!picture.drawn.fields.empty() || !solids.empty()) {
+        if (!solids.empty()) {
             solid =
                 passes.graph.create("views.solid", {.size = picture.size, .format = graph::Format::RGBA32F});
-            if (Status s = views::recordSolid(passes.graph, store_.context, eye, picture.drawn.fields, solids,
-                                              passes.surface, solid, picture.size);
+            if (Status s = views::recordSolid(passes.graph, store_.context, eye, solids, passes.surface,
+                                              solid, picture.size);
                 !s)
                 return s;
         }
@@ -170,7 +169,7 @@ public:
         layers_.current = false;
     }
     std::vector<std::string> leftOut(const Picture& picture) const override {
-        if (!picture.drawn.meshes.glass.empty()) return {};
+        if (!seenGlass(picture).empty()) return {};
         return {"refract: no object that is seen lets light through"};
     }
     void clear() override {
@@ -183,17 +182,20 @@ public:
     }
 
 private:
+    static views::Drawables seenGlass(const Picture& picture) {
+        return refractive(visible(picture.drawables));
+    }
     Status count(const Picture& picture) {
+        const views::Drawables glass = seenGlass(picture);
         std::vector<const views::MeshTextures*> meshes;
-        for (const views::DrawnMesh& mesh : picture.drawn.meshes.glass)
-            meshes.push_back(mesh.mesh);
+        for (const views::DrawnMesh& mesh : meshesOf(glass))
+            meshes.push_back(mesh.textures);
         if (meshes != counted_) counter_.reset();
         counted_ = std::move(meshes);
         counter_.poll();
         if (peels(picture) ? counter_.known() : count_ > 0) return Done{};
-        Result<int> count =
-            views::countLayers(store_.pool, store_.context, closeEye(picture), picture.drawn.meshes.glass,
-                               picture.scene.view.time, picture.size);
+        Result<int> count = views::countLayers(store_.pool, store_.context, closeEye(picture), glass,
+                                               picture.scene.view.time, picture.size);
         if (!count) return count.error();
         count_ = std::max(1, *count);
         counter_.start(count_);
@@ -202,8 +204,8 @@ private:
 
     // As many layers as there were, and a question about what is behind them. Those that are kept are asked
     // about once.
-    Result<views::Layers> recordPeeled(const Passes& passes, const std::vector<views::PosedMesh>& glass,
-                                       TextureId solid, int most, views::KeptLayers* kept) {
+    Result<views::Layers> recordPeeled(const Passes& passes, const views::Drawables& glass, TextureId solid,
+                                       int most, views::KeptLayers* kept) {
         const int count = std::min(counter_.drawn(), most);
         const bool stands = kept && kept->current && kept->count == count;
         const bool asks = !stands && count == counter_.drawn();
@@ -227,12 +229,12 @@ private:
 
     Status recordLayer(const Passes& passes, TextureId target) {
         const scene::View& view = passes.picture.scene.view;
-        if (passes.picture.drawn.meshes.glass.empty()) {
+        const views::Drawables glass = refractive(visible(passes.posed));
+        if (glass.empty()) {
             views::recordNothing(passes.graph, "nothing that is seen refracts", target);
             return Done{};
         }
-        Result<views::Layers> layers =
-            recordPeeled(passes, views::Posed::visible(passes.posed.glass), {}, views::kMostLayers, nullptr);
+        Result<views::Layers> layers = recordPeeled(passes, glass, {}, views::kMostLayers, nullptr);
         if (!layers) return layers.error();
         return recordLayerView(passes.graph, store_.context, *layers, view.layer, view.show, target);
     }
@@ -243,8 +245,8 @@ private:
         const Checked key{count_, settings.slices, settings.bounds};
         if (voxelsChecked_ == key) return Done{};
         Result<views::VoxelCount> count =
-            views::countVoxels(store_.pool, store_.context, eye, picture.drawn.meshes.glass,
-                               picture.scene.view.time, picture.size, voxelSettings(settings));
+            views::countVoxels(store_.pool, store_.context, eye, seenGlass(picture), picture.scene.view.time,
+                               picture.size, voxelSettings(settings));
         if (!count) return count.error();
         if (count->sharing > 0)
             warnOnce("refract: refractive surfaces lie closer than a slice of depth: " +

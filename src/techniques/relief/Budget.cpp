@@ -174,8 +174,8 @@ Result<bool> Budget::admitsTransfer(const scene::Scene& scene, const RecordTrans
 // --- samples
 
 Status Budget::drawSurface(const scene::Scene& scene) {
-    Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, images_);
-    if (!objects) return objects.error();
+    Result<views::Drawables> drawables = views::drawablesOf(scene, images_);
+    if (!drawables) return drawables.error();
     const TextureDesc desc{.size = sampleSize_, .format = Format::RGBA32F};
     if (!surface_ || surface_.desc() != desc)
         surface_ = graph::Texture(context_.device(), desc, "budget.surface");
@@ -183,8 +183,8 @@ Status Budget::drawSurface(const scene::Scene& scene) {
     const graph::TextureId target = graph.import(surface_.handle(), desc, surface_.label());
     graph.keep(target);
     const views::Eye eye = views::makeEye(scene, float(size_.x) / float(size_.y));
-    if (Status s = views::recordSurface(graph, context_, eye, *objects, {}, target, sampleSize_); !s)
-        return s;
+    const views::Drawables fields = filtered(visible(*drawables), &views::Drawable::field);
+    if (Status s = views::recordSurface(graph, context_, eye, fields, target, sampleSize_); !s) return s;
     if (Status s = graph.compile(); !s) return s;
     graph.execute(pool_);
     if (std::string error = context_.takeError(); !error.empty()) return Error{error, Fault::Machine};
@@ -227,8 +227,9 @@ Status Budget::drawReference(const scene::Scene& scene) {
 // The sample of the picture by one part of the lights.
 Result<Image> Budget::draw(const scene::Scene& scene, const Means& means, Part part,
                            const RecordTransfers* transfers) {
-    Result<std::vector<views::DrawnObject>> objects = views::drawnObjects(scene, images_);
-    if (!objects) return objects.error();
+    Result<views::Drawables> drawables = views::drawablesOf(scene, images_);
+    if (!drawables) return drawables.error();
+    const std::vector<views::DrawnField> fields = fieldsOf(visible(*drawables));
     std::vector<views::LampPoint> lights;
     if (part != Part::Nothing)
         lights = views::lightSamples(scene, {.lamp = means.light.lamp,
@@ -251,7 +252,7 @@ Result<Image> Budget::draw(const scene::Scene& scene, const Means& means, Part p
         const auto import = [&](const graph::Texture& texture) {
             return graph.import(texture.handle(), texture.desc(), texture.label());
         };
-        std::vector<Transferred> transferred(transfers ? objects->size() : 0);
+        std::vector<Transferred> transferred(transfers ? fields.size() : 0);
         if (transfers && first == 0) {
             auto recorded = (*transfers)(graph);
             if (!recorded) return recorded.error();
@@ -260,7 +261,7 @@ Result<Image> Budget::draw(const scene::Scene& scene, const Means& means, Part p
         const graph::TextureId targetId = import(target);
         graph.keep(targetId);
         const Inputs in{.eye = eye,
-                        .objects = *objects,
+                        .objects = fields,
                         .scene = scene,
                         .lights = lights,
                         .surface = import(surface_),

@@ -10,8 +10,7 @@ namespace {
 constexpr std::string_view kMethods[] = {"hierarchy", "march", "counting", "transfer"};
 constexpr std::string_view kAttenuations[] = {"ratio", "exponential"};
 
-std::vector<std::string> defines(const views::DrawnObject& drawn, const Settings& settings,
-                                 const Inputs& in) {
+std::vector<std::string> defines(const views::DrawnField& drawn, const Settings& settings, const Inputs& in) {
     constexpr auto none = graph::TextureHandle::None;
     std::vector<std::string> list;
     if (!in.transferred.empty()) list.push_back("USE_TRANSFER");
@@ -30,7 +29,7 @@ std::vector<std::string> defines(const views::DrawnObject& drawn, const Settings
     return list;
 }
 
-ReliefBlock blockOf(const views::DrawnObject& drawn, const Inputs& in, const Settings& settings) {
+ReliefBlock blockOf(const views::DrawnField& drawn, const Inputs& in, const Settings& settings) {
     const mat4 worldFromObject = drawn.object->transform.worldFromObject();
     ReliefBlock block = makeBlock(drawn, settings);
     block.eye = in.eye.inObject(worldFromObject);
@@ -49,13 +48,13 @@ ReliefBlock blockOf(const views::DrawnObject& drawn, const Inputs& in, const Set
 
 } // namespace
 
-ReliefBlock makeBlock(const views::DrawnObject& drawn, const Settings& settings) {
+ReliefBlock makeBlock(const views::DrawnField& drawn, const Settings& settings) {
     const scene::Object& object = *drawn.object;
     const scene::Material& material = object.material;
     const scene::Relief& relief = material.relief();
     const float scale = object.transform.scale;
     ReliefBlock block{};
-    block.field = drawn.field->block(object.field());
+    block.field = drawn.block();
     block.base = vec4(material.base, relief.specularity);
     block.diffuse = vec4(material.diffuse, relief.forwardScatter);
     block.specular = vec4(relief.specular, relief.depth / scale);
@@ -131,14 +130,14 @@ float Relief::shareOfLight(const scene::Scene& scene) {
 
 Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings& settings) const {
     std::vector<const gl::Program*> programs;
-    for (const views::DrawnObject& drawn : in.objects) {
+    for (const views::DrawnField& drawn : in.objects) {
         const gl::Program* program = context_.program("relief/light", defines(drawn, settings, in));
         programs.push_back(program);
     }
     std::vector<graph::Block> blocks;
-    for (const views::DrawnObject& drawn : in.objects)
+    for (const views::DrawnField& drawn : in.objects)
         blocks.push_back(blockOf(drawn, in, settings));
-    const std::vector<views::DrawnObject> objects = in.objects;
+    const std::vector<views::DrawnField> objects = in.objects;
     const graph::TextureId surface = in.surface, sum = in.sum, target = in.target, table = in.lightTable;
     const graph::TextureId occlusion = in.occlusion.texture;
     const graph::TextureId flux = in.first == 0 ? in.flux : graph::TextureId{};
@@ -159,8 +158,8 @@ Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings
         if (in.clears) pass.clear(target, vec4(0));
         return [=](const graph::Resources& resources, graph::Commands& commands) {
             for (std::size_t i = 0; i < objects.size(); ++i) {
-                const views::DrawnObject& drawn = objects[i];
-                auto textures = drawn.field->bindings();
+                const views::DrawnField& drawn = objects[i];
+                auto textures = drawn.heights->bindings();
                 textures.push_back({"uSurface", resources[surface]});
                 textures.push_back({"uLights", resources[table]});
                 if (readsSum) textures.push_back({"uSum", resources[sum]});

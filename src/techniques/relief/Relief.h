@@ -7,7 +7,7 @@
 #include "light/Occlusion.h"
 #include "scene/Scene.h"
 #include "shaders/relief/Blocks.h"
-#include "views/Surface.h"
+#include "views/Fields.h"
 
 #include <optional>
 #include <string>
@@ -34,7 +34,7 @@ struct Transferred {
 
 struct Inputs {
     const views::Eye& eye;
-    const std::vector<views::DrawnObject>& objects;
+    const std::vector<views::DrawnField>& objects;
     const scene::Scene& scene;
     const std::vector<views::LampPoint>& lights;
     graph::TextureId surface;             ///< views.surface
@@ -74,6 +74,6 @@ private:
 
 /// The block for one object with everything that is the object's own. World space is the object's own unless
 /// the caller says otherwise.
-ReliefBlock makeBlock(const views::DrawnObject& drawn, const Settings& settings);
+ReliefBlock makeBlock(const views::DrawnField& drawn, const Settings& settings);
 
 } // namespace lucent::relief

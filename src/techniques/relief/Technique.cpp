@@ -57,7 +57,7 @@ public:
     }
     Result<Bake> bake(const technique::Picture& picture, double milliseconds) override {
         const Settings& settings = settingsOf(picture.scene);
-        const auto& fields = picture.drawn.fields;
+        const std::vector<views::DrawnField> fields = fieldsOf(visible(picture.drawables));
         const Result<bool> ready = transfers_.make(pool_, fields, settings, milliseconds);
         if (!ready) return ready.error();
         if (!*ready) return Bake::Working;
@@ -78,7 +78,7 @@ public:
     }
     Status shade(const technique::Passes& passes, const technique::Slice& slice) override {
         const technique::Picture& picture = passes.picture;
-        const auto& fields = picture.drawn.fields;
+        const std::vector<views::DrawnField> fields = fieldsOf(visible(picture.drawables));
         std::vector<Transferred> transferred;
         if (slice.baked && slice.first == 0) {
             Result<std::vector<Transferred>> recorded = transfers_.record(passes.graph);
@@ -109,8 +109,8 @@ public:
     }
 
     std::vector<std::string> leftOut(const technique::Picture& picture) const override {
-        const auto& fields = picture.drawn.fields;
-        if (fields.empty() || std::any_of(fields.begin(), fields.end(), [](const views::DrawnObject& one) {
+        const std::vector<views::DrawnField> fields = fieldsOf(visible(picture.drawables));
+        if (fields.empty() || std::any_of(fields.begin(), fields.end(), [](const views::DrawnField& one) {
                 return one.alpha != graph::TextureHandle::None;
             }))
             return {};

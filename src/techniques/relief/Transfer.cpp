@@ -100,7 +100,7 @@ float Transfer::share() const {
 
 ivec2 Transfer::tiles() const { return (grid_ + kTile - 1) / kTile; }
 
-Status Transfer::step(graph::TexturePool& pool, const views::DrawnObject& drawn) {
+Status Transfer::step(graph::TexturePool& pool, const views::DrawnField& drawn) {
     const double before = now();
     const int rows = rowsAtOnce_;
     const Status done = phase_ == Phase::Sample ? sample(pool, drawn) : trace(pool, drawn);
@@ -127,7 +127,7 @@ Status Transfer::run(graph::TexturePool& pool, const char* name, const graph::Te
 }
 
 // Rows of d for scattered texels; when all are there, the basis is learned from them.
-Status Transfer::sample(graph::TexturePool& pool, const views::DrawnObject& drawn) {
+Status Transfer::sample(graph::TexturePool& pool, const views::DrawnField& drawn) {
     const gl::Program* program = context_.program("relief/trace", {"SCATTERED"});
     gl::Device& device = context_.device();
     const int padded = roundUp(cells_.count(), 4);
@@ -143,7 +143,7 @@ Status Transfer::sample(graph::TexturePool& pool, const views::DrawnObject& draw
     const int rows = std::min(rowsAtOnce_, kSamples - row_);
     ReliefBlock block = makeBlock(drawn, {.attenuation = key_.attenuation});
     block.specular.a = key_.depth;
-    std::vector<graph::Binding> textures = drawn.field->bindings();
+    std::vector<graph::Binding> textures = drawn.heights->bindings();
     textures.push_back({"uLights", directions_.handle()});
     const Status drawnRows = run(pool, "relief.sample", sampled_, [&](graph::Commands& commands) {
         commands.draw({.program = program,
@@ -177,7 +177,7 @@ Status Transfer::sample(graph::TexturePool& pool, const views::DrawnObject& draw
 }
 
 // d of a tile's texels in the sensor directions, then their coefficients.
-Status Transfer::trace(graph::TexturePool& pool, const views::DrawnObject& drawn) {
+Status Transfer::trace(graph::TexturePool& pool, const views::DrawnField& drawn) {
     const gl::Program* program = context_.program("relief/trace");
     const ivec2 tile = glm::min(grid_, ivec2(kTile));
     const ivec2 corner = tile * ivec2(tile_ % tiles().x, tile_ / tiles().x);
@@ -187,7 +187,7 @@ Status Transfer::trace(graph::TexturePool& pool, const views::DrawnObject& drawn
     block.firstLight = roundUp(cells_.count(), 4);
     block.tile = ivec4(corner, tile);
     block.grid = grid_;
-    std::vector<graph::Binding> textures = drawn.field->bindings();
+    std::vector<graph::Binding> textures = drawn.heights->bindings();
     textures.push_back({"uLights", directions_.handle()});
     const Status traced = run(pool, "relief.trace", traced_, [&](graph::Commands& commands) {
         commands.draw({.program = program,

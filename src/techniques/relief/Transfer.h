@@ -42,7 +42,7 @@ public:
     /// Finished part of the work, [0,1].
     float share() const;
     /// One piece of the work, a few million rays at most; waits until the GPU has done it.
-    Status step(graph::TexturePool& pool, const views::DrawnObject& drawn);
+    Status step(graph::TexturePool& pool, const views::DrawnField& drawn);
     std::size_t bytes() const { return coefficients_.desc().bytes(); }
 
     /// Brings an environment onto the basis: what follows shows it.
@@ -78,8 +78,8 @@ private:
                              vec3 view) const;
     Status run(graph::TexturePool& pool, const char* pass, const graph::Texture& target,
                const std::function<void(graph::Commands&)>& draw);
-    Status sample(graph::TexturePool& pool, const views::DrawnObject& drawn);
-    Status trace(graph::TexturePool& pool, const views::DrawnObject& drawn);
+    Status sample(graph::TexturePool& pool, const views::DrawnField& drawn);
+    Status trace(graph::TexturePool& pool, const views::DrawnField& drawn);
     Status project(graph::TexturePool& pool, ivec2 corner);
     void drawGloss(const scene::Material& material, const std::vector<CellLight>& lights);
 

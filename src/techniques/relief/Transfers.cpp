@@ -40,7 +40,7 @@ bool Transfers::ready(const scene::Scene& scene, const Settings& settings) const
     return true;
 }
 
-Result<bool> Transfers::make(graph::TexturePool& pool, const std::vector<views::DrawnObject>& objects,
+Result<bool> Transfers::make(graph::TexturePool& pool, const std::vector<views::DrawnField>& objects,
                              const Settings& settings, double milliseconds) {
     transfers_.resize(objects.size());
     const double start = now();
@@ -64,7 +64,7 @@ float Transfers::share() const {
 }
 
 void Transfers::light(const scene::Scene& scene, const views::Eye& eye,
-                      const std::vector<views::DrawnObject>& objects, const Settings& settings, float error) {
+                      const std::vector<views::DrawnField>& objects, const Settings& settings, float error) {
     const std::vector<SmallLight> environment = smallLights(scene, settings);
     for (std::size_t i = 0; i < objects.size(); ++i)
         transfers_[i]->setEnvironment(*objects[i].object, environment, viewsOf(*objects[i].object, eye),

@@ -13,7 +13,7 @@ public:
     /// Whether every transfer is there that the scene needs.
     bool ready(const scene::Scene& scene, const Settings& settings) const;
     /// Works on what is missing for about `milliseconds`. @return whether all are ready
-    Result<bool> make(graph::TexturePool& pool, const std::vector<views::DrawnObject>& objects,
+    Result<bool> make(graph::TexturePool& pool, const std::vector<views::DrawnField>& objects,
                       const Settings& settings, double milliseconds);
     /// Finished part of the work, [0,1].
     float share() const;
@@ -22,7 +22,7 @@ public:
     /// @param error  wanted RMSE over the mean on the texels of a transfer: no more terms are used than keep
     ///               it; 0: all
     void light(const scene::Scene& scene, const views::Eye& eye,
-               const std::vector<views::DrawnObject>& objects, const Settings& settings, float error);
+               const std::vector<views::DrawnField>& objects, const Settings& settings, float error);
     /// Adds what the light pass needs to a graph, one for each object.
     Result<std::vector<Transferred>> record(graph::FrameGraph& graph) const;
 

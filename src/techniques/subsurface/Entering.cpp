@@ -82,22 +82,16 @@ Status recordEnter(graph::FrameGraph& graph, gl::Context& context, Entered& sum,
 }
 
 bool hasWater(const Arriving& in) {
-    return std::any_of(in.refractive.begin(), in.refractive.end(),
-                       [](const views::PosedMesh& mesh) { return mesh.drawn.water; });
+    return std::any_of(in.casters.begin(), in.casters.end(),
+                       [](const auto& one) { return one->mesh() && one->mesh()->water; });
 }
 
 EnteredKey keyOf(const Arriving& in, const Plan::State& plan) {
-    EnteredKey key{.samples = in.samples,
-                   .opaque = in.opaque.size(),
-                   .shadowSize = views::samplingOf(in.scene).shadowSize};
-    const float time = in.scene.view.time;
-    for (const std::vector<views::PosedMesh>* list : {&in.opaque, &in.refractive})
-        for (const views::PosedMesh& mesh : *list) {
-            key.objects.push_back(views::objectKey(*mesh.drawn.object, time));
-            key.paintings.push_back(mesh.drawn.object->painting);
-        }
-    for (const views::DrawnObject& field : in.fields)
-        key.objects.push_back(views::objectKey(*field.object, time));
+    EnteredKey key{.samples = in.samples, .shadowSize = views::samplingOf(in.scene).shadowSize};
+    for (const auto& one : in.casters) {
+        key.objects.push_back(views::objectKey(*one->object, in.scene.view.time));
+        key.paintings.push_back(one->object->painting);
+    }
     for (const Plan::State::Object& object : plan.objects)
         key.bodies.push_back({in.scene.objects[std::size_t(object.index)].material.translucent().surfaceIor(),
                               object.layers, object.sizes});
@@ -117,20 +111,20 @@ Status Entering::peel(graph::FrameGraph& graph, gl::Context& context, const Arri
     std::map<int, LitBody> before = std::move(bodies_);
     bodies_.clear();
     for (const Plan::State::Object& object : plan.objects)
-        for (const views::PosedMesh& mesh : in.solids) {
-            if (mesh.drawn.index != object.index) continue;
+        for (const views::DrawnMesh& mesh : in.solids) {
+            if (mesh.index != object.index) continue;
             LitBody& body = bodies_[object.index] = std::move(before[object.index]);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 body.layers[axis].resize(std::size_t(object.layers[axis]));
                 TextureId last;
                 for (LitLayer& layer : body.layers[axis]) {
                     fit(context, layer.surface, object.sizes[axis], "subsurface.layer");
-                    if (mesh.drawn.paint)
+                    if (mesh.paint)
                         fit(context, layer.paint, object.sizes[axis], "subsurface.paint");
                     else
                         layer.paint = graph::Texture();
                     const TextureId surface = import(graph, layer.surface);
-                    const TextureId paint = mesh.drawn.paint ? import(graph, layer.paint) : TextureId{};
+                    const TextureId paint = mesh.paint ? import(graph, layer.paint) : TextureId{};
                     for (const TextureId id : {surface, paint})
                         if (id) graph.keep(id);
                     if (Status s = recordPeel(graph, context, object.axes[axis], mesh, object.sizes[axis],
@@ -180,12 +174,12 @@ Status Entering::addTo(graph::FrameGraph& graph, gl::Context& context, const Arr
 Status Entering::addSeen(graph::FrameGraph& graph, gl::Context& context, const Arriving& in,
                          const Settings& settings) {
     std::vector<EnterBlock> blocks;
-    for (const views::PosedMesh& mesh : in.solids) {
-        const scene::Material& material = mesh.drawn.object->material;
+    for (const views::DrawnMesh& mesh : in.solids) {
+        const scene::Material& material = mesh.object->material;
         blocks.push_back(
             {.view = views::viewBlock(in.eye, in.size),
              .share = vec4(in.irradiance ? vec3(1) : wholeOf(material, settings), 0),
-             .object = mesh.drawn.index,
+             .object = mesh.index,
              .ior = in.irradiance ? 1 : material.translucent().surfaceIor(), // at 1 all of it enters
              .roughness = material.translucent().roughness,
              .firstLight = in.first,

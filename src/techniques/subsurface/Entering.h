@@ -23,7 +23,6 @@ struct EnteredKey {
         bool operator==(const Body&) const = default;
     };
     std::vector<Body> bodies{};
-    std::size_t opaque = 0; ///< of the objects, the first
     int shadowSize = 0;
     bool onLayers = false;
     bool operator==(const EnteredKey&) const = default;

@@ -71,7 +71,7 @@ Result<Points> recordPoints(graph::FrameGraph& graph, gl::Context& context, cons
     const TextureId way = cut.refracted ? from.way : TextureId{};
     Points points;
     graph.addPass("subsurface.flux", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("light that enters object \"" + cut.object.drawn.object->name + "\"");
+        pass.reason("light that enters object \"" + cut.object.object->name + "\"");
         for (const TextureId id : {from.surface, from.paint, from.entered, way})
             if (id) pass.sample(id);
         points.push_back(createLevel(pass, size, bool(from.paint)));
@@ -94,12 +94,12 @@ Result<Points> recordPoints(graph::FrameGraph& graph, gl::Context& context, cons
     return points;
 }
 
-FluxBlock blockOf(const views::Eye& eye, ivec2 size, const views::PosedMesh& object,
+FluxBlock blockOf(const views::Eye& eye, ivec2 size, const views::DrawnMesh& object,
                   const Sharpness& sharpness) {
     FluxBlock block{.view = views::viewBlock(eye, size)};
     block.sharpness = {sharpness.most, sharpness.spread, sharpness.blur, float(sharpness.paper)};
-    block.object = object.drawn.index;
-    block.ior = object.drawn.object->material.translucent().surfaceIor();
+    block.object = object.index;
+    block.ior = object.object->material.translucent().surfaceIor();
     return block;
 }
 
@@ -139,16 +139,15 @@ ivec2 pixelsOf(const views::Eye& eye, const scene::Object& object, const Grid& g
 }
 
 Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::Eye& eye,
-                  const views::PosedMesh& object, ivec2 size, TextureId before, TextureId layer,
+                  const views::DrawnMesh& object, ivec2 size, TextureId before, TextureId layer,
                   TextureId paint) {
     std::vector<std::string> defines;
     if (!before) defines.push_back("PEEL_FIRST");
     if (paint) defines.push_back("PAINTED");
     const gl::Program* program = context.program("subsurface/peel", defines);
     graph.addPass("subsurface.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("a surface of object \"" + object.drawn.object->name + "\" that the environment lights");
-        pass.sample(object.positions);
-        pass.sample(object.normals);
+        pass.reason("a surface of object \"" + object.object->name + "\" that the environment lights");
+        object.sampleFrom(pass);
         if (before) pass.sample(before);
         pass.write(layer);
         pass.clear(layer, vec4(0));
@@ -159,24 +158,23 @@ Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::E
         pass.clear(pass.createDepth("subsurface.depth", size, Format::Depth32F), 1.0f);
         return [=](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{.depthTest = graph::DepthTest::Less};
-            if (paint) draw.textures = views::enteringBindings(*object.drawn.paint);
+            if (paint) draw.textures = views::enteringBindings(*object.paint);
             if (before) draw.textures.push_back({"uBefore", resources[before]});
-            drawMesh(commands, *program, resources, object, eye, size, object.drawn.index, std::move(draw));
+            drawMesh(commands, *program, resources, object, eye, size, object.index, std::move(draw));
         };
     });
     return Done{};
 }
 
 Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const views::LampPoint& lamp,
-                         const views::Eye& face, const Cut& cut, const std::vector<views::PosedMesh>& casters,
-                         const std::vector<views::DrawnObject>& fields) {
-    const views::PosedMesh& object = cut.object;
-    const views::Bounds bounds = views::boundsOf(*object.drawn.object);
-    const ivec2 size = pixelsOfGrazed(pixelsOf(face, *object.drawn.object, cut.grid), face, bounds, cut.grid);
+                         const views::Eye& face, const Cut& cut, const views::Drawables& casters) {
+    const views::DrawnMesh& object = cut.object;
+    const views::Bounds bounds = views::boundsOf(*object.object);
+    const ivec2 size = pixelsOfGrazed(pixelsOf(face, *object.object, cut.grid), face, bounds, cut.grid);
     Sources from{.surface = graph.create("subsurface.lit", {.size = size, .format = Format::RGBA32F})};
-    if (Status s = views::recordSurface(graph, context, face, fields, casters, from.surface, size); !s)
+    if (Status s = views::recordSurface(graph, context, face, casters, from.surface, size); !s)
         return s.error();
-    if (object.drawn.paint) {
+    if (object.paint) {
         Result<TextureId> drawn = views::recordEntering(graph, context, face, object, size);
         if (!drawn) return drawn.error();
         from.paint = *drawn;

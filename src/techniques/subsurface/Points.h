@@ -56,7 +56,7 @@ ivec2 pixelsOf(const views::Eye& eye, const scene::Object& object, const Grid& g
 
 /// How points are made of what a view shows of an object.
 struct Cut {
-    const views::PosedMesh& object;
+    const views::DrawnMesh& object;
     const Grid& grid;
     bool refracted = false; ///< `normal` holds the way on which light goes on inside instead
 };
@@ -64,11 +64,9 @@ struct Cut {
 /// Points of an object that a lamp sees.
 ///
 /// @param face     one of the lamp's views of the object
-/// @param casters  all meshes that stand in the light's way, the object among them
-/// @param fields   height fields that do
+/// @param casters  all that stands in the light's way, the object among it
 Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const views::LampPoint& lamp,
-                         const views::Eye& face, const Cut& cut, const std::vector<views::PosedMesh>& casters,
-                         const std::vector<views::DrawnObject>& fields);
+                         const views::Eye& face, const Cut& cut, const views::Drawables& casters);
 
 /// Points of one layer of an object along an axis.
 Result<Points> recordLayer(graph::FrameGraph& graph, gl::Context& context, const views::Eye& axis,
@@ -79,7 +77,7 @@ Result<Points> recordLayer(graph::FrameGraph& graph, gl::Context& context, const
 /// @param before  the layer before; none: there is none
 /// @param layer   RGBA32F; paint: none, or the same
 Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const views::Eye& eye,
-                  const views::PosedMesh& object, ivec2 size, graph::TextureId before, graph::TextureId layer,
+                  const views::DrawnMesh& object, ivec2 size, graph::TextureId before, graph::TextureId layer,
                   graph::TextureId paint);
 
 /// The object as large as it is, but neither moved nor turned: what depends on its shape and size alone.

@@ -77,7 +77,7 @@ private:
     };
     struct Target {
         const Plan::State::Object& plan;
-        const views::PosedMesh& mesh;
+        const views::DrawnMesh& mesh;
         views::Bounds bounds;
         Layout layout;
     };
@@ -175,8 +175,8 @@ int Splatter::scaleOf(const Target& target, double wanted) const {
 // places lie equally dense.
 std::vector<Part> Splatter::partsOf(const Target& target, const Band& band) const {
     constexpr float kAny = 1e30f;
-    if (!target.mesh.drawn.paint) return {{0, kAny, scaleOf(target, band.pixel)}};
-    const views::Paint& paint = *target.mesh.drawn.paint;
+    if (!target.mesh.paint) return {{0, kAny, scaleOf(target, band.pixel)}};
+    const views::Paint& paint = *target.mesh.paint;
     const float most = target.layout.grid.sharpness.most;
     const int first = octaveOf(std::min(paint.bluntest, most)),
               last = octaveOf(std::min(paint.sharpest, most));
@@ -198,7 +198,7 @@ SplatBlock Splatter::blockOf(const Target& target, const Band& band) const {
     block.object = target.plan.index;
     block.widest = float(band.spacing);
     block.reach = float(band.reach);
-    const auto media = diffusion::mediaOf(target.mesh.drawn.object->material);
+    const auto media = diffusion::mediaOf(target.mesh.object->material);
     std::size_t count = 0;
     for (int c = 0; c < 3; ++c) {
         const auto channel = std::size_t(c);
@@ -221,7 +221,7 @@ Status Splatter::splatPart(const Target& target, const Points& points, int coars
     const Band& band = target.plan.profile->kernel.bands[number];
     const bool offset =
         settings_.dipoleGeometry == DipoleGeometry::Offset && !target.plan.profile->poles[0].empty();
-    const bool painted = target.mesh.drawn.paint.has_value();
+    const bool painted = target.mesh.paint.has_value();
     std::vector<std::string> defines;
     if (offset) defines.push_back("OFFSET");
     if (painted) defines.push_back("PAINTED");
@@ -244,8 +244,8 @@ Status Splatter::splatPart(const Target& target, const Points& points, int coars
     const TextureId tableId = graph_.import(table.handle(), table.desc(), table.label());
     graph_.addPass("subsurface.splat", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(
-            "what leaves object \"" + target.mesh.drawn.object->name + "\" within " +
-            std::to_string(band.reach) + " m of points " + std::to_string(band.spacing) + " m apart" +
+            "what leaves object \"" + target.mesh.object->name + "\" within " + std::to_string(band.reach) +
+            " m of points " + std::to_string(band.spacing) + " m apart" +
             (painted ? "; where M_d is painted up to " + std::to_string(part.sharpest) + ", over M_d" : ""));
         for (int i = first; i <= last; ++i) {
             const Level& level = points[std::size_t(i)];
@@ -323,11 +323,11 @@ Status Splatter::splat(const Target& target, const Points& points, int coarser) 
 
 Status Splatter::lit(const Target& target, const views::LampPoint& lamp) {
     if (lamp.color == vec3(0)) return Done{};
-    const views::ShadowViews views = views::shadowViews(lamp.source, boundsOfAll(in_.casters, in_.fields),
-                                                        target.bounds, target.layout.grid.most);
+    const views::ShadowViews views =
+        views::shadowViews(lamp.source, boundsOfAll(in_.casters), target.bounds, target.layout.grid.most);
     for (const views::Eye& face : views.faces) {
-        Result<Points> points = recordLit(graph_, context_, lamp, face, {target.mesh, target.layout.grid},
-                                          in_.casters, in_.fields);
+        Result<Points> points =
+            recordLit(graph_, context_, lamp, face, {target.mesh, target.layout.grid}, in_.casters);
         if (!points) return points.error();
         if (Status s = splat(target, *points, target.layout.coarser); !s) return s;
     }
@@ -378,8 +378,8 @@ Status Splatter::spread(std::size_t from) {
 float Splatter::brightest() const {
     float most = 0;
     for (const views::LampPoint& sample : entering_.samples())
-        for (const views::PosedMesh& mesh : in_.solids) {
-            const views::Bounds bounds = views::boundsOf(*mesh.drawn.object);
+        for (const views::DrawnMesh& mesh : in_.solids) {
+            const views::Bounds bounds = views::boundsOf(*mesh.object);
             const vec3 nearest = glm::clamp(vec3(sample.place), bounds.low, bounds.high);
             const float away = std::max(glm::distance(vec3(sample.place), nearest), 0.1f * bounds.radius());
             most +=
@@ -393,11 +393,11 @@ Result<Radiosity> Splatter::record() {
     if (const float most = splats() ? 0 : brightest(); most > 0) unit_ = most / 256;
     std::vector<Target> targets;
     for (const Plan::State::Object& object : plan_.objects)
-        for (const views::PosedMesh& mesh : in_.solids)
-            if (mesh.drawn.index == object.index)
+        for (const views::DrawnMesh& mesh : in_.solids)
+            if (mesh.index == object.index)
                 targets.push_back(
-                    {object, mesh, views::boundsOf(*mesh.drawn.object),
-                     layoutOf(*object.profile, mesh.drawn, settings_, context_.caps().maxTextureSize)});
+                    {object, mesh, views::boundsOf(*mesh.object),
+                     layoutOf(*object.profile, mesh, settings_, context_.caps().maxTextureSize)});
     int scales = 0;
     for (const Target& target : targets)
         for (const Band& band : target.plan.profile->kernel.bands)

@@ -23,13 +23,6 @@ constexpr std::string_view kSplats[] = {"bound", "paper"};
 constexpr std::string_view kExits[] = {"whole", "paper"};
 constexpr std::string_view kBlurEnergies[] = {"kept", "paper"};
 
-// Those whose pixels are drawn here.
-std::vector<views::PosedMesh> scattering(const std::vector<views::PosedMesh>& solids) {
-    std::vector<views::PosedMesh> list = solids;
-    std::erase_if(list, [](const views::PosedMesh& mesh) { return !scatters(*mesh.drawn.object); });
-    return list;
-}
-
 // Not a picture but the light at the surface.
 bool showsLight(const Inputs& in) { return in.radiosity || in.irradiance; }
 
@@ -42,14 +35,14 @@ bool isOnLayers(const scene::Scene& scene) {
            });
 }
 
-SubsurfaceShadeBlock shadeBlock(const Inputs& in, const views::PosedMesh& mesh, float unit,
+SubsurfaceShadeBlock shadeBlock(const Inputs& in, const views::DrawnMesh& mesh, float unit,
                                 const Settings& settings) {
-    const scene::Material& material = mesh.drawn.object->material;
+    const scene::Material& material = mesh.object->material;
     SubsurfaceShadeBlock block{.view = views::viewBlock(in.eye, in.size),
                                .ior = material.translucent().surfaceIor(),
                                .roughness = material.translucent().roughness,
                                .mean = 1,
-                               .object = mesh.drawn.index,
+                               .object = mesh.index,
                                .unit = unit};
     if (settings.exit == Exit::Whole)
         block.mean = float(diffusion::meanTransmittance(material.translucent().surfaceIor()));
@@ -64,7 +57,7 @@ SubsurfaceShadeBlock shadeBlock(const Inputs& in, const views::PosedMesh& mesh, 
 //
 // @param paint  what is painted on them where the camera sees them; or none
 Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
-                   const std::vector<views::PosedMesh>& objects, const Radiosity& leaving,
+                   const std::vector<views::DrawnMesh>& objects, const Radiosity& leaving,
                    TextureId highlight, TextureId paint, const Settings& settings) {
     if (objects.empty()) return Done{};
     const bool hasSky = in.environment != graph::TextureHandle::None && !showsLight(in);
@@ -75,7 +68,7 @@ Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs&
     if (paint) defines.push_back("PAINTED");
     const gl::Program* program = context.program("subsurface/shade", defines);
     std::vector<graph::Block> blocks;
-    for (const views::PosedMesh& mesh : objects)
+    for (const views::DrawnMesh& mesh : objects)
         blocks.push_back(shadeBlock(in, mesh, leaving.unit, settings));
     const TextureId radiosity = leaving.light, matt = paint ? in.matt : TextureId{};
     graph.addPass("subsurface.shade", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -105,15 +98,15 @@ Status recordShade(graph::FrameGraph& graph, gl::Context& context, const Inputs&
 
 // Shows what is painted on objects in place of their light.
 Status recordLayer(graph::FrameGraph& graph, gl::Context& context, const Inputs& in,
-                   const std::vector<views::PosedMesh>& painted, PaintLayer layer) {
+                   const std::vector<views::DrawnMesh>& painted, PaintLayer layer) {
     const bool entering = layer == PaintLayer::Blur || layer == PaintLayer::Glow;
     Result<TextureId> map = entering ? views::recordEnteringMap(graph, context, in.eye, painted, in.size)
                                      : views::recordLeaving(graph, context, in.eye, painted, in.size);
     if (!map) return map.error();
     const gl::Program* program = context.program("subsurface/layer");
     std::vector<graph::Block> blocks;
-    for (const views::PosedMesh& mesh : painted)
-        blocks.push_back(PaintLayerBlock{.object = mesh.drawn.index, .layer = int(layer)});
+    for (const views::DrawnMesh& mesh : painted)
+        blocks.push_back(PaintLayerBlock{.object = mesh.index, .layer = int(layer)});
     graph.addPass("subsurface.layer", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("what is painted on " + std::to_string(painted.size()) +
                     " object(s), in place of their light");
@@ -334,7 +327,7 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
     plan.state_->onLayers = isOnLayers(scene);
     std::vector<std::shared_ptr<const Profiled>> used;
     for (const views::DrawnMesh& mesh : meshes) {
-        if (!scatters(*mesh.object) || settings.method == Method::Lambert) continue;
+        if (settings.method == Method::Lambert) continue;
         Plan::State::Object object{.index = mesh.index, .profile = nullptr, .layers = {}};
         const Wanted wanted = wantedOf(mesh, settings);
         const auto known = std::find_if(profiles_.begin(), profiles_.end(),
@@ -381,8 +374,9 @@ Result<std::array<int, 3>> Subsurface::countLayers(graph::TexturePool& pool, con
                 .layers = {}};
     Counted& known = counted_[mesh.index];
     if (!mesh.water && known.key == now.key && known.sizes == now.sizes) return known.layers;
+    const views::Drawables alone{std::make_shared<views::DrawnMesh>(mesh)};
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        const Result<int> count = views::countLayers(pool, context_, axes[i], {mesh}, time, now.sizes[i]);
+        const Result<int> count = views::countLayers(pool, context_, axes[i], alone, time, now.sizes[i]);
         if (!count) return count.error();
         now.layers[i] = *count;
     }
@@ -410,12 +404,12 @@ void Subsurface::forgetRecorded() {
 
 Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
                           const Settings& settings) const {
-    std::vector<views::PosedMesh> objects = scattering(in.solids);
+    std::vector<views::DrawnMesh> objects = in.solids;
     const PaintLayer layer = in.scene.view.paintLayer;
     if (layer != PaintLayer::None && !showsLight(in)) {
-        const auto rest = std::stable_partition(
-            objects.begin(), objects.end(), [](const views::PosedMesh& mesh) { return !mesh.drawn.paint; });
-        const std::vector<views::PosedMesh> painted(rest, objects.end());
+        const auto rest = std::stable_partition(objects.begin(), objects.end(),
+                                                [](const views::DrawnMesh& mesh) { return !mesh.paint; });
+        const std::vector<views::DrawnMesh> painted(rest, objects.end());
         objects.erase(rest, objects.end());
         if (!painted.empty())
             if (Status s = recordLayer(graph, context_, in, painted, layer); !s) return s;
@@ -435,9 +429,9 @@ Status Subsurface::record(graph::FrameGraph& graph, const Inputs& in, const Plan
     if (!radiosity) return radiosity.error();
     TextureId highlight;
     if (seen && !showsLight(in)) highlight = import(seen->other[seen->now]);
-    std::vector<views::PosedMesh> plain, painted;
-    for (const views::PosedMesh& mesh : objects)
-        (mesh.drawn.paint && !in.irradiance ? painted : plain).push_back(mesh);
+    std::vector<views::DrawnMesh> plain, painted;
+    for (const views::DrawnMesh& mesh : objects)
+        (mesh.paint && !in.irradiance ? painted : plain).push_back(mesh);
     if (Status s = recordShade(graph, context_, in, plain, *radiosity, highlight, {}, settings); !s) return s;
     if (painted.empty()) return Done{};
     Result<TextureId> paint = views::recordLeaving(graph, context_, in.eye, painted, in.size);

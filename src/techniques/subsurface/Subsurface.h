@@ -51,15 +51,13 @@ bool acts(const Settings& settings, std::string_view id);
 struct Inputs {
     const scene::Scene& scene;
     const views::Eye& eye;
-    const std::vector<views::PosedMesh>& solids;  ///< visible ones; those that scatter are drawn
-    const std::vector<views::PosedMesh>& casters; ///< all that stands in the light's way, hidden or not:
-                                                  ///< opaque, scattering, mirrors and refractive
-    std::vector<views::DrawnObject> fields{};     ///< height fields that do as well
-    graph::TextureId surface;                     ///< views.surface
-    graph::TextureHandle environment;             ///< lat-long map of scene.environment; None without one
-    graph::TextureId target;                      ///< RGBA32F
-    bool radiosity = false;                       ///< shows what leaves, W/m², not radiance
-    bool irradiance = false;                      ///< shows what arrives, W/m²
+    std::vector<views::DrawnMesh> solids; ///< visible ones that scatter
+    views::Drawables casters;             ///< all that stands in the light's way, hidden or not
+    graph::TextureId surface;             ///< views.surface
+    graph::TextureHandle environment;     ///< lat-long map of scene.environment; None without one
+    graph::TextureId target;              ///< RGBA32F
+    bool radiosity = false;               ///< shows what leaves, W/m², not radiance
+    bool irradiance = false;              ///< shows what arrives, W/m²
     ivec2 size{0};
     graph::TextureId matt{}; ///< painted objects as if they were opaque (brdf), RGBA32F; not for radiosity
 };
@@ -69,10 +67,8 @@ struct Arriving {
     const scene::Scene& scene;
     const views::Eye& eye;
     ivec2 size{0};
-    std::vector<views::PosedMesh> solids;            ///< visible ones that scatter
-    const std::vector<views::PosedMesh>& opaque;     ///< all that stands in the light's way, hidden or not:
-    const std::vector<views::PosedMesh>& refractive; ///< see views::Lit
-    const std::vector<views::DrawnObject>& fields;
+    std::vector<views::DrawnMesh> solids;         ///< visible ones that scatter
+    views::Drawables casters;                     ///< see views::Lit::drawables
     graph::TextureId surface;                     ///< views.surface
     const std::vector<views::LampPoint>& samples; ///< all of them
     graph::TextureId table;                       ///< views::sampleTable(samples)
@@ -128,7 +124,7 @@ public:
     /// Makes the tables, and counts the layers of objects where an environment shines. That reads pictures
     /// back, but for objects that have only moved or turned since.
     ///
-    /// @param meshes  visible ones
+    /// @param meshes  visible ones that scatter
     Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene,
                       const std::vector<views::DrawnMesh>& meshes, const Settings& settings);
 

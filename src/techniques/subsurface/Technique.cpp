@@ -24,8 +24,8 @@ public:
 
     Status prepare(const technique::Picture& picture) override {
         plan_.reset();
-        Result<Plan> plan = subsurface_.plan(store_.pool, picture.scene, picture.drawn.meshes.solid,
-                                             settingsOf(picture.scene));
+        Result<Plan> plan = subsurface_.plan(
+            store_.pool, picture.scene, meshesOf(scattering(picture.drawables)), settingsOf(picture.scene));
         if (!plan) return plan.error();
         plan_ = std::move(*plan);
         return Done{};
@@ -37,22 +37,19 @@ public:
                (show == Aov::Color || show == Aov::Radiosity || show == Aov::Irradiance);
     }
     views::Bounds lit(const technique::Picture& picture) const override {
-        return boundsOfAll(scattering(picture.drawn.meshes.solid));
+        return boundsOfAll(scattering(picture.drawables));
     }
     Status shade(const technique::Passes& passes, const technique::Slice& slice) override {
         const technique::Picture& picture = passes.picture;
         if (slice.clears) views::recordNothing(passes.graph, "before what scatters", slice.target);
         if (!plan_) return Done{};
         const Aov show = picture.scene.view.show;
-        refractive_ = views::changingLight(picture.scene, passes.posed.glass);
         return subsurface_.light(passes.graph,
                                  {.scene = picture.scene,
                                   .eye = picture.eye,
                                   .size = picture.size,
-                                  .solids = scattering(views::Posed::visible(passes.posed.solid)),
-                                  .opaque = passes.posed.solid,
-                                  .refractive = refractive_,
-                                  .fields = passes.posed.fields,
+                                  .solids = meshesOf(scattering(passes.posed)),
+                                  .casters = changingLight(picture.scene, passes.posed),
                                   .surface = passes.surface,
                                   .samples = slice.samples,
                                   .table = slice.table,
@@ -72,13 +69,9 @@ public:
         const Aov show = picture.scene.view.show;
         const bool showsFlux = show == Aov::Radiosity || show == Aov::Irradiance;
         if (!plan_ || (show != Aov::Color && !showsFlux)) return Done{};
-        const std::vector<views::PosedMesh> seen = views::Posed::visible(passes.posed.solid);
-        std::vector<views::PosedMesh> casters = passes.posed.solid;
-        const auto glass = views::changingLight(picture.scene, passes.posed.glass);
-        casters.insert(casters.end(), glass.begin(), glass.end());
-        const bool painted = std::any_of(seen.begin(), seen.end(), [](const views::PosedMesh& mesh) {
-            return mesh.drawn.paint.has_value();
-        });
+        const std::vector<views::DrawnMesh> solids = meshesOf(scattering(passes.posed));
+        const bool painted = std::any_of(solids.begin(), solids.end(),
+                                         [](const views::DrawnMesh& mesh) { return mesh.paint.has_value(); });
         TextureId matt;
         if (painted && !showsFlux) {
             Result<TextureId> copied = recordMatt(passes.graph, shown, picture.size);
@@ -88,9 +81,8 @@ public:
         return subsurface_.record(passes.graph,
                                   {.scene = picture.scene,
                                    .eye = picture.eye,
-                                   .solids = seen,
-                                   .casters = casters,
-                                   .fields = passes.posed.fields,
+                                   .solids = solids,
+                                   .casters = changingLight(picture.scene, passes.posed),
                                    .surface = passes.surface,
                                    .environment = picture.environment,
                                    .target = shown,
@@ -103,7 +95,7 @@ public:
 
     std::vector<std::string> leftOut(const technique::Picture& picture) const override {
         std::vector<std::string> lines;
-        for (const views::DrawnMesh& mesh : picture.drawn.meshes.solid)
+        for (const views::DrawnMesh& mesh : meshesOf(scattering(picture.drawables)))
             if (mesh.paint && mesh.paint->isBlurred() &&
                 settingsOf(picture.scene).method == Method::Diffusion)
                 lines.push_back("blur painted on object \"" + mesh.object->name +
@@ -118,13 +110,9 @@ public:
 
 private:
     // Those whose pixels are drawn here.
-    template <class Mesh>
-    static std::vector<Mesh> scattering(std::vector<Mesh> solids) {
-        std::erase_if(solids, [](const Mesh& mesh) { return !scatters(objectOf(mesh)); });
-        return solids;
+    static views::Drawables scattering(views::Drawables list) {
+        return filtered(std::move(list), [](const views::Drawable& one) { return scatters(*one.object); });
     }
-    static const scene::Object& objectOf(const views::DrawnMesh& mesh) { return *mesh.object; }
-    static const scene::Object& objectOf(const views::PosedMesh& mesh) { return *mesh.drawn.object; }
 
     // Painted objects as if they were opaque: what is drawn into cannot be read as well.
     Result<TextureId> recordMatt(graph::FrameGraph& graph, TextureId shown, ivec2 size) {
@@ -144,7 +132,6 @@ private:
     technique::Store store_;
     Subsurface subsurface_;
     std::optional<Plan> plan_;
-    std::vector<views::PosedMesh> refractive_; // of the graph that is recorded
 };
 
 bool isMethod(const scene::Scene& scene, std::initializer_list<Method> methods) {

@@ -73,9 +73,9 @@ Grid gridOf(const Cells& cells, const gl::Context& context) {
 class Body {
 public:
     Body(graph::FrameGraph& graph, gl::Context& context, const Inputs& in, const Plan::State::Object& plan,
-         const views::PosedMesh& mesh, const Entering& entering, const Settings& settings, Volumes& volumes)
+         const views::DrawnMesh& mesh, const Entering& entering, const Settings& settings, Volumes& volumes)
         : graph_(graph), context_(context), in_(in), plan_(plan), mesh_(mesh), entering_(entering),
-          settings_(settings), bounds_(views::boundsOf(*mesh.drawn.object)),
+          settings_(settings), bounds_(views::boundsOf(*mesh.object)),
           cells_(cellsOf(bounds_, settings.cells)), solution_(volumes.of(plan.index, key())) {}
 
     Status record(TextureId target);
@@ -100,7 +100,7 @@ private:
     gl::Context& context_;
     const Inputs& in_;
     const Plan::State::Object& plan_;
-    const views::PosedMesh& mesh_;
+    const views::DrawnMesh& mesh_;
     const Entering& entering_;
     const Settings& settings_;
     const views::Bounds bounds_;
@@ -112,11 +112,11 @@ private:
 
 std::optional<Volumes::Key> Body::key() const {
     if (!entering_.key()) return std::nullopt;
-    return Volumes::Key{*entering_.key(), diffusion::mediaOf(mesh_.drawn.object->material), settings_.cells};
+    return Volumes::Key{*entering_.key(), diffusion::mediaOf(mesh_.object->material), settings_.cells};
 }
 
 VolumeBlock Body::block() const {
-    const scene::Material& material = mesh_.drawn.object->material;
+    const scene::Material& material = mesh_.object->material;
     const auto media = diffusion::mediaOf(material);
     VolumeBlock block{.view = views::viewBlock(in_.eye, in_.size),
                       .low = vec4(cells_.low, cells_.width),
@@ -132,7 +132,7 @@ VolumeBlock Body::block() const {
     block.diffusion.a = float(mixedCondition(material.translucent().ior));
     block.extinction.a = material.translucent().ior;
     block.albedo.a = (block.extinction.r + block.extinction.g + block.extinction.b) / 3;
-    block.object = mesh_.drawn.index;
+    block.object = mesh_.index;
     return block;
 }
 
@@ -152,10 +152,9 @@ Status Body::columns(int axis) {
                              before ? std::vector<std::string>{} : std::vector<std::string>{"PEEL_FIRST"});
         const TextureId last = before;
         graph_.addPass("subsurface.column", [&](graph::PassBuilder& pass) -> graph::Execute {
-            pass.reason("surface " + std::to_string(layer + 1) + " of object \"" + mesh_.drawn.object->name +
+            pass.reason("surface " + std::to_string(layer + 1) + " of object \"" + mesh_.object->name +
                         "\" along " + "xyz"[axis]);
-            pass.sample(mesh_.positions);
-            pass.sample(mesh_.normals);
+            mesh_.sampleFrom(pass);
             if (last) pass.sample(last);
             pass.write(images, layer);
             pass.clear(images, vec4(0));
@@ -165,7 +164,7 @@ Status Body::columns(int axis) {
             return [=, mesh = mesh_](const graph::Resources& resources, graph::Commands& commands) {
                 graph::Draw draw{.depthTest = graph::DepthTest::Less};
                 if (last) draw.textures.push_back({"uBefore", resources[last]});
-                drawMesh(commands, *program, resources, mesh, eye, size, mesh.drawn.index, std::move(draw));
+                drawMesh(commands, *program, resources, mesh, eye, size, mesh.index, std::move(draw));
             };
         });
     }
@@ -179,7 +178,7 @@ Status Body::cut() {
         if (Status s = columns(axis); !s) return s;
     const gl::Program* program = context_.program("subsurface/volume_cells");
     graph_.addPass("subsurface.cells", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("cells of object \"" + mesh_.drawn.object->name + "\", cut by its surface");
+        pass.reason("cells of object \"" + mesh_.object->name + "\", cut by its surface");
         for (const TextureId id : along_)
             pass.sample(id);
         pass.write(cell_ = kept(solution_->cells, "subsurface.cells"));
@@ -215,7 +214,7 @@ Status Body::lay(const Points& points) {
     const gl::Program* program = context_.program("subsurface/volume_source");
     const Level& level = points.front();
     graph_.addPass("subsurface.source", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("where light that entered object \"" + mesh_.drawn.object->name + "\" first scatters");
+        pass.reason("where light that entered object \"" + mesh_.object->name + "\" first scatters");
         for (const TextureId id : {level.place, level.flux, level.normal, cell_})
             pass.sample(id);
         if (source_) {
@@ -258,10 +257,10 @@ Status Body::light() {
     }
     for (const views::LampPoint& lamp : entering_.samples()) {
         if (lamp.color == vec3(0)) continue;
-        const views::ShadowViews views = views::shadowViews(lamp.source, boundsOfAll(in_.casters, in_.fields),
-                                                            bounds_, 2 * settings_.cells);
+        const views::ShadowViews views =
+            views::shadowViews(lamp.source, boundsOfAll(in_.casters), bounds_, 2 * settings_.cells);
         for (const views::Eye& face : views.faces) {
-            Result<Points> points = recordLit(graph_, context_, lamp, face, cut, in_.casters, in_.fields);
+            Result<Points> points = recordLit(graph_, context_, lamp, face, cut, in_.casters);
             if (!points) return points.error();
             if (Status s = lay(*points); !s) return s;
         }
@@ -275,14 +274,14 @@ void Body::warnOfCells(const std::array<diffusion::Medium, 3>& media) const {
     for (const diffusion::Medium& medium : media)
         paths = std::max(paths, double(cells_.width) * medium.extinction());
     if (paths > kWidestCell)
-        warnOnce("subsurface: object \"" + mesh_.drawn.object->name + "\" is cut into cells " +
+        warnOnce("subsurface: object \"" + mesh_.object->name + "\" is cut into cells " +
                  std::to_string(std::llround(paths)) +
                  " mean free paths wide, which lose light; more cells are nearer, and method multires has "
                  "none");
 }
 
 Status Body::solve() {
-    const std::array<diffusion::Medium, 3> media = diffusion::mediaOf(mesh_.drawn.object->material);
+    const std::array<diffusion::Medium, 3> media = diffusion::mediaOf(mesh_.object->material);
     warnOfCells(media);
     const Rounds rounds = roundsOf(media, cells_);
     const dvec3 squares = rounds.radius * rounds.radius;
@@ -332,7 +331,7 @@ Status Body::solve() {
 Status Body::leave(TextureId target) {
     const gl::Program* program = context_.program("subsurface/volume_leave");
     graph_.addPass("subsurface.leave", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("what leaves object \"" + mesh_.drawn.object->name + "\" where the camera sees it");
+        pass.reason("what leaves object \"" + mesh_.object->name + "\" where the camera sees it");
         for (const TextureId id : {in_.surface, cell_, fluence_})
             pass.sample(id);
         pass.write(target);
@@ -447,8 +446,8 @@ Result<Radiosity> recordVolumes(graph::FrameGraph& graph, gl::Context& context, 
         return [](const graph::Resources&, graph::Commands&) {};
     });
     for (const Plan::State::Object& object : plan.objects)
-        for (const views::PosedMesh& mesh : in.solids)
-            if (mesh.drawn.index == object.index)
+        for (const views::DrawnMesh& mesh : in.solids)
+            if (mesh.index == object.index)
                 if (Status s =
                         Body(graph, context, in, object, mesh, entering, settings, volumes).record(light);
                     !s)

@@ -196,13 +196,13 @@ Result<Energy> energyOf(gl::Context& context, const scene::Scene& scene, const S
     views::ImageCache images(context);
     views::Waters waters(context);
     if (const Result<bool> moved = waters.advance(scene); !moved) return moved.error();
-    const Result<views::DrawnMeshes> drawn = views::drawnMeshes(scene, images, true, &waters);
+    const Result<views::Drawables> drawn = views::drawablesOf(scene, images, &waters);
     if (!drawn) return drawn.error();
     const views::Eye eye = views::makeEye(scene, float(scene.size.x) / float(scene.size.y));
     const Caustics technique(context);
-    const Result<Plan> plan = technique.plan(pool, scene, &eye, *drawn, {}, settings);
+    const Result<Plan> plan = technique.plan(pool, scene, &eye, *drawn, settings);
     if (!plan) return plan.error();
-    return technique.measure(pool, scene, eye, *drawn, {}, *plan, settings);
+    return technique.measure(pool, scene, eye, *drawn, *plan, settings);
 }
 
 double total(const dvec3& flux) { return flux.r + flux.g + flux.b; }
