@@ -131,7 +131,7 @@ TEST_F(Caustics, RaysThatBeginOnWaterAgreeWithRaysThroughItsLayers) {
         scene.objects.push_back(glass(scene::Sphere{0.01f}, 1.5f, {15, 0.5f, 0}));
         scene.objects.back().visible = false;
         ASSERT_FALSE(planOf(scene).lights.at(0).water);
-        const Image through = lightOf(scene, {60, 60});
+        const Image through = lightOf(scene, {60, 60}, {.grid = 2 * Settings().grid}); // as many as on water
         scene.objects.pop_back();
         // Of a million rays of truth the parallel light has 0.995 times this sum, the layers 0.991: edges of
         // the shadow and of the block lie between rays.
