@@ -181,7 +181,8 @@ Sampling& samplingOf(scene::Scene& scene) {
 
 bool samplingActs(const scene::Scene& scene, std::string_view id) {
     if (id == "lampSamples") return hasLargeLamp(scene);
-    if (id == "shadowSize") return !scene.lights.empty();
+    if (id == "shadowSize") // a relief finds its own shadow by a walk
+        return scene.objects.size() > 1 || (!scene.objects.empty() && !scene.objects.front().isField());
     if (id == "pixelSamples") return scene.view.show == scene::Aov::Color;
     return hasEnvironment(scene);
 }

@@ -42,14 +42,21 @@ int decimals(const Param& param) {
     return std::clamp(int(std::ceil(2 - std::log10(param.high - param.low) - 1e-6)), 0, 6);
 }
 
+// Without an exponent where it is large.
+std::string threeDigits(double value) {
+    const std::string text = print("%.*g", 3, value);
+    return std::abs(value) < 1000 ? text : print("%.*f", 0, std::strtod(text.c_str(), nullptr));
+}
+
 // A typed value may have more digits than the slider's steps; they are shown, up to two.
 std::string numberText(const Param& param, double value) {
-    if (param.logarithmic) return print("%.*g", 3, value);
+    if (param.kind == Kind::Integer) return print("%.*f", 0, value);
+    if (param.logarithmic) return threeDigits(value);
     const double coarsest = 0.01 * (param.high - param.low) / 100;
     int digits = decimals(param);
     for (int more = 0; more < 2; ++more) {
         const double shown = std::strtod(print("%.*f", digits, value).c_str(), nullptr);
-        if (param.kind == Kind::Integer || std::abs(shown - value) < coarsest) break;
+        if (std::abs(shown - value) < coarsest) break;
         ++digits;
     }
     return print("%.*f", digits, value);
@@ -70,7 +77,7 @@ double placeOf(const Param& param, double value) {
 }
 
 std::string valueAt(const Param& param, double t) {
-    if (param.logarithmic) return print("%.*g", 3, param.low * std::pow(param.high / param.low, t));
+    if (param.logarithmic) return threeDigits(param.low * std::pow(param.high / param.low, t));
     return print("%.*f", decimals(param), param.low + t * (param.high - param.low));
 }
 
