@@ -1,21 +1,29 @@
 #include "frame/Budget.h"
 
 #include "base/Text.h"
-#include "frame/Renderer.h"
+#include "frame/RendererState.h"
 #include "light/Samples.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lucent::frame {
 
 namespace {
 
+using scene::Aov;
+using technique::Guest;
 using technique::Knob;
 using technique::KnobOf;
 
-constexpr float kFinerHas =
-    2; // the finer value has half the error: what it changes, times this, is all of it
+// The finer value has half the error: what it changes, times this, is all of it.
+constexpr float kFinerHas = 2;
+// By so much may the error of the whole picture exceed the sample's: lucent bench budget.
+constexpr float kSafety = 1.25f;
+constexpr int kSamplePixels = 1600; // 900 told 1.6 times too little of a field as rough as its texels
+constexpr int kFewestCovered = 256; // fewer say too little
+constexpr int kFinerBy = 4;         // a reference than what is held against it
 
 struct Place {
     const Param* param;
@@ -32,30 +40,32 @@ Place placeOf(scene::Scene& scene, std::string_view table, std::string_view id) 
     return {&*found, static_cast<std::byte*>(settings.data()) + found->offset};
 }
 
-void set(scene::Scene& scene, const KnobOf& of, double value) {
-    const auto store = [&](std::string_view id, double number) {
+void store(scene::Scene& scene, const KnobOf& of, double number, int placing) {
+    const auto set = [&](std::string_view id, double value) {
         const Place place = placeOf(scene, of.table, id);
-        setComponent(*place.param, place.data, 0, number);
+        setComponent(*place.param, place.data, 0, value);
     };
-    store(of.knob->id, value);
-    if (!of.knob->tied.empty()) store(of.knob->tied, of.knob->factor * value);
+    set(of.knob->id, number);
+    if (!of.knob->tied.empty()) set(of.knob->tied, of.knob->factor * number);
+    if (!of.knob->placing.empty()) set(of.knob->placing, placing);
+}
+
+// Whether it is what a bake takes the place of.
+bool isOfEnvironment(const KnobOf& of) {
+    return of.table == views::samplingParams().name && of.knob->id == "directions";
 }
 
 bool covered(const Image& image, std::size_t pixel) { return image.pixels[4 * pixel + 3] > 0; }
 
-// RMSE over the mean of the finer picture, over what it covers.
-float differenceOf(const Image& coarse, const Image& fine) {
-    double squares = 0, mean = 0;
-    for (std::size_t i = 0; i < fine.pixels.size() / 4; ++i)
-        for (std::size_t c = 4 * i; c < 4 * i + 3 && covered(fine, i); ++c) {
-            const double d = double(coarse.pixels[c]) - double(fine.pixels[c]);
-            squares += d * d;
-            mean += double(fine.pixels[c]);
-        }
-    double count = 0;
-    for (std::size_t i = 0; i < fine.pixels.size() / 4; ++i)
-        count += covered(fine, i) ? 3 : 0;
-    return count > 0 && mean > 0 ? float(std::sqrt(squares / count) / (mean / count)) : 0;
+// About kSamplePixels in the picture's shape; odd numbers keep in step with few patterns.
+ivec2 sampleSizeFor(ivec2 size) {
+    const double aspect = double(size.x) / size.y;
+    return ivec2(int(std::sqrt(kSamplePixels * aspect)), int(std::sqrt(kSamplePixels / aspect))) | 1;
+}
+
+ivec2 trialSizeFor(ivec2 size) {
+    const float longer = float(std::max(size.x, size.y));
+    return glm::max(ivec2(vec2(size) * std::min(1.0f, float(Budget::kMostSide) / longer)), ivec2(1));
 }
 
 // Median angle between directions where both pictures know one and glass is seen, degrees.
@@ -88,139 +98,289 @@ void turnDown(scene::Scene& scene) {
     }
 }
 
-Budget::Budget(gl::Context& context) : context_(context) {}
+Budget::Budget(Renderer::State& of) : of_(of) {}
 Budget::~Budget() = default;
 
-// Those that have something to choose.
+// --- what there is to choose
+
+// What mostly keeps the exact picture comes before what never does, and leaves it its share of the error.
 std::vector<KnobOf> Budget::knobsOf(const scene::Scene& scene) const {
+    const std::vector<Guest*> guests = of_.needed(scene);
+    const bool shades =
+        std::any_of(guests.begin(), guests.end(), [&](const Guest* guest) { return guest->shades(scene); });
     std::vector<KnobOf> list = technique::knobs(scene);
-    std::erase_if(list, [this](const KnobOf& of) {
-        return of.knob->steps.empty() || (of.isSampling && leavesSampling_);
-    });
+    std::erase_if(
+        list, [&](const KnobOf& of) { return of.knob->steps.empty() || (isOfEnvironment(of) && !shades); });
+    std::stable_partition(list.begin(), list.end(), [](const KnobOf& of) { return of.knob->most > 0; });
     return list;
 }
 
+// Light itself, which may be found in several ways, not how one of them finds it.
 bool Budget::matters(const scene::Scene& scene) const {
-    return scene.view.show == scene::Aov::Color && !knobsOf(scene).empty();
+    const bool showsLight = scene.view.show == Aov::Color || scene.view.show == Aov::Illumination;
+    return showsLight && !knobsOf(scene).empty();
 }
 
-void Budget::start(const scene::Scene& scene, ivec2 size, bool dragged) {
+void Budget::start(const scene::Scene& scene, bool dragged) {
     limited_ = true;
-    if (dragged) return;
-    const float longer = float(std::max(size.x, size.y));
-    size_ = glm::max(ivec2(vec2(size) * std::min(1.0f, float(kMostSide) / longer)), ivec2(1));
-    turned_.clear();
-    for (const KnobOf& of : knobsOf(scene)) {
-        scene::Scene own = scene;
-        const Param& param = *placeOf(own, of.table, of.knob->id).param;
-        turned_.push_back({of, 0, of.knob->isExactAtMost ? param.max : of.knob->steps[0]});
+    dragged_ = dragged;
+    baker_ = nullptr;
+    if (!dragged) bake_ = Bake::None;
+    for (Guest* guest : of_.needed(scene)) {
+        scene::Scene baked = scene;
+        guest->setBake(baked, true);
+        if (!guest->bakes(baked)) continue;
+        baker_ = guest;
+        if (guest->isBaked(baked)) bake_ = Bake::Taken; // nothing is cheaper
     }
+    if (!dragged) {
+        begin(scene);
+    } else if (!done()) { // the last choice was never made
+        turned_.clear();
+        next_ = 0;
+        renderer_.reset();
+    }
+}
+
+void Budget::begin(const scene::Scene& scene) {
+    maxError_ = scene.quality.maxError;
+    turned_.clear();
+    for (const KnobOf& of : knobsOf(scene))
+        turned_.push_back({of,
+                           {of.knob->bends ? of.knob->most : of.knob->steps[0]},
+                           std::numeric_limits<float>::infinity()});
     next_ = 0;
-    finer_ = Image();
-    predicted_ = 0;
-    kept_ = true;
-    wanted_ = scene.quality.maxError / std::sqrt(float(std::max<std::size_t>(1, turned_.size())));
+    beginKnob();
 }
 
 void Budget::forget() {
     limited_ = false;
+    bake_ = Bake::None;
     turned_.clear();
     next_ = 0;
-    trial_.reset();
+    renderer_.reset();
+}
+
+// The next one that there is to try.
+void Budget::beginKnob() {
+    for (; !done() && isBaked() && isOfEnvironment(turned_[next_].of); ++next_)
+        turned_[next_].error = wanted(); // until it is known: admitsBake()
+    drawn_.clear();
+    covered_.reset();
+    size_ = ivec2(0);
+    isDrawing_ = false;
+    reference_ = 0;
+    if (done()) renderer_.reset();
+}
+
+// Of the knobs that are chosen.
+float Budget::predicted() const {
+    float squares = 0;
+    for (std::size_t i = 0; i < next_; ++i)
+        squares += turned_[i].error * turned_[i].error;
+    return std::sqrt(squares);
+}
+
+// Of the next knob: an even share of what those before it leave.
+float Budget::wanted() const {
+    const float all = maxError_ * maxError_, left = all - predicted() * predicted();
+    return std::sqrt((left > 0 ? left : all) / float(turned_.size() - next_));
+}
+
+void Budget::apply(scene::Scene& scene) const {
+    if (limited_ && done()) put(scene, nullptr, {});
+}
+
+// What is chosen, but for one knob that is tried.
+void Budget::put(scene::Scene& scene, const Turned* tried, Value value) const {
+    const bool bakes = tried && isOfEnvironment(tried->of) ? value.baked : isBaked();
+    for (const Guest* guest : of_.needed(scene))
+        guest->setBake(scene, bakes && guest == baker_);
+    for (const Turned& turned : turned_) {
+        if (bakes && isOfEnvironment(turned.of)) continue; // the scene's own are summed beside it
+        const Value& it = &turned == tried ? value : turned.value;
+        store(scene, turned.of, it.number, it.placing);
+    }
+}
+
+std::optional<Budget::Choice> Budget::choice() const {
+    if (turned_.empty() || !done()) return std::nullopt;
+    std::string text;
+    for (const Turned& turned : turned_) {
+        const Knob& knob = *turned.of.knob;
+        if (isBaked() && isOfEnvironment(turned.of)) {
+            text += std::string(baker_->bakeName()) + ", ";
+            continue;
+        }
+        text += shortest(turned.value.number) + " " + std::string(knob.words);
+        if (!knob.placings.empty())
+            text += " " + std::string(knob.placings[std::size_t(turned.value.placing)]);
+        text += ", ";
+    }
+    text += "error about " + shortest(std::round(predicted() * 1e4f) / 100) + " %";
+    const bool keeps = predicted() < 1.001f * maxError_; // but for rounding
+    return Choice{keeps ? text : text + ": nothing keeps the wanted error", predicted()};
+}
+
+// --- trials
+
+// @return whether it is drawn
+Result<bool> Budget::draw(const scene::Scene& scene, const Turned& turned, Trial trial) {
+    using Effort = Renderer::State::Effort;
+    static const views::Surroundings kNothing; // few pixels see nothing by way of others
+    if (drawn_.count(trial) > 0) return true;
+    if (!renderer_) {
+        renderer_ = std::make_unique<Renderer::State>(of_.context, &of_.supplies);
+        for (std::size_t i = 0; i < of_.members.size(); ++i)
+            renderer_->members[i].guest->shareBake(*of_.members[i].guest);
+    }
+    if (!isDrawing_) ++trials_;
+    isDrawing_ = true;
+    scene::Scene tried = scene;
+    put(tried, &turned, trial.value);
+    views::samplingOf(tried).pixelSamples = 1;
+    tried.view.show = trial.show;
+    renderer_->given = turned.of.knob->showsOnFew ? &kNothing : nullptr;
+    const Result<Progress> progress =
+        renderer_->advance(tried, trials_, size_, of_.atOnce ? Effort::Final : Effort::Unseen);
+    if (!progress) return progress.error();
+    if (!progress->complete) return false;
+    isDrawing_ = false;
+    Result<Image> image = renderer_->display(tried, true);
+    if (!image) return image.error();
+    drawn_[trial] = std::move(*image);
+    return true;
+}
+
+// Finds the pixels that show an object. @return whether they are known
+Result<bool> Budget::cover(const scene::Scene& scene, const Turned& turned) {
+    if (covered_) return true;
+    const bool few = turned.of.knob->showsOnFew;
+    if (size_.x == 0) size_ = few ? sampleSizeFor(of_.size) : trialSizeFor(of_.size);
+    const Trial depth{turned.value, Aov::Depth};
+    const Result<bool> isDrawn = draw(scene, turned, depth);
+    if (!isDrawn || !*isDrawn) return isDrawn;
+    covered_.emplace();
+    for (std::size_t i = 0; i < std::size_t(size_.x) * std::size_t(size_.y); ++i)
+        if (covered(drawn_.at(depth), i)) covered_->push_back(i);
+    if (!few || covered_->size() >= kFewestCovered || size_.x * 2 >= of_.size.x) return true;
+    size_ = size_ * 2 + 1;
+    covered_.reset();
+    drawn_.clear();
+    return false;
+}
+
+// RMSE over the mean of the finer picture.
+float Budget::differenceOf(const Image& coarse, const Image& fine) const {
+    double squares = 0, mean = 0;
+    for (const std::size_t pixel : *covered_)
+        for (std::size_t c = 4 * pixel; c < 4 * pixel + 3; ++c) {
+            const double d = double(coarse.pixels[c]) - double(fine.pixels[c]);
+            squares += d * d;
+            mean += double(fine.pixels[c]);
+        }
+    const double count = 3 * double(covered_->size());
+    return mean > 0 ? float(std::sqrt(squares / count) / (mean / count)) : 0;
+}
+
+// @return nothing while pictures are being drawn
+Result<std::optional<float>> Budget::errorOf(const scene::Scene& scene, const Turned& turned, Value tried,
+                                             Value finer) {
+    const Aov show = scene.view.show;
+    const bool bends = turned.of.knob->bends;
+    std::vector<Trial> trials{{finer, show}, {tried, show}};
+    if (bends)
+        trials.insert(trials.end(), {{finer, Aov::Direction}, {finer, Aov::Layers}, {tried, Aov::Direction}});
+    for (const Trial& trial : trials) {
+        const Result<bool> isDrawn = draw(scene, turned, trial);
+        if (!isDrawn) return isDrawn.error();
+        if (!*isDrawn) return std::optional<float>();
+    }
+    const auto picture = [&](std::size_t i) -> const Image& { return drawn_.at(trials[i]); };
+    if (bends && medianAngle(picture(4), picture(2), picture(3)) > kDegrees * maxError_)
+        return std::optional(std::numeric_limits<float>::infinity());
+    return std::optional(differenceOf(picture(1), picture(0)));
+}
+
+// What a number is held against: none that is nearly the same.
+Budget::Value Budget::finerThan(const Turned& turned, double number) {
+    const Knob& knob = *turned.of.knob;
+    if (knob.most == 0) return {knob.steps[turned.step + 1]};
+    // Its own error is a small part of the wanted one: error falls about as the number rises.
+    if (reference_ == 0)
+        reference_ = std::clamp(std::floor(6 * kSafety / double(maxError_)), knob.most / 32, knob.most);
+    if (reference_ < kFinerBy * number) reference_ = std::min(knob.most, 2 * kFinerBy * number);
+    return {reference_, std::max(0, int(knob.placings.size()) - 1)};
+}
+
+// What a bake costs at once, more and more directions would cost as well.
+bool Budget::isWorthBaking(const scene::Scene& scene, const Turned& turned) const {
+    if (!baker_ || bake_ != Bake::None || !isOfEnvironment(turned.of)) return false;
+    const double share = double(covered_->size()) / (double(size_.x) * size_.y);
+    const double pixels = share * of_.size.x * of_.size.y;
+    return turned.of.knob->steps[turned.step] > baker_->directionsForBake(scene, pixels);
 }
 
 Status Budget::step(const scene::Scene& scene) {
     Turned& turned = turned_[next_];
-    return turned.of.knob->isExactAtMost ? tryFewer(scene, turned) : tryNext(scene, turned);
-}
-
-// The scene with what is chosen so far; for trials, which keep no error themselves.
-scene::Scene Budget::trialOf(const scene::Scene& scene) const {
-    scene::Scene trial = scene;
-    apply(trial);
-    trial.quality.maxError = 0;
-    views::samplingOf(trial).pixelSamples = 1;
-    return trial;
-}
-
-void Budget::apply(scene::Scene& scene) const {
-    if (!limited_) return;
-    for (const Turned& turned : turned_)
-        set(scene, turned.of, turned.value);
-}
-
-Result<Image> Budget::draw(scene::Scene trial, scene::Aov show) {
-    if (!trial_) trial_ = std::make_unique<Renderer>(context_);
-    trial.view.show = show;
-    if (Status finished = trial_->finish(trial, ++trials_, size_); !finished) return finished.error();
-    return trial_->read(trial, show);
-}
-
-// A knob is as it stays; its error joins the others'.
-void Budget::finish(float error) {
-    predicted_ = std::sqrt(predicted_ * predicted_ + error * error);
-    if (error > wanted_) kept_ = false;
-    finer_ = Image();
-    if (++next_ == turned_.size()) trial_.reset();
-}
-
-Status Budget::tryNext(const scene::Scene& scene, Turned& turned) {
-    const auto& steps = turned.of.knob->steps;
-    if (finer_.pixels.empty()) {
-        Result<Image> image = draw(trialOf(scene), scene::Aov::Color);
-        if (!image) return image.error();
-        finer_ = std::move(*image);
-    }
-    scene::Scene finer = trialOf(scene);
-    set(finer, turned.of, steps[turned.step + 1]);
-    Result<Image> image = draw(std::move(finer), scene::Aov::Color);
-    if (!image) return image.error();
-    const float error = kFinerHas * differenceOf(finer_, *image);
-    if (error > wanted_ && turned.step + 2 < steps.size()) {
-        turned.value = steps[++turned.step];
-        finer_ = std::move(*image);
+    const Knob& knob = *turned.of.knob;
+    const Result<bool> isCovered = cover(scene, turned);
+    if (!isCovered) return isCovered.error();
+    if (!*isCovered) return Done{};
+    if (isWorthBaking(scene, turned)) {
+        bake_ = Bake::Taken;
+        beginKnob();
         return Done{};
     }
-    finish(error);
+    const double number = knob.steps[turned.step];
+    const Value finer = finerThan(turned, number);
+    const float factor = knob.most == 0 ? kFinerHas : knob.showsOnFew ? kSafety : 1;
+    float least = std::numeric_limits<float>::infinity();
+    for (int placing = 0; placing < std::max(1, int(knob.placings.size())); ++placing) {
+        const Result<std::optional<float>> error = errorOf(scene, turned, {number, placing}, finer);
+        if (!error) return error.error();
+        if (!*error) return Done{};
+        least = std::min(least, factor * **error);
+        if (least >= turned.error) continue;
+        turned.error = least;
+        turned.value = {number, placing};
+    }
+    const std::size_t last = knob.steps.size() - (knob.most == 0 ? 2 : 1);
+    if (least > wanted() && turned.step < last) {
+        // Samples by so many as are surely needed: error falls no faster than their square.
+        const double enough = knob.showsOnFew ? number * std::sqrt(double(least / wanted())) : number;
+        ++turned.step;
+        while (turned.step < last && knob.steps[turned.step] < enough)
+            ++turned.step;
+        return Done{};
+    }
+    ++next_;
+    beginKnob();
     return Done{};
 }
 
-// The most is the exact picture: what has fewer must keep the directions and the light.
-Status Budget::tryFewer(const scene::Scene& scene, Turned& turned) {
-    Image exact[3], fewer[2];
-    const scene::Aov shown[] = {scene::Aov::Color, scene::Aov::Direction, scene::Aov::Layers};
-    for (int i = 0; i < 3; ++i) {
-        Result<Image> image = draw(trialOf(scene), shown[i]);
-        if (!image) return image.error();
-        exact[i] = std::move(*image);
-    }
-    float kept = 0;
-    for (const double value : turned.of.knob->steps) {
-        scene::Scene trial = trialOf(scene);
-        set(trial, turned.of, value);
-        for (int i = 0; i < 2; ++i) {
-            Result<Image> image = draw(trial, shown[i]);
-            if (!image) return image.error();
-            fewer[i] = std::move(*image);
-        }
-        const float error = differenceOf(fewer[0], exact[0]),
-                    degrees = medianAngle(fewer[1], exact[1], exact[2]);
-        if (error > wanted_ || degrees > kDegrees * scene.quality.maxError) continue;
-        turned.value = value;
-        kept = error;
-        break;
-    }
-    finish(kept);
-    return Done{};
-}
-
-std::optional<technique::Chooser::Choice> Budget::choice() const {
-    if (turned_.empty() || !done()) return std::nullopt;
-    std::string text;
-    for (const Turned& turned : turned_)
-        text += shortest(turned.value) + " " + std::string(turned.of.knob->words) + ", ";
-    text += "error about " + shortest(std::round(predicted_ * 1e4f) / 100) + " %";
-    return Choice{kept_ ? text : text + ": nothing keeps the wanted error", predicted_};
+Result<bool> Budget::admitsBake(const scene::Scene& scene) {
+    if (!limited_ || dragged_ || bake_ != Bake::Taken) return true;
+    const auto turned = std::find_if(turned_.begin(), turned_.end(),
+                                     [](const Turned& one) { return isOfEnvironment(one.of); });
+    if (turned == turned_.end()) return true;
+    const Result<bool> isCovered = cover(scene, *turned);
+    if (!isCovered || !*isCovered) return isCovered;
+    // As fine as the sum of directions that it stands for.
+    const Value finer = finerThan(*turned, std::floor(3 * kSafety / double(maxError_)));
+    Value baked = turned->value;
+    baked.baked = true;
+    const Result<std::optional<float>> error = errorOf(scene, *turned, baked, finer);
+    if (!error) return error.error();
+    if (!*error) return false;
+    turned->error = **error;
+    const bool keeps = predicted() <= maxError_;
+    bake_ = keeps ? Bake::Kept : Bake::Refused;
+    if (keeps)
+        beginKnob();
+    else
+        begin(scene);
+    return keeps;
 }
 
 } // namespace lucent::frame

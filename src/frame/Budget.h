@@ -1,71 +1,117 @@
 #pragma once
-/// Which values of the techniques' knobs keep a wanted error at the least cost.
+/// Which values of the knobs keep a wanted error at the least cost.
 ///
-/// The very picture is drawn, no larger than kMostSide, with the cheapest value of a knob and then with the
-/// next ones, until what the finer one changes is small enough. Twice that change stands for the error: each
-/// step has four times as many samples, or twice as many rays a side, and halves the error at least where it
-/// falls with the square root of the samples and in proportion to the rays' distance.
+/// The very picture is drawn with the cheapest value of a knob and then with dearer ones, until the error
+/// that is left is small enough: the squares of all knobs' errors add up to the wanted one's. Light adds up,
+/// so each kind of light sample is tried beside the fewest of the others, on a few hundred pixels, against
+/// many more of its own. What a technique does hangs on the pixels: it is tried on pictures of up to
+/// kMostSide, against all that there is or against the next value. Twice that change stands for the error:
+/// each step has four times as many samples, or twice as many rays a side, and halves the error at least
+/// where it falls with the square root of the samples and in proportion to the rays' distance.
 
 #include "base/Image.h"
-#include "gl/Context.h"
+#include "frame/Renderer.h"
 #include "technique/Guest.h"
 #include "technique/Technique.h"
 
+#include <compare>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace lucent::frame {
 
-class Renderer;
-
 /// Turns every knob down to what a first look has.
 void turnDown(scene::Scene& scene);
 
-class Budget : public technique::Chooser {
+class Budget {
 public:
     static constexpr int kMostSide = 512; ///< pixels
     /// Median angle [degrees] between directions of refracted rays that an error of 1 stands for.
     static constexpr float kDegrees = 10;
 
-    explicit Budget(gl::Context& context);
-    ~Budget() override;
+    explicit Budget(Renderer::State& of);
+    ~Budget();
 
-    /// Whoever else chooses how finely lamps are sampled: then this one does not.
-    void leaveSampling(bool leave) { leavesSampling_ = leave; }
+    /// Whether any knob trades error for time in this scene.
+    bool matters(const scene::Scene& scene) const;
+    /// Begins anew for a scene with quality.maxError > 0 in which something matters().
+    ///
+    /// @param dragged  a quick look: there is no time, the last choice serves again
+    void start(const scene::Scene& scene, bool dragged);
+    /// The scene keeps no error: nothing is chosen any more.
+    void forget();
+    bool done() const { return next_ >= turned_.size(); }
+    /// Draws some of a trial.
+    Status step(const scene::Scene& scene);
+    /// Puts what is chosen into a scene's settings, when it is done().
+    void apply(scene::Scene& scene) const;
+    /// Whether what a guest has baked keeps the wanted error. If not, or while that is still being found out:
+    /// false; then the budget is not done() any more and goes on among directions, or is to be asked again.
+    Result<bool> admitsBake(const scene::Scene& scene);
 
-    bool matters(const scene::Scene& scene) const override;
-    void start(const scene::Scene& scene, ivec2 size, bool dragged) override;
-    void forget() override;
-    bool done() const override { return next_ >= turned_.size(); }
-    Status step(const scene::Scene& scene) override;
-    void apply(scene::Scene& scene) const override;
-    std::optional<Choice> choice() const override;
+    struct Choice {
+        std::string text;    ///< "16 samples a lamp, error about 0.8 %", for people
+        float predicted = 0; ///< RMSE over the mean
+    };
+    /// Nothing before it is done.
+    std::optional<Choice> choice() const;
 
 private:
+    struct Value {
+        double number = 0;
+        int placing = 0;
+        bool baked = false; ///< what a guest works out in place of the number
+        auto operator<=>(const Value&) const = default;
+    };
     struct Turned {
         technique::KnobOf of;
-        std::size_t step = 0; ///< of the knob's
-        double value = 0;     ///< that is chosen so far
+        Value value;          ///< the best so far,
+        float error;          ///< and its RMSE over the mean
+        std::size_t step = 0; ///< of the knob's, that is tried
     };
-    std::vector<technique::KnobOf> knobsOf(const scene::Scene& scene) const;
-    scene::Scene trialOf(const scene::Scene& scene) const;
-    Status tryNext(const scene::Scene& scene, Turned& turned);
-    Status tryFewer(const scene::Scene& scene, Turned& turned);
-    Result<Image> draw(scene::Scene trial, scene::Aov show);
-    void finish(float error);
+    struct Trial {
+        Value value;
+        scene::Aov show;
+        auto operator<=>(const Trial&) const = default;
+    };
+    /// Of the environment's light in place of directions; Taken: whether it keeps the error is not known yet.
+    enum class Bake { None, Taken, Kept, Refused };
 
-    gl::Context& context_;
-    std::unique_ptr<Renderer> trial_;
-    std::uint64_t trials_ = 0;
-    bool leavesSampling_ = false, limited_ = false;
+    std::vector<technique::KnobOf> knobsOf(const scene::Scene& scene) const;
+    void begin(const scene::Scene& scene);
+    void beginKnob();
+    bool isBaked() const { return bake_ == Bake::Taken || bake_ == Bake::Kept; }
+    float predicted() const;
+    float wanted() const;
+    void put(scene::Scene& scene, const Turned* tried, Value value) const;
+    Result<bool> draw(const scene::Scene& scene, const Turned& turned, Trial trial);
+    Result<bool> cover(const scene::Scene& scene, const Turned& turned);
+    float differenceOf(const Image& coarse, const Image& fine) const;
+    Result<std::optional<float>> errorOf(const scene::Scene& scene, const Turned& turned, Value tried,
+                                         Value finer);
+    Value finerThan(const Turned& turned, double number);
+    bool isWorthBaking(const scene::Scene& scene, const Turned& turned) const;
+
+    Renderer::State& of_;
+    bool limited_ = false;              ///< an error is to be kept
+    bool dragged_ = false;              ///< there is no time to choose
+    technique::Guest* baker_ = nullptr; ///< who can bake the environment's light
+    Bake bake_ = Bake::None;
+    float maxError_ = 0;
     std::vector<Turned> turned_;
     std::size_t next_ = 0; ///< of them
-    ivec2 size_{0};
-    float wanted_ = 0; ///< of each knob: their squares add up
-    Image finer_;      ///< of the value before: the next one's own picture
-    float predicted_ = 0;
-    bool kept_ = true; ///< false: nothing at hand keeps the wanted error
+
+    // the knob that is tried
+    std::unique_ptr<Renderer::State> renderer_;
+    std::uint64_t trials_ = 0;
+    bool isDrawing_ = false;
+    std::map<Trial, Image> drawn_;
+    ivec2 size_{0};                                   ///< of trials
+    std::optional<std::vector<std::size_t>> covered_; ///< pixels that show an object
+    double reference_ = 0;                            ///< how many samples numbers are held against
 };
 
 } // namespace lucent::frame

@@ -35,10 +35,7 @@ std::vector<std::string> Renderer::State::leftOut(const technique::Picture& pict
     else if (!scene.environment->enabled)
         lines.push_back("environment: switched off");
     if (scene.lights.empty()) lines.push_back("point and distant lights: the scene names none");
-    const bool chooses =
-        std::any_of(choosers.begin(), choosers.end(),
-                    [&](const technique::Chooser* chooser) { return chooser->matters(scene); });
-    if (scene.quality.maxError > 0 && !chooses)
+    if (scene.quality.maxError > 0 && !budget.matters(scene))
         lines.push_back("quality.maxError: no setting of this scene trades error for time");
     return lines;
 }
@@ -97,8 +94,8 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     for (const State::Member& member : s.members)
         member.guest->forgetRecorded();
 
-    const std::string chose = s.choiceText();
-    std::string text = chose.empty() ? "" : "quality.maxError chose\n  " + chose + "\n";
+    const auto choice = s.budget.choice();
+    std::string text = choice ? "quality.maxError chose\n  " + choice->text + "\n" : "";
     text += "techniques\n";
     for (const State::Member& member : s.members)
         if (const auto reason = member.technique->need(scene))

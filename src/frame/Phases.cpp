@@ -22,13 +22,10 @@ using views::hasEnvironment;
 
 Renderer::State::State(gl::Context& gl, Supplies* of)
     : context(gl), pool(gl.device()), own(of ? nullptr : std::make_unique<Supplies>(gl, pool)),
-      images((of ? *of : *own).images), waters((of ? *of : *own).waters), shadows((of ? *of : *own).shadows),
-      budget(gl) {
+      supplies(of ? *of : *own), images(supplies.images), waters(supplies.waters), shadows(supplies.shadows),
+      budget(*this) {
     for (const technique::Technique* technique : technique::all())
         members.push_back({technique, technique->make({context, pool, images})});
-    for (const Member& member : members)
-        if (technique::Chooser* chooser = member.guest->chooser()) choosers.push_back(chooser);
-    choosers.push_back(&budget);
 }
 
 // Quantities of a place, such as normals and counts, are those of the pixel's middle.

@@ -92,17 +92,16 @@ Result<technique::Balance> Renderer::balance(const scene::Scene& scene, std::str
 Stats Renderer::stats() const {
     Stats stats = state_->stats;
     stats.bytes = state_->context.device().textureBytes() + state_->context.device().indexBytes();
-    stats.settings = state_->choiceText();
-    stats.predicted = 0;
-    for (const technique::Chooser* chooser : state_->choosers)
-        if (const auto choice = chooser->choice())
-            stats.predicted = std::max(stats.predicted, double(choice->predicted));
+    const auto choice = state_->budget.choice();
+    stats.settings = choice ? choice->text : "";
+    stats.predicted = choice ? choice->predicted : 0;
     return stats;
 }
 
 void Renderer::release() {
     State& s = *state_;
     s.drop();
+    s.budget.forget();
     for (graph::Texture* texture : {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable,
                                     &s.through, &s.mean, &s.truth})
         *texture = graph::Texture();

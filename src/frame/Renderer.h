@@ -18,6 +18,8 @@
 
 namespace lucent::frame {
 
+class Budget;
+
 /// How far the picture is: many lights are summed over several slices of work, then the samples of the pixels
 /// one after the other.
 struct Progress {
@@ -107,6 +109,7 @@ public:
     void release();
 
 private:
+    friend class Budget;
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -93,12 +93,12 @@ struct Renderer::State {
     gl::Context& context;
     graph::TexturePool pool;
     std::unique_ptr<Supplies> own;
+    Supplies& supplies;
     views::ImageCache& images;
     views::Waters& waters;
     views::KeptShadows& shadows;
     std::vector<Member> members;
     Budget budget;
-    std::vector<technique::Chooser*> choosers; // the guests', then the budget
     graph::Texture surface, shownSurface, shown, sum, scratch, lightTable, through;
     graph::Texture mean;  // over the pixels' samples; none where each has one
     graph::Texture truth; // beside the picture
@@ -185,7 +185,6 @@ struct Renderer::State {
     // A quick look is not drawn again: the picture after it is.
     bool settled(Effort effort) const;
     int sliceEnd() const;
-    std::string choiceText() const;
 
     // Surroundings.cpp
     Status survey(const Moment& moment);

@@ -8,8 +8,6 @@ namespace lucent::frame {
 
 using graph::Format;
 using graph::TextureDesc;
-using technique::Bake;
-using technique::Chooser;
 using technique::Guest;
 
 namespace {
@@ -28,45 +26,28 @@ double now() {
 // The scene with what its error chose, and with all knobs turned down for a first look.
 scene::Scene Renderer::State::chosen(const scene::Scene& scene) const {
     scene::Scene used = scene;
-    for (const Chooser* chooser : choosers)
-        chooser->apply(used);
+    budget.apply(used);
     if (isCoarse()) turnDown(used);
     return used;
 }
 
-// What quality.maxError chose, for people.
-std::string Renderer::State::choiceText() const {
-    std::string text;
-    for (const Chooser* chooser : choosers)
-        if (const auto choice = chooser->choice()) text += (text.empty() ? "" : "; ") + choice->text;
-    return text;
-}
-
-// Whoever trades error for time begins to choose, where there is an error to keep.
+// Begins to choose, where there is an error to keep; who draws for others keeps none.
 void Renderer::State::startChoosing(const scene::Scene& scene) {
-    const bool limited = scene.quality.maxError > 0;
-    budget.leaveSampling(std::any_of(choosers.begin(), choosers.end() - 1,
-                                     [&](const Chooser* chooser) { return chooser->matters(scene); }));
-    for (Chooser* chooser : choosers) {
-        if (limited && chooser->matters(scene))
-            chooser->start(scene, size, dragged);
-        else
-            chooser->forget();
-    }
-    planning = !dragged && std::any_of(choosers.begin(), choosers.end(),
-                                       [](const Chooser* chooser) { return !chooser->done(); });
+    if (own && scene.quality.maxError > 0 && budget.matters(scene))
+        budget.start(scene, dragged);
+    else
+        budget.forget();
+    planning = !dragged && !budget.done();
 }
 
 // Chooses for one slice of time, and goes on with the settings when they are known.
 Status Renderer::State::plan(const scene::Scene& scene) {
     const double before = now();
-    for (Chooser* chooser : choosers)
-        while (!chooser->done() && now() - before < kSliceMs)
-            if (Status stepped = chooser->step(scene); !stepped) return stepped;
+    while (!budget.done() && now() - before < kSliceMs)
+        if (Status stepped = budget.step(scene); !stepped) return stepped;
     workMs += now() - before;
     planMs += now() - before;
-    planning = std::any_of(choosers.begin(), choosers.end(),
-                           [](const Chooser* chooser) { return !chooser->done(); });
+    planning = !budget.done();
     if (planning) return Done{};
     addStages(scene, Effort::Final, true);
     startStage(scene);
@@ -123,7 +104,8 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool l
     const int directions = isLit && shades && hasEnvironment(scene) ? views::samplingOf(used).directions : 0;
     Guest* const bakes = isLit ? baker(used) : nullptr;
     const bool isThere = bakes && bakes->isBaked(used);
-    const bool coarsens = directions > 2 * kFirstStage || bakes || !technique::knobs(scene).empty();
+    const bool turns = technique::knobs(scene).size() > (hasEnvironment(scene) ? 1 : 0); // not its directions
+    const bool coarsens = directions > 2 * kFirstStage || bakes || turns;
     const bool limited = scene.quality.maxError > 0 && dragged; // not as exact as is asked for
     const bool isShown = effort == Effort::Coarse || effort == Effort::Progressive;
     const bool hasLook = isLit && !isThere && isShown && (coarsens || limited);
@@ -216,14 +198,12 @@ Result<bool> Renderer::State::ready(const Moment& moment) {
     Guest* const guest = stages[stage].baked ? baker(moment.scene) : nullptr;
     if (!guest || sample > 0) return true; // the first sample has waited for it
     const double before = now();
-    const Result<Bake> bake = guest->bake(pictureOf(moment), kSliceMs);
+    Result<bool> isThere = guest->bake(pictureOf(moment), kSliceMs);
+    if (isThere && *isThere) isThere = budget.admitsBake(moment.scene);
     workMs += now() - before;
-    if (!bake) return bake.error();
-    if (*bake == Bake::Refused) {
-        planning = true;
-        stages.resize(stage);
-    }
-    return *bake == Bake::Ready;
+    planning = !dragged && !budget.done(); // again, where it does not keep the error
+    if (planning) stages.resize(stage);
+    return isThere;
 }
 
 Status Renderer::State::slice(const scene::Scene& scene) {

@@ -114,7 +114,7 @@ Status Renderer::State::survey(const Moment& moment) {
     beyondFlat.further = 0; // a flat mirror was the first
     if (surroundings.cubes.empty() && surroundings.flat.empty()) elsewhere.reset();
     if (asides.empty()) return Done{};
-    if (!elsewhere) elsewhere = std::make_unique<State>(context, own.get());
+    if (!elsewhere) elsewhere = std::make_unique<State>(context, &supplies);
     return Done{};
 }
 

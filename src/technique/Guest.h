@@ -63,40 +63,6 @@ struct Slice {
     bool clears;             ///< nobody has drawn into the target yet
 };
 
-/// How far a bake is.
-enum class Bake {
-    Working,
-    Ready,
-    Refused ///< it would not keep quality.maxError: the guest's chooser has something to choose again
-};
-
-/// Chooses the cheapest settings that keep quality.maxError, over several slices of time.
-class Chooser {
-public:
-    virtual ~Chooser() = default;
-
-    /// Whether any setting trades error for time in this scene.
-    virtual bool matters(const scene::Scene& scene) const = 0;
-    /// Begins anew for a scene with quality.maxError > 0 in which something matters().
-    ///
-    /// @param dragged  a quick look: there is no time, the last choice serves again
-    virtual void start(const scene::Scene& scene, ivec2 size, bool dragged) = 0;
-    /// The scene keeps no error: nothing is chosen any more.
-    virtual void forget() = 0;
-    virtual bool done() const = 0;
-    /// Draws a trial or two.
-    virtual Status step(const scene::Scene& scene) = 0;
-    /// Puts what is chosen so far into a scene's settings.
-    virtual void apply(scene::Scene& scene) const = 0;
-
-    struct Choice {
-        std::string text;    ///< "16 samples a lamp, error about 0.8 %", for people
-        float predicted = 0; ///< RMSE over the mean
-    };
-    /// Nothing before it is done.
-    virtual std::optional<Choice> choice() const = 0;
-};
-
 /// Parts of a sum with their names, W of each colour, the whole first.
 using Balance = std::vector<std::pair<std::string, dvec3>>;
 
@@ -120,10 +86,18 @@ public:
     virtual bool isBaked(const scene::Scene&) const { return false; }
     /// Directions of the environment that are summed beside it.
     virtual int directionsBesideBake(const scene::Scene&) const { return 0; }
-    /// Works on it for about so long.
-    virtual Result<Bake> bake(const Picture&, double) { return Bake::Ready; }
+    /// Works on it for about so long. @return whether it is there
+    virtual Result<bool> bake(const Picture&, double) { return true; }
     /// Finished part of that work, [0,1].
     virtual float bakedShare() const { return 1; }
+    /// Sets a scene to that, or to the exact sum over light samples.
+    virtual void setBake(scene::Scene&, bool) const {}
+    /// How many directions of the environment, summed on so many pixels, cost as much.
+    virtual double directionsForBake(const scene::Scene&, double /*pixels*/) const { return 0; }
+    /// "transfer"
+    virtual std::string_view bakeName() const { return ""; }
+    /// Takes what the guest of the same technique in another renderer has worked out.
+    virtual void shareBake(const Guest&) {}
 
     // --- phases
 
@@ -169,9 +143,6 @@ public:
     virtual std::map<std::string, std::size_t> bytes() const { return {}; }
     /// Gives back what is kept between pictures.
     virtual void clear() {}
-
-    /// Of this technique alone; null: its knobs say all.
-    virtual Chooser* chooser() { return nullptr; }
 };
 
 } // namespace lucent::technique

@@ -6,6 +6,31 @@
 
 namespace lucent::technique {
 
+namespace {
+
+// Steps of a factor of the fourth root of two.
+constexpr double kCounts[] = {1,   2,   3,   4,   5,   6,   7,   8,    10,   11,   13,   16,  19,  23,
+                              27,  32,  38,  45,  54,  64,  76,  91,   108,  128,  152,  181, 215, 256,
+                              304, 362, 431, 512, 609, 724, 861, 1024, 1218, 1448, 1722, 2048};
+constexpr std::string_view kPlacings[] = {"evenly", "by importance"}; // views::EnvironmentSampling
+constexpr Knob kLamps{.id = "lampSamples",
+                      .coarse = 4,
+                      .steps = std::span(kCounts).first(28),
+                      .most = 1024,
+                      .showsOnFew = true,
+                      .words = "samples a lamp"};
+// First looks grow by directions, whatever the scene's number is.
+constexpr Knob kDirections{.id = "directions",
+                           .coarse = 65536,
+                           .steps = std::span(kCounts).subspan(7),
+                           .most = 4096,
+                           .showsOnFew = true,
+                           .words = "directions",
+                           .placing = "environmentSampling",
+                           .placings = kPlacings};
+
+} // namespace
+
 const Technique* find(std::string_view name) {
     const auto found = std::find_if(all().begin(), all().end(),
                                     [name](const Technique* technique) { return technique->name == name; });
@@ -27,11 +52,10 @@ bool acts(const scene::Scene& scene, std::string_view table, std::string_view id
 }
 
 std::vector<KnobOf> knobs(const scene::Scene& scene) {
-    static constexpr double kLampSamples[] = {1, 4, 16, 64, 256};
-    static constexpr Knob kLamps{
-        .id = "lampSamples", .coarse = 4, .steps = kLampSamples, .words = "samples a lamp"};
+    const std::string_view table = views::samplingParams().name;
     std::vector<KnobOf> list;
-    if (views::hasLargeLamp(scene)) list.push_back({views::samplingParams().name, &kLamps, true});
+    if (views::hasLargeLamp(scene)) list.push_back({table, &kLamps});
+    if (views::hasEnvironment(scene)) list.push_back({table, &kDirections});
     for (const Technique* technique : all())
         if (technique->need(scene))
             for (const Knob& knob : technique->knobs)

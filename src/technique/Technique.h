@@ -24,20 +24,23 @@ struct Knob {
     std::string_view id;                ///< in the technique's table
     double coarse;                      ///< of a first look, unless the scene's own is cheaper
     bool costsLess = false;             ///< greater values cost less
-    std::span<const double> steps = {}; ///< cheapest first; the last one is only drawn to be compared with.
-                                        ///< Empty: only first looks turn it
-    bool isExactAtMost = false;  ///< the table's maximum is the exact picture, in place of the next step
-    std::string_view words = ""; ///< "rays a side"
-    std::string_view tied = "";  ///< another parameter, which is
-    double factor = 1;           ///< so many times this one
-    bool (*acts)(const scene::Scene&) = nullptr; ///< null: wherever the technique is needed
+    std::span<const double> steps = {}; ///< cheapest first; empty: only first looks turn it
+    double most = 0;         ///< each step is held against finer ones up to this, and the last may be chosen;
+                             ///< 0: each against the next, and the last is only drawn for that
+    bool showsOnFew = false; ///< its error is the same on a few hundred pixels of the picture
+    bool bends = false;      ///< refracted rays must keep their directions too
+    std::string_view words = "";                     ///< "rays a side"
+    std::string_view tied = "";                      ///< another parameter, which is
+    double factor = 1;                               ///< so many times this one
+    std::string_view placing = "";                   ///< another parameter, whose choices are tried each,
+    std::span<const std::string_view> placings = {}; ///< and words for them; the last is the nearest
+    bool (*acts)(const scene::Scene&) = nullptr;     ///< null: wherever the technique is needed
 };
 
 /// A knob and the table of parameters in which its own lies.
 struct KnobOf {
     std::string_view table;
     const Knob* knob;
-    bool isSampling = false; ///< of the light samples, which no technique owns
 };
 
 /// What a technique leaves out of a picture.

@@ -17,24 +17,61 @@ struct Budget : support::ReliefTest {
         return support::difference(image, exact).rms / mean;
     }
     static scene::Scene bumps() { return sceneOf(support::noise({64, 64}), 0.2f, 0.03f); }
+    // A board of one kind of material that fills the picture, and a post that keeps light from it.
+    template <class Kind>
+    static scene::Scene post(Kind kind) {
+        scene::Scene scene = bumps();
+        scene.objects[0].shape = scene::Box{{1.5f, 1.5f, 0.1f}};
+        scene.objects[0].material.kind = kind;
+        scene.objects.push_back(scene.objects[0]);
+        scene.objects[1].name = "post";
+        scene.objects[1].shape = scene::Box{{0.2f, 0.2f, 0.5f}};
+        return scene;
+    }
+    static void light(scene::Scene& scene) {
+        scene.environment.emplace();
+        scene.environment->map = std::make_shared<const Image>(scene::proceduralEnvironment("direction"));
+    }
+    void expectKept(scene::Scene scene, std::initializer_list<float> errors) {
+        views::samplingOf(scene).directions = 2048;
+        views::samplingOf(scene).lamp = 1024;
+        const Image exact = render(scene, scene::Aov::Color);
+        int lightsBefore = 0;
+        for (const float wanted : errors) {
+            scene.quality.maxError = wanted;
+            Renderer renderer(*context);
+            ASSERT_TRUE(renderer.finish(scene, 1, scene.size));
+            const Stats stats = renderer.stats();
+            EXPECT_LE(relativeError(*renderer.read(scene, scene::Aov::Color), exact), wanted)
+                << stats.settings;
+            EXPECT_LE(stats.predicted, wanted);
+            EXPECT_GT(stats.lights, lightsBefore) << stats.settings;
+            EXPECT_LT(stats.lights, 1024) << stats.settings;
+            lightsBefore = stats.lights;
+        }
+    }
 };
 
 TEST_F(Budget, KeepsTheErrorAndTakesFewerLightsForALargerOne) {
     auto scene = bumps();
-    scene.environment.emplace();
-    scene.environment->map = std::make_shared<const Image>(scene::proceduralEnvironment("direction"));
-    views::samplingOf(scene).directions = 2048;
-    const Image exact = render(scene, scene::Aov::Color);
-    int lightsBefore = 0;
-    for (float wanted : {0.1f, 0.03f, 0.01f}) {
-        scene.quality.maxError = wanted;
-        Renderer renderer(*context);
-        ASSERT_TRUE(renderer.finish(scene, 1, scene.size));
-        EXPECT_LE(relativeError(*renderer.read(scene, scene::Aov::Color), exact), wanted);
-        EXPECT_GT(renderer.stats().lights, lightsBefore);
-        EXPECT_LE(renderer.stats().predicted, wanted);
-        lightsBefore = renderer.stats().lights;
-    }
+    light(scene);
+    expectKept(scene, {0.1f, 0.03f, 0.01f});
+}
+
+TEST_F(Budget, ChoosesDirectionsForMattShapesToo) {
+    auto scene = post(scene::Matt{});
+    light(scene);
+    expectKept(scene, {0.2f, 0.03f});
+}
+
+TEST_F(Budget, ChoosesForALampAndAnEnvironmentTogether) {
+    auto scene = post(scene::Matt{});
+    light(scene);
+    scene::PointLight lamp;
+    lamp.position = {0.6f, 0.4f, 0.7f};
+    lamp.radius = 0.2f;
+    scene.lights.push_back(lamp);
+    expectKept(scene, {0.2f, 0.04f});
 }
 
 TEST_F(Budget, CountsThePointsOfALargeLamp) {

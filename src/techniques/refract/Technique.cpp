@@ -278,12 +278,13 @@ private:
 constexpr Aov kAovs[] = {Aov::Direction,  Aov::Layers,      Aov::Lost,
                          Aov::LayerDepth, Aov::LayerNormal, Aov::LayerObject};
 constexpr Group kFirst[] = {Group::Mode, Group::Refraction, Group::View, Group::Environment};
-constexpr double kLayers[] = {2, 4, 8, 16};
+constexpr double kLayers[] = {2, 4, 8, 16, views::kMostLayers};
 constexpr technique::Knob kKnobs[] = {
     {.id = "maxLayers",
      .coarse = views::kMostLayers,
      .steps = kLayers,
-     .isExactAtMost = true,
+     .most = views::kMostLayers,
+     .bends = true,
      .words = "layers"},
 };
 

@@ -61,10 +61,6 @@ public:
 
     /// What each light, or the environment, counts in means over the lights: one over their number.
     static float shareOfLight(const scene::Scene& scene);
-    /// More lights than these go into several slices: llvmpipe ends a shader's loops, without a word, after
-    /// 65535 rounds in all, and no draw should hold a desktop up.
-    static constexpr int kMostLightsAtOnce = 64;
-
     /// Adds the light of one slice to the sum.
     Status record(graph::FrameGraph& graph, const Inputs& in, const Settings& settings) const;
 

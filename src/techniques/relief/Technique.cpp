@@ -1,18 +1,24 @@
 #include "technique/Technique.h"
 
 #include "technique/Guest.h"
-#include "techniques/relief/Budget.h"
 #include "techniques/relief/Relief.h"
 #include "techniques/relief/Transfers.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace lucent::relief {
 
 namespace {
 
 using scene::Aov;
-using technique::Bake;
+
+// A transfer may take this part of the wanted error on the texels it was tried on: between texels, on half
+// floats and for a finite number of directions it errs a little more.
+constexpr float kTransferShare = 0.8f;
+// A transfer that keeps less is rare, and finding that out costs more than directions do: lucent bench
+// environment.
+constexpr float kTransferReach = 0.005f;
 
 const Settings& settingsOf(const scene::Scene& scene) { return scene.technique.at("relief").as<Settings>(); }
 
@@ -39,8 +45,7 @@ bool standsAlone(const scene::Scene& scene) {
 class ReliefGuest : public technique::Guest {
 public:
     explicit ReliefGuest(const technique::Store& store)
-        : pool_(store.pool), relief_(store.context), transfers_(store.context),
-          budget_(store, relief_, transfers_) {}
+        : pool_(store.pool), relief_(store.context), transfers_(std::make_shared<Transfers>(store.context)) {}
 
     // The environment, once for all pictures of a field.
 
@@ -49,26 +54,36 @@ public:
                showsLight(scene) && standsAlone(scene);
     }
     bool isBaked(const scene::Scene& scene) const override {
-        return transfers_.ready(scene, settingsOf(scene));
+        return transfers_->ready(scene, settingsOf(scene));
     }
     // Walls have no texels.
     int directionsBesideBake(const scene::Scene& scene) const override {
         return seesWalls(scene) ? views::samplingOf(scene).directions : 0;
     }
-    Result<Bake> bake(const technique::Picture& picture, double milliseconds) override {
+    Result<bool> bake(const technique::Picture& picture, double milliseconds) override {
         const Settings& settings = settingsOf(picture.scene);
         const std::vector<views::DrawnField> fields = fieldsOf(visible(picture.drawables));
-        const Result<bool> ready = transfers_.make(pool_, fields, settings, milliseconds);
-        if (!ready) return ready.error();
-        if (!*ready) return Bake::Working;
-        transfers_.light(picture.scene, picture.eye, fields, settings,
-                         Budget::kTransferShare * picture.scene.quality.maxError);
-        const Result<bool> keeps = budget_.admitsTransfer(
-            picture.scene, [this](graph::FrameGraph& graph) { return transfers_.record(graph); });
-        if (!keeps) return keeps.error();
-        return *keeps ? Bake::Ready : Bake::Refused;
+        const Result<bool> ready = transfers_->make(pool_, fields, settings, milliseconds);
+        if (ready && *ready)
+            transfers_->light(picture.scene, picture.eye, fields, settings,
+                              kTransferShare * picture.scene.quality.maxError);
+        return ready;
     }
-    float bakedShare() const override { return transfers_.share(); }
+    float bakedShare() const override { return transfers_->share(); }
+    void setBake(scene::Scene& scene, bool baked) const override {
+        auto& settings = *static_cast<Settings*>(scene.technique.at("relief").data());
+        settings.method = baked ? Method::Transfer : Method::Hierarchy;
+        if (baked) settings.terms = kMostTerms;
+    }
+    double directionsForBake(const scene::Scene& scene, double pixels) const override {
+        if (scene.quality.maxError < kTransferReach) return std::numeric_limits<double>::infinity();
+        double rays = 0;
+        for (const scene::Object& object : scene.objects)
+            if (object.visible && object.isField()) rays += transferRays(object.field().texels(), kMostTerms);
+        return rays / pixels;
+    }
+    std::string_view bakeName() const override { return "transfer"; }
+    void shareBake(const Guest& of) override { transfers_ = static_cast<const ReliefGuest&>(of).transfers_; }
 
     // Every light sample, through the solid.
 
@@ -81,7 +96,7 @@ public:
         const std::vector<views::DrawnField> fields = fieldsOf(visible(picture.drawables));
         std::vector<Transferred> transferred;
         if (slice.baked && slice.first == 0) {
-            Result<std::vector<Transferred>> recorded = transfers_.record(passes.graph);
+            Result<std::vector<Transferred>> recorded = transfers_->record(passes.graph);
             if (!recorded) return recorded.error();
             transferred = std::move(*recorded);
         } else if (slice.baked) {
@@ -117,17 +132,15 @@ public:
         return {"alpha: no object has an alpha image"};
     }
     std::map<std::string, std::size_t> bytes() const override {
-        if (transfers_.bytes() == 0) return {};
-        return {{"relief.coefficients, the transfers of all objects", transfers_.bytes()}};
+        if (transfers_->bytes() == 0) return {};
+        return {{"relief.coefficients, the transfers of all objects", transfers_->bytes()}};
     }
-    void clear() override { transfers_.clear(); }
-    technique::Chooser* chooser() override { return &budget_; }
+    void clear() override { transfers_->clear(); }
 
 private:
     graph::TexturePool& pool_;
     Relief relief_;
-    Transfers transfers_;
-    Budget budget_;
+    std::shared_ptr<Transfers> transfers_;
 };
 
 constexpr Aov kAovs[] = {Aov::Illumination, Aov::Visibility, Aov::Iterations};

@@ -18,7 +18,7 @@ inline Settings& settingsOf(scene::Scene& scene) {
 std::vector<measure::HardCase> hardCases(bool quick);
 
 /// Ten kinds of fields under six kinds of light, against 8192 directions and 1024 samples a lamp, summed
-/// exactly: half an hour. The sample size and the safety of relief/Budget were chosen on smooth noise under a
+/// exactly: half an hour. The sample size and the safety of frame/Budget were chosen on smooth noise under a
 /// sky and one light probe, which are not among them.
 Result<measure::Proof> proveBudget(const measure::BenchRun& run);
 
