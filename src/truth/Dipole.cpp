@@ -1,5 +1,10 @@
 #include "truth/Dipole.h"
 
+#include "truth/EnteredLight.h"
+#include "truth/Interface.h"
+#include "truth/LampRays.h"
+#include "truth/Photons.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -195,6 +200,42 @@ private:
     double most_; ///< m: the body's extent
 };
 
+/// Each pixel's light is estimated so many times.
+constexpr int kBeginnings = 8;
+/// Caustics that enter a body, for each of these estimates the light of rays of its own.
+using Caustics = std::array<EnteredLight, kBeginnings>;
+
+/// Follows rays of light to all bodies of a scene.
+std::vector<Caustics> causticsOn(const Bodies& bodies, const Illumination& illumination,
+                                 const DipoleOptions& options) {
+    std::vector<Caustics> all(bodies.all().size());
+    const LampRays rays(bodies.optics(), illumination, Branching::Chain);
+    if (!rays.exist()) return all;
+    const int count = options.rays / kBeginnings;
+    for (std::size_t beginning = 0; beginning < kBeginnings; ++beginning) {
+        std::vector<std::vector<LightEntry>> entries(all.size());
+        const auto enter = [&](const Arrival& arrival, const dvec3& flux) {
+            const Body* body = arrival.at == Arrival::At::Opaque ? bodies.of(arrival.hit.shape) : nullptr;
+            if (!body || glm::dot(arrival.hit.normal, arrival.direction) >= 0) return;
+            const dvec3 normal = normalTowards(arrival.hit, -arrival.direction);
+            const double cosine = std::clamp(-glm::dot(normal, arrival.direction), 0.0, 1.0);
+            const Paint paint = body->paintAt(arrival.hit.position);
+            const double transmitted = 1 - reflectance(cosine, 1 / body->surfaceIor);
+            entries[std::size_t(body - bodies.all().data())].push_back(
+                {arrival.hit.position, normal,
+                 flux * arrival.weight * paint.translucency * paint.entering * (transmitted / count),
+                 paint.sharpness});
+        };
+        for (int i = 0; i < count; ++i) {
+            Random random(options.seed, kPhotonStream, beginning * std::size_t(count) + std::size_t(i));
+            rays.follow(random, enter);
+        }
+        for (std::size_t body = 0; body < all.size(); ++body)
+            all[body][beginning] = EnteredLight(std::move(entries[body]));
+    }
+    return all;
+}
+
 /// Lines through a body on which places are looked for: close to one place along its normal and across, or
 /// anywhere along the world's axes.
 class Lines {
@@ -261,15 +302,29 @@ struct DipoleEstimator::State {
     Illumination illumination;
     Surroundings surroundings;
     std::vector<Responses> responses; ///< of each body
+    std::vector<Caustics> caustics;   ///< on each body
 
+    std::size_t numberOf(const Body& body) const { return std::size_t(&body - bodies->all().data()); }
     dvec3 sample(const Body& body, const dvec3& to, const Lines& lines, const Lines::Family& family,
                  WorldRay line, Random& random) const;
+    dvec3 ofCaustics(std::size_t body, std::size_t beginning, const dvec3& to) const;
 };
+
+/// What caustics that entered a body send to a place.
+dvec3 DipoleEstimator::State::ofCaustics(std::size_t body, std::size_t beginning, const dvec3& to) const {
+    dvec3 sum(0);
+    caustics[body][beginning].visit(to, [&](const LightEntry& entry) {
+        for (int c = 0; c < 3; ++c)
+            if (const Response& color = responses[body].colors[std::size_t(c)]; !color.isDark())
+                sum[c] += entry.flux[c] * color.at(entry.place, entry.normal, to, entry.sharpness);
+    });
+    return sum;
+}
 
 /// What the places on one line of a family send to a place, by the area that each counts.
 dvec3 DipoleEstimator::State::sample(const Body& body, const dvec3& to, const Lines& lines,
                                      const Lines::Family& family, WorldRay line, Random& random) const {
-    const Responses& own = responses[std::size_t(&body - bodies->all().data())];
+    const Responses& own = responses[numberOf(body)];
     dvec3 sum(0);
     for (Hits hits = body.alone.coincidentHits(line); hits.count > 0;
          hits = body.alone.coincidentHits(line)) {
@@ -307,9 +362,10 @@ Result<DipoleEstimator> DipoleEstimator::create(const scene::Scene& scene, ivec2
     std::vector<Responses> responses;
     for (const Body& body : bodies->all())
         responses.emplace_back(body, options);
-    return DipoleEstimator(std::make_unique<State>(State{options, Eye(scene.camera, size), size,
-                                                         std::move(bodies), std::move(illumination),
-                                                         std::move(*surroundings), std::move(responses)}));
+    std::vector<Caustics> caustics = causticsOn(*bodies, illumination, options);
+    return DipoleEstimator(std::make_unique<State>(
+        State{options, Eye(scene.camera, size), size, std::move(bodies), std::move(illumination),
+              std::move(*surroundings), std::move(responses), std::move(caustics)}));
 }
 
 const Bodies& DipoleEstimator::bodies() const { return *state_->bodies; }
@@ -318,14 +374,13 @@ Estimate DipoleEstimator::radiosity(const Body& body, const Hit& hit, std::uint6
     // Steps of an even sequence in a square: powers of the root of x³ = x + 1 (Roberts 2018).
     constexpr double kRoot = 1.324717957244746;
     const dvec2 step(1 / kRoot, 1 / (kRoot * kRoot));
-    constexpr int kBeginnings = 8;
-    const Lines lines(hit.position, hit.normal,
-                      state_->responses[std::size_t(&body - state_->bodies->all().data())],
-                      body.alone.around(0), (state_->options.samples + kBeginnings - 1) / kBeginnings);
+    const std::size_t own = state_->numberOf(body);
+    const Lines lines(hit.position, hit.normal, state_->responses[own], body.alone.around(0),
+                      (state_->options.samples + kBeginnings - 1) / kBeginnings);
     Estimate estimate;
-    for (int beginning = 0; beginning < kBeginnings; ++beginning) {
-        Random random(state_->options.seed, number, std::uint64_t(beginning));
-        dvec3 sum(0);
+    for (std::size_t beginning = 0; beginning < kBeginnings; ++beginning) {
+        Random random(state_->options.seed, number, beginning);
+        dvec3 sum = state_->ofCaustics(own, beginning, hit.position);
         for (const Lines::Family& family : lines.families()) {
             const dvec2 first = random.nextPair();
             for (int i = 0; i < family.count; ++i) {

@@ -34,6 +34,7 @@ struct DipoleOptions {
     DipoleGeometry geometry = DipoleGeometry::Planar;
     bool normalisedExit = true; ///< false: L = B F_t(w) / pi, as the papers have it, which loses light
     int samples = 256;          ///< lines on which light may enter, of each pixel; kFewest at least
+    int rays = 400'000;         ///< of light that enters by way of glass, water and mirrors; 0: none does
     std::uint64_t seed = 0;
 
     static constexpr int kFewest = 48;
@@ -44,7 +45,8 @@ struct DipoleOptions {
 /// B(x_o) = integral of R_d(x_i, x_o) E(x_i) dA(x_i), and L = B F_t(w) / (pi mean F_t).
 ///
 /// E is what lamps and environment send to x_i past everything that stands in their way, the object itself
-/// and refractive objects included, times the share that a smooth boundary lets through. R_d is
+/// and refractive objects included, and caustics (LampRays), times the share that a smooth boundary lets
+/// through. R_d is
 ///
 /// - Dipole: alpha' / (4 pi) sum of z (sigma_tr + 1/d) e^(-sigma_tr d) / d² over the depths z_r = 1 /
 /// sigma_t' and
@@ -62,9 +64,9 @@ struct DipoleOptions {
 /// share 1 - t of the surface is matt.
 ///
 /// Light that is scattered once only or not at all is in none of them: the papers leave it out. Nor is light
-/// that objects send each other after scattering, nor that of caustics. Where the surface is not closed only
-/// its outside, where normals point, takes and gives light. The color has the highlights of the surface
-/// (Facets).
+/// that objects send each other after scattering, nor that of caustics on all else. Where the surface is not
+/// closed only its outside, where normals point, takes and gives light. The color has the highlights of the
+/// surface (Facets).
 ///
 /// Places are chosen by chance on lines through the object: two thirds of them along three axes around x_o,
 /// at distances from it as R_d has them without absorption (King et al. 2013), the others anywhere along the

@@ -200,9 +200,9 @@ private:
 
 Result<std::unique_ptr<RayCaster>> findByEmbree(const std::vector<Entry>& entries, const dvec3& middle,
                                                 double room) {
-    auto finder = std::make_unique<EmbreeRayCaster>(entries, middle, room);
-    if (Status built = finder->build(); !built) return built.error();
-    return std::unique_ptr<RayCaster>(std::move(finder));
+    auto caster = std::make_unique<EmbreeRayCaster>(entries, middle, room);
+    if (Status built = caster->build(); !built) return built.error();
+    return std::unique_ptr<RayCaster>(std::move(caster));
 }
 
 } // namespace lucent::truth

@@ -2,6 +2,7 @@
 
 #include "truth/Estimate.h"
 #include "truth/Glass.h"
+#include "truth/LampRays.h"
 #include "truth/Lamps.h"
 #include "truth/Photons.h"
 #include "truth/SeenPlaces.h"
@@ -61,16 +62,10 @@ class Tracer {
 public:
     Tracer(const Optics& optics, const Illumination& illumination, const Eye& eye, ivec2 size,
            const LightOptions& options, const SeenPlaces* indirectly)
-        : optics_(optics), indirectly_(indirectly), lamps_(illumination.lamps()), eye_(eye), size_(size),
-          options_(options), limits_(options.branching == Branching::Tree ? kPhysics : Limits{.mirrors = 1}) {
-        for (const int number : optics.optical())
-            if (optics.object(number).material.isMirror() || !optics.bendsNothing())
-                targets_.push_back(optics.rays().around(number));
-        for (const Lamp& lamp : lamps_)
-            media_.push_back(lamp.place() ? optics.mediaAt(*lamp.place(), true) : Media{});
-    }
+        : optics_(optics), indirectly_(indirectly), rays_(optics, illumination, options.branching), eye_(eye),
+          size_(size), options_(options) {}
 
-    bool hasWork() const { return !targets_.empty() && !lamps_.empty(); }
+    bool hasWork() const { return rays_.exist(); }
 
     /// For each pixel what a watt that reaches it adds to it; 0 where none can.
     std::vector<dvec3> worthOfAWatt() const {
@@ -89,36 +84,13 @@ public:
 
     void trace(std::int64_t number, Brought& brought) const {
         Random random(options_.seed, kPhotonStream, std::uint64_t(number));
-        const auto count = double(lamps_.size());
-        const std::size_t lamp = std::min(std::size_t(random.next() * count), lamps_.size() - 1);
-        Emission emission = lamps_[lamp].emit(targets_, random);
-        emission.flux *= count;
-        if (emission.flux == dvec3(0)) return;
-        const Beam beam{.origin = emission.origin,
-                        .direction = emission.direction,
-                        .media = media_[lamp],
-                        .begin = emission.begin,
-                        .hitsHidden = true};
-        if (!optics_.disperses()) {
-            bring(beam, emission, dvec3(1), 1, random, brought);
-            return;
-        }
-        for (int channel = 0; channel < 3; ++channel) {
-            dvec3 only(0);
-            only[channel] = 1;
-            bring(beam, emission, only, channel, random, brought);
-        }
+        rays_.follow(random,
+                     [&](const Arrival& arrival, const dvec3& flux) { bring(arrival, flux, brought); });
     }
 
 private:
-    void bring(const Beam& beam, const Emission& emission, const dvec3& colors, int channel, Random& random,
-               Brought& brought) const {
-        const Arrival arrival = follow(optics_, beam, channel, options_.branching, limits_, random);
-        const double growth = emission.fades ? 1 : arrival.firstDistance * arrival.firstDistance;
-        const dvec3 flux = growth * colors * emission.flux;
+    void bring(const Arrival& arrival, const dvec3& flux, Brought& brought) const {
         brought.strongest = glm::max(brought.strongest, flux);
-        // Direct light, which passes what bends nothing as straightTransmittance() says.
-        if (arrival.surfaces == 0 || (arrival.bends == 0 && optics_.hasIndexOfOne())) return;
         EnergyBook& energy = brought.energy;
         energy.incident += flux;
         energy.absorbed += flux * arrival.absorbed;
@@ -174,13 +146,10 @@ private:
 
     const Optics& optics_;
     const SeenPlaces* indirectly_; ///< null: not asked for
-    const std::vector<Lamp>& lamps_;
+    LampRays rays_;
     const Eye& eye_;
     ivec2 size_;
     LightOptions options_;
-    Limits limits_;
-    std::vector<Sphere> targets_;
-    std::vector<Media> media_; ///< around each lamp
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// Irradiance of what the camera sees, with the light that reaches it through and by way of glass, water and
-/// mirrors: rays of light are followed from the lamps to the first opaque surface.
+/// mirrors: rays of light are followed from lamps and environment to the first opaque surface.
 
 #include "base/Result.h"
 #include "scene/Scene.h"
@@ -30,15 +30,10 @@ struct LightOptions {
 ///
 /// - Light straight from the lamps and the environment (Illumination), in the pixel's middle or as the
 ///   mean over it (PixelMean).
-/// - Light that refractive and mirroring objects turned aside, as the mean over the pixel. Each ray is aimed
-/// at a ball
-///   around one of these objects, chosen by chance; where it meets something else first it is not counted.
-///   The flux that it brings to an opaque surface goes to the pixel that shows the place, over the area that
-///   a pixel covers there (Eye::areaOfPixel): exact for surfaces of any shape and for edges inside a pixel,
-///   and not blurred beyond the pixel. The chain follows what is transmitted and one reflection on a mirror;
-///   the tree both ways and any number.
-///
-/// The environment lights surfaces straight only: the light that it sends through glass is in neither.
+/// - Light that refractive and mirroring objects turned aside (LampRays), as the mean over the pixel. The
+///   flux that a ray brings to an opaque surface goes to the pixel that shows the place, over the area that a
+///   pixel covers there (Eye::areaOfPixel): exact for surfaces of any shape and for edges inside a pixel, and
+///   not blurred beyond the pixel.
 ///
 /// A surface is lit on the side that the camera sees. The standard error is that of independent rays, so
 /// neighbouring pixels are independent too. A place that none of n rays met may still be lit: there the error

@@ -5,7 +5,7 @@
 namespace lucent::truth {
 
 namespace {
-Result<std::unique_ptr<RayCaster>> finderOf(RayScene::By by, const std::vector<Entry>& entries,
+Result<std::unique_ptr<RayCaster>> casterOf(RayScene::By by, const std::vector<Entry>& entries,
                                             const dvec3& middle, double room) {
     if constexpr (RayScene::kUsual == RayScene::By::Embree)
         if (by == RayScene::By::Embree) return findByEmbree(entries, middle, room);
@@ -14,10 +14,10 @@ Result<std::unique_ptr<RayCaster>> finderOf(RayScene::By by, const std::vector<E
 } // namespace
 
 struct RayScene::State {
-    std::vector<Entry> entries; ///< never moved once the finder knows them
+    std::vector<Entry> entries; ///< never moved once the caster knows them
     Box box;
     double room = 0; ///< what Embree may be wrong by, and more, m
-    std::unique_ptr<RayCaster> finder;
+    std::unique_ptr<RayCaster> caster;
 };
 
 RayScene::RayScene(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -41,9 +41,9 @@ Result<RayScene> RayScene::create(std::vector<Shape> shapes, const std::vector<b
         for (Entry& entry : state->entries)
             entry.box = {entry.box.low - room, entry.box.high + room};
     }
-    Result<std::unique_ptr<RayCaster>> finder = finderOf(by, state->entries, middle, state->room);
-    if (!finder) return finder.error();
-    state->finder = std::move(*finder);
+    Result<std::unique_ptr<RayCaster>> caster = casterOf(by, state->entries, middle, state->room);
+    if (!caster) return caster.error();
+    state->caster = std::move(*caster);
     return RayScene(std::move(state));
 }
 
@@ -51,7 +51,7 @@ Hits RayScene::search(const WorldRay& ray, const Leaving& leaving, double within
     const Stretch inside = truth::within(state_->box, ray);
     if (!(inside.from < inside.to)) return {};
     Query query(ray, leaving, inside.from, within);
-    state_->finder->find(query);
+    state_->caster->find(query);
     return query.found();
 }
 
@@ -68,12 +68,12 @@ bool RayScene::occluded(const WorldRay& ray, const Leaving& leaving) const {
     const Stretch inside = truth::within(state_->box, ray);
     if (!(inside.from < inside.to)) return false;
     Query query(ray, leaving, inside.from, 0);
-    return state_->finder->isBlocked(query);
+    return state_->caster->isBlocked(query);
 }
 
 std::optional<Nearest> RayScene::nearest(const dvec3& point) const {
     Search search(point);
-    state_->finder->find(search);
+    state_->caster->find(search);
     return search.found();
 }
 

@@ -1,5 +1,8 @@
 #include "truth/Dipole.h"
 
+#include "truth/EnteredLight.h"
+#include "truth/Random.h"
+
 #include "tests/truth/bodies.h"
 
 #include <deque>
@@ -56,6 +59,52 @@ TEST(Dipole, HalfSpaceUnderAnEvenSkyTakesTheMeanTransmittance) {
     const Estimate estimate = onPlane(estimator(scene, {.samples = 1024}), 0);
     for (int c = 0; c < 3; ++c) // an irradiance of pi, of which 0.9082 enter (tests/diffusion)
         EXPECT_NEAR(estimate.mean()[c], kPi * 0.9082 * kHalfSpace[c], 4 * estimate.standardError()[c] + 1e-3);
+}
+
+TEST(Dipole, LightThatCameThroughAPaneEntersAsItDoesWithoutIt) {
+    // Of an index so near to that of vacuum that nothing is bent: all light under it comes by rays.
+    scene::Scene scene = test::marbleHalfSpace();
+    scene.objects.push_back(test::glass(scene::Box{{0.1f, 0.01f, 0.1f}}, 1.0001f, {0, 0.03f, 0}));
+    scene.objects.back().material.clear().fresnel = false;
+    const DipoleEstimator dipole = estimator(scene, {.samples = 1024, .rays = 2'000'000});
+    const double entering = 1 - fresnel(0, 1 / 1.5);
+    for (const double x : {0.01, 0.05}) { // below the pane, and below its edge: half by rays, half straight
+        const Estimate estimate = onPlane(dipole, x);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_LT(estimate.standardError()[c], 0.05); // mean free paths hold few of the rays
+            EXPECT_NEAR(estimate.mean()[c], entering * kHalfSpace[c],
+                        4 * estimate.standardError()[c] + kRounded)
+                << x;
+        }
+    }
+    const DipoleEstimator without = estimator(scene, {.samples = 1024, .rays = 0});
+    EXPECT_LT(onPlane(without, 0.01).mean().g, 0.05);
+}
+
+TEST(EnteredLight, CountsWhatLiesFarAwayTogether) {
+    Random random(1, 2, 3);
+    std::vector<LightEntry> entries;
+    for (int i = 0; i < 5000; ++i)
+        entries.push_back({dvec3(random.next(), 0, random.next()), {0, 1, 0}, dvec3(random.next(), 1, 2)});
+    const EnteredLight light(entries);
+    for (const dvec3 place : {dvec3(0.5, 0, 0.5), dvec3(-0.2, 0.1, 0.3), dvec3(4, 1, 2)}) {
+        const auto share = [&](const LightEntry& entry) {
+            return entry.flux / (1e-6 + std::pow(glm::distance(entry.place, place), 3));
+        };
+        dvec3 all(0), together(0);
+        int visits = 0;
+        for (const LightEntry& entry : entries)
+            all += share(entry);
+        light.visit(place, [&](const LightEntry& entry) {
+            together += share(entry);
+            ++visits;
+        });
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(together[c], all[c], 3e-3 * all[c]);
+        if (place.x > 1) {
+            EXPECT_LT(visits, 500);
+        }
+    }
 }
 
 TEST(Dipole, EdgeOfLightIsHalfAsBrightAndBothSidesAddUp) {

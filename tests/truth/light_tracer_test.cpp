@@ -372,6 +372,19 @@ TEST(LightTracer, TheSkyLightsTheFloorStraight) {
                 0.4); // sqrt(2 / 256) = 0.09
 }
 
+TEST(LightTracer, TheSkysLightComesThroughAPaneByRaysAsItComesWithoutIt) {
+    // The pane hides half the sky from the middle of the floor; what it keeps away comes through it again.
+    scene::Scene scene = floorUnder(almostNothing(scene::Box{{2, 0.1f, 2}}, {0.8f, 0.3f, 0}), 1);
+    test::addSky(scene, vec3(1));
+    for (const scene::Aov aov : {scene::Aov::Irradiance, scene::Aov::Color}) {
+        const double expected =
+            aov == scene::Aov::Irradiance ? kPi : double(scene.objects[0].material.diffuse.g);
+        const Picture picture = traced(scene, {8, 8}, {.aov = aov, .photons = 400000, .samples = 256});
+        EXPECT_NEAR(chiSquare(picture, [&](int, int) { return expected; }), 1, 0.7); // sqrt(2 / 64) = 0.18
+        EXPECT_LT(double(picture.errors.at(4, 4)[1]), 0.1 * expected);
+    }
+}
+
 TEST(LightTracer, DependsOnTheSeedAndNotOnThreads) {
     scene::Scene scene = floorUnder(glass(scene::Sphere{0.5f}, 1.5f, {0, 1, 0}), 1);
     scene.lights = {scene::DistantLight{.direction = {0.1f, -1, 0}, .angle = 5}};
