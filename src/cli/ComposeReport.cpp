@@ -60,7 +60,6 @@ Image besides(const ComposeCell& cell) {
 }
 
 std::string cellHtml(const ComposeCell& cell) {
-    if (!cell.notDrawn.empty()) return "<td class=none title=\"" + cell.notDrawn + "\">not drawn</td>";
     if (!cell.message.empty()) return "<td class=bad title=\"" + cell.message + "\">refused</td>";
     const char* kind = cell.isMet() ? "good" : cell.misplaced <= 3 * cell.target ? "near" : "bad";
     return std::string("<td class=") + kind + " title=\"flux " + shortest(std::round(cell.flux * 1e4) / 1e4) +
@@ -73,7 +72,7 @@ std::string pageOf(const std::vector<ComposeCell>& cells, const std::vector<std:
         "<!doctype html><meta charset=utf-8><title>Lucent: everything on everything</title><style>"
         "body{font:14px sans-serif;margin:2em}table{border-collapse:collapse;margin:1em 0}"
         "td,th{border:1px solid #ccc;padding:3px 8px;text-align:right}.good{background:#cfe8cf}"
-        ".near{background:#f6e7b0}.bad{background:#f2b8b0}.none{background:#eee;color:#666}</style>"
+        ".near{background:#f6e7b0}.bad{background:#f2b8b0}</style>"
         "<h1>Everything on everything</h1><p>Share of the light that lies elsewhere than in the exact "
         "solution. A click shows the picture beside its truth. Worst: ";
     for (const ComposeCell* cell : worstOf(cells, 5))
@@ -123,9 +122,7 @@ Status benchCompose(gl::Context& context, const std::string& folder, bool quick)
                 std::fprintf(stderr, "bench: %s  %s: %s\n",
                              progressLine(double(cells.size()) / double(all), elapsed.count()).c_str(),
                              last.name().c_str(),
-                             last.isMeasured()       ? percent(last.misplaced).c_str()
-                             : last.notDrawn.empty() ? last.message.c_str()
-                                                     : "not drawn");
+                             last.isMeasured() ? percent(last.misplaced).c_str() : last.message.c_str());
             }
     const auto count = [&](const auto& which) {
         return int(std::count_if(cells.begin(), cells.end(), which));

@@ -154,15 +154,6 @@ bool bends(std::string_view between) {
            between == "water";
 }
 
-// Pairs that no technique draws, and why.
-std::string notDrawn(std::string_view lamp, std::string_view between, std::string_view receiver) {
-    const bool glass = bends(between) || receiver == "floor through glass";
-    if (lamp == "environment" && glass)
-        return "caustics of an environment: its light passes glass straight on";
-    if (receiver != "marble slab") return "";
-    return bends(between) ? "light of caustics on what scatters" : "";
-}
-
 double targetOf(std::string_view between, std::string_view receiver) {
     if (receiver == "marble slab") return 0.03;
     if (receiver == "floor in a mirror") return 0.02;
@@ -214,6 +205,7 @@ scene::Scene composeScene(std::string_view lamp, std::string_view between, std::
     addReceiver(scene, receiver);
     addBetween(scene, between);
     addLamp(scene, lamp);
+    technique::drawAll(scene);
     return scene;
 }
 
@@ -222,8 +214,6 @@ ComposeCell measureCompose(gl::Context& context, std::string_view lamp, std::str
     ComposeCell cell{
         .lamp = std::string(lamp), .between = std::string(between), .receiver = std::string(receiver)};
     cell.target = targetOf(between, receiver);
-    cell.notDrawn = notDrawn(lamp, between, receiver);
-    if (!cell.notDrawn.empty()) return cell;
     const scene::Scene scene = composeScene(lamp, between, receiver);
     frame::Renderer renderer(context);
     const auto start = std::chrono::steady_clock::now();
@@ -261,7 +251,6 @@ std::string composeJson(std::span<const ComposeCell> cells) {
     for (const ComposeCell& cell : cells) {
         json.beginObject().key("lamp").value(cell.lamp).key("between").value(cell.between);
         json.key("receiver").value(cell.receiver);
-        if (!cell.notDrawn.empty()) json.key("notDrawn").value(cell.notDrawn);
         if (!cell.message.empty()) json.key("message").value(cell.message);
         if (cell.isMeasured()) {
             json.key("misplaced").value(cell.misplaced).key("byNoise").value(cell.byNoise);

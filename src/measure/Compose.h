@@ -18,7 +18,6 @@ namespace lucent::measure {
 /// One cell of the matrix.
 struct ComposeCell {
     std::string lamp, between, receiver;
-    std::string notDrawn{};   ///< why it is left out on purpose; "": it is drawn
     std::string message{};    ///< why there is no figure; "": there is one
     double misplaced = 0;     ///< half the summed absolute difference over the light there is
     double byNoise = 0;       ///< what of that is to be expected from the truth's noise alone
@@ -27,7 +26,7 @@ struct ComposeCell {
     double seconds = 0;       ///< that the picture took
     Image picture{}, truth{}; ///< linear
 
-    bool isMeasured() const { return notDrawn.empty() && message.empty(); }
+    bool isMeasured() const { return message.empty(); }
     bool isMet() const { return isMeasured() && misplaced <= target && std::abs(flux - 1) <= 0.01; }
     std::string name() const { return lamp + " / " + between + " / " + receiver; }
 };

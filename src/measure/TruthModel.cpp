@@ -1,5 +1,7 @@
 #include "measure/TruthModel.h"
 
+#include "technique/Technique.h"
+
 #include <algorithm>
 
 namespace lucent::measure {
@@ -11,7 +13,9 @@ std::optional<std::string> causticOf(const scene::Scene& scene) {
     const auto& objects = scene.objects;
     const auto thrower = std::find_if(objects.begin(), objects.end(), bends);
     const auto receiver = std::find_if_not(objects.begin(), objects.end(), bends);
-    if (scene.lights.empty() || thrower == objects.end() || receiver == objects.end()) return std::nullopt;
+    const bool isLit = !scene.lights.empty() || (scene.environment && scene.environment->enabled &&
+                                                 technique::modelOf(scene).environmentCaustics);
+    if (!isLit || thrower == objects.end() || receiver == objects.end()) return std::nullopt;
     return "object \"" + thrower->name + "\" casts a caustic on \"" + receiver->name + "\"";
 }
 

@@ -13,7 +13,7 @@ enum class TruthModel {
     Relief, ///< one height field alone, by lamps that are points or directions, discs of these, and an
             ///< environment
     Glass,  ///< what is seen past interfaces and mirrors, and matt things by light that comes straight
-    Light,  ///< light of lamps by way of interfaces and mirrors
+    Light,  ///< light of lamps and environment by way of interfaces and mirrors
     Dipole  ///< light inside of what scatters it
 };
 
@@ -22,7 +22,7 @@ enum class TruthModel {
 /// fields alone by the relief model; all else by what is seen through glass.
 TruthModel usualTruth(const scene::Scene& scene);
 
-/// Which object sends lamps' light on to which other; nothing where none does.
+/// Which object sends light on to which other; nothing where none does.
 std::optional<std::string> causticOf(const scene::Scene& scene);
 
 } // namespace lucent::measure

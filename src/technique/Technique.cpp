@@ -3,6 +3,7 @@
 #include "light/Samples.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace lucent::technique {
 
@@ -81,6 +82,20 @@ std::vector<std::string> notDrawn(const scene::Scene& scene, std::optional<scene
             if (limit.applies(scene) && (!map || limit.map == map))
                 lines.push_back(std::string(limit.what) + ": " + std::string(limit.why));
     return lines;
+}
+
+void drawAll(scene::Scene& scene) {
+    for (const Technique* technique : all())
+        for (const NotDrawn& limit : technique->limits) {
+            const auto settings = scene.technique.find(std::string(technique->name));
+            if (limit.setting.empty() || settings == scene.technique.end() || !limit.applies(scene)) continue;
+            for (const Param& param : settings->second.table().params) {
+                if (param.id != limit.setting) continue;
+                const Status set = setText(
+                    param, static_cast<std::byte*>(settings->second.data()) + param.offset, limit.value);
+                assert(set);
+            }
+        }
 }
 
 } // namespace lucent::technique

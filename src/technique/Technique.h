@@ -48,7 +48,8 @@ struct NotDrawn {
     std::string_view what; ///< "light that a mirror throws by way of another mirror"
     std::string_view why;
     bool (*applies)(const scene::Scene&);
-    std::optional<scene::PaintMap> map = {}; ///< which a person painted in vain
+    std::optional<scene::PaintMap> map = {};   ///< which a person painted in vain
+    std::string_view setting = "", value = {}; ///< of the technique's own, by which it is drawn; "": none
 };
 
 /// What a person works on, as the page sorts it.
@@ -115,5 +116,7 @@ bool isShaded(const scene::Object& object, std::span<const Technique* const> tec
 /// @param map  only what concerns this painted map
 std::vector<std::string> notDrawn(const scene::Scene& scene, std::optional<scene::PaintMap> map = {},
                                   std::span<const Technique* const> techniques = all());
+/// Gives a scene the settings by which all is drawn of what it asks for and some setting draws.
+void drawAll(scene::Scene& scene);
 
 } // namespace lucent::technique

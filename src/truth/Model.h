@@ -9,10 +9,11 @@ namespace lucent::truth {
 
 struct Model {
     Attenuation attenuation = Attenuation::Ratio;
-    bool normalise = false;  ///< light is divided by the number of lights
-    DipoleOptions dipole{};  ///< of what scatters light; samples and seed are the solver's
-    bool overPixels = false; ///< colours are means over pixels, not what their middles show
-    bool walks = false;      ///< light is scattered by diffusion in the body itself: random walks tell
+    bool normalise = false;           ///< light is divided by the number of lights
+    DipoleOptions dipole{};           ///< of what scatters light; samples and seed are the solver's
+    bool overPixels = false;          ///< colours are means over pixels, not what their middles show
+    bool environmentCaustics = false; ///< caustics of the environment too: rays of light tell
+    bool walks = false; ///< light is scattered by diffusion in the body itself: random walks tell
 };
 
 } // namespace lucent::truth

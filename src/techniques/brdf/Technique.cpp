@@ -126,11 +126,18 @@ bool shows(const scene::Scene& scene, views::Around around) {
     return hasMirror(scene) && !isAlone(scene) && aroundOf(scene) == around;
 }
 const technique::NotDrawn kLimits[] = {
-    {"objects in mirrors", "technique.brdf.surroundings is environment",
-     [](const scene::Scene& scene) { return shows(scene, views::Around::Environment); }},
+    {"objects in mirrors",
+     "technique.brdf.surroundings is environment",
+     [](const scene::Scene& scene) { return shows(scene, views::Around::Environment); },
+     {},
+     "surroundings",
+     "surroundings"},
     {"objects in mirrors that the camera does not see, that scatter light, or that are mirrors or clear",
      "technique.brdf.surroundings is view",
-     [](const scene::Scene& scene) { return shows(scene, views::Around::View); }},
+     [](const scene::Scene& scene) { return shows(scene, views::Around::View); },
+     {},
+     "surroundings",
+     "surroundings"},
     {"mirrors by way of two mirrors", "the third one shows the environment",
      [](const scene::Scene& scene) {
          return shows(scene, views::Around::Surroundings) && countVisible(scene, isShownMirror) > 1;

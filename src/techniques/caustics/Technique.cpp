@@ -221,11 +221,18 @@ const technique::NotDrawn kLimits[] = {
      "misplaced",
      [](const scene::Scene& scene) {
          return views::hasEnvironment(scene) && !carriesEnvironment(scene) && Caustics::bends(scene);
-     }},
-    {"caustics on objects that scatter light", "deposit lines gathers light in the picture alone",
+     },
+     {},
+     "environmentDirections",
+     "64"},
+    {"caustics on objects that scatter light",
+     "deposit lines gathers light in the picture alone",
      [](const scene::Scene& scene) {
          return Caustics::need(scene) && scatters(scene) && settingsOf(scene).deposit == Deposit::Lines;
-     }},
+     },
+     {},
+     "deposit",
+     "beam"},
 };
 
 } // namespace

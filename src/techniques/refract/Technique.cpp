@@ -293,10 +293,18 @@ bool showsAround(const scene::Scene& scene, views::Around around) {
     return refracts(scene) && showsOpaque(scene) && settingsOf(scene).surroundings == around;
 }
 const technique::NotDrawn kLimits[] = {
-    {"objects through glass", "technique.refract.surroundings is environment",
-     [](const scene::Scene& scene) { return showsAround(scene, views::Around::Environment); }},
-    {"through glass, objects that the camera does not see", "technique.refract.surroundings is view",
-     [](const scene::Scene& scene) { return showsAround(scene, views::Around::View); }},
+    {"objects through glass",
+     "technique.refract.surroundings is environment",
+     [](const scene::Scene& scene) { return showsAround(scene, views::Around::Environment); },
+     {},
+     "surroundings",
+     "surroundings"},
+    {"through glass, objects that the camera does not see",
+     "technique.refract.surroundings is view",
+     [](const scene::Scene& scene) { return showsAround(scene, views::Around::View); },
+     {},
+     "surroundings",
+     "surroundings"},
     {"through glass, what is hidden from the camera and from the middle of the glass",
      "its surroundings are drawn from there",
      [](const scene::Scene& scene) { return showsAround(scene, views::Around::Surroundings); }},
