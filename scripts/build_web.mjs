@@ -101,6 +101,12 @@ await bundleOf('lucent-truth', {
   outfile: out('lucent-truth.js'),
   alias: { 'lucent-truth-wasm': wasm('lucent-truth.mjs') },
 });
+await build({
+  ...common,
+  bundle: true,
+  entryPoints: [web('stereo_job.js')],
+  outfile: out('lucent-stereo.js'),
+});
 await build({ ...common, entryPoints: [web('page.js')], outfile: out('page.js') });
 await build({ minify: true, entryPoints: [web('page.css')], outfile: out('page.css') });
 for (const name of ['index.html', 'bench.html']) copyFileSync(web(name), out(name));
@@ -133,7 +139,7 @@ if (!options.first && existsSync(kGallery)) {
 }
 
 // The terms of what the page carries, as the packages state them.
-const kCarried = ['emscripten', 'fonts-inter', 'libeigen3-dev', 'libglm-dev', 'libstb-dev', 'libtinyexr-dev', 'libtinygltf-dev', 'nlohmann-json3-dev', 'zlib1g-dev'];
+const kCarried = ['emscripten', 'fonts-inter', 'libeigen3-dev', 'libglm-dev', 'libstb-dev', 'libtinyexr-dev', 'libtiff-dev', 'libtinygltf-dev', 'nlohmann-json3-dev', 'zlib1g-dev'];
 const terms = kCarried.map((name) => [name, `/usr/share/doc/${name}/copyright`]);
 terms.push(['imgui', join(kRoot, 'build/packages/imgui/LICENSE.txt')], ['lucent', join(kRoot, 'LICENSE')]);
 const notices = terms.filter(([, file]) => existsSync(file)).map(([name, file]) => `==== ${name}\n\n${readFileSync(file, 'utf8')}`);

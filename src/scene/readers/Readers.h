@@ -1,6 +1,6 @@
 #pragma once
 /// Readers of foreign files, kept apart so that a page fetches them only when a scene needs one: they turn
-/// glTF, OBJ and EXR into the plain forms (LUCENTM2, PFM) that the loader reads.
+/// glTF, OBJ, EXR and TIFF into the plain forms (LUCENTM4, PFM, PNG) that the loader reads.
 
 #include "base/File.h"
 #include "base/Image.h"
@@ -11,11 +11,16 @@ namespace lucent::scene {
 /// True for bytes that toPlain() would turn into another form.
 bool isForeign(const std::string& name, std::span<const std::byte> bytes);
 
-/// glTF 2.0 (.gltf, .glb) and OBJ become a mesh file, EXR becomes PFM, everything else stays as it is.
+/// glTF 2.0 (.gltf, .glb) and OBJ become a mesh file, EXR PFM, TIFF 16-bit PNG or PFM, everything else stays
+/// as it is.
 ///
 /// @param read  gives the external buffers of a .gltf, the material files of an .obj
 /// @return      Error "NAME: what was found; what was expected"
 Result<Bytes> toPlain(const std::string& name, Bytes bytes, const ReadFile& read);
+
+/// The name of a file that toPlain() made of another: "a.exr" becomes "a.pfm", "a.glb" "a.mesh"; others keep
+/// theirs.
+std::string plainName(const std::string& name, std::span<const std::byte> plain);
 
 /// Linear floats as EXR (32-bit float, 1, 3 or 4 channels, ZIP).
 Result<Bytes> encodeExr(const Image& image);
