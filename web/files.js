@@ -1,9 +1,8 @@
-/** Brings files to the module: scenes with everything they name, and what a person opens. */
+/** Brings files to the module: scenes with everything they name, in a form that it reads. */
 import { LucentError } from './runtime.js';
 import { callWasm, isAbort } from './wasm.js';
 
-const kForeign = /\.(exr|glb|gltf|obj)$/i;
-const kMesh = /\.(glb|gltf|obj|mesh)$/i;
+const kForeign = /\.(exr|tiff?|glb|gltf|obj)$/i;
 // Keys that make a material another kind than relief,
 const kKinds = ['kind', 'reflectance', 'transmission', 'scattering', 'preset'];
 // and keys of "technique" that the module of reliefs knows.
@@ -69,7 +68,6 @@ async function fetchBytes(url, name, reach) {
 }
 
 let readers;
-/** The second module, which understands glTF, OBJ and EXR; fetched when the first such file is met. */
 function loadReaders() {
   const address = (name) => new URL(name, import.meta.url).href;
   readers ??= import(address('lucent-readers.js'))
@@ -81,19 +79,28 @@ function loadReaders() {
 }
 
 /**
- * The bytes in a form that the loader reads: glTF, OBJ and EXR are converted, everything else stays as it is.
- * @param part  (name) => promise of the bytes of a file beside it that it names, undefined when there is none
+ * Works with the second module, which understands glTF, OBJ and EXR and makes scenes of a person's files; it is fetched
+ * when first needed.
+ * @param name  of the file that is worked on
+ * @param work  (wasm) => what the promise gives
  */
-async function toPlain(name, bytes, part) {
-  if (!kForeign.test(name)) return bytes;
+export async function withReaders(name, work) {
   const wasm = await loadReaders();
   try {
-    return await convert(wasm, name, bytes, part);
+    return await work(wasm);
   } catch (error) {
     if (!isAbort(error)) throw error;
     readers = undefined; // the next file gets a fresh module
     throw new LucentError('scene', `${name}: cannot be read (${error.message}); must need less memory`);
   }
+}
+
+/**
+ * The bytes in a form that the loader reads: glTF, OBJ and EXR are converted, everything else stays as it is.
+ * @param part  (name) => promise of the bytes of a file beside it that it names, undefined when there is none
+ */
+export async function toPlain(name, bytes, part) {
+  return kForeign.test(name) ? withReaders(name, (wasm) => convert(wasm, name, bytes, part)) : bytes;
 }
 
 async function convert(wasm, name, bytes, part) {
@@ -117,16 +124,10 @@ async function convert(wasm, name, bytes, part) {
 /** Parts of a file that was fetched lie beside it. */
 const beside = (url, reach) => async (name) => fetchBytes(reach.find(name, url), name, reach);
 
-/** Parts of a file that a person opened are among those opened with it. */
-const among = (files) => async (name) => {
-  const file = files.find((one) => one.name === name.split('/').pop());
-  return file && new Uint8Array(await file.arrayBuffer());
-};
-
 const fileName = (url) => decodeURIComponent(url.pathname.split('/').pop());
 
 /** Whether a scene asks for more than the module of reliefs draws. Of what is no scene that module says what is wrong. */
-function needsWhole(bytes) {
+export function needsWhole(bytes) {
   const isRelief = ({ shape, material = {} }) =>
     shape.type === 'heightfield' && (material.kind === 'relief' || !kKinds.some((key) => key in material));
   try {
@@ -178,33 +179,4 @@ export function loadFiles({ runtime, handle }, { path, files }) {
 export async function fetchPicture(url) {
   const name = fileName(url);
   return { name, bytes: await toPlain(name, await fetchBytes(url, name), beside(url, new Reach(url))) };
-}
-
-/** Of files dropped together the one that is opened: a mesh before its parts. */
-export const mainFile = (files) => files.find(isMesh) ?? files[0];
-export const isMesh = ({ name }) => kMesh.test(name);
-
-/** What a dropped picture is for. @param environmentWanted  the person pointed at that half, or held Alt */
-export function kindOfDrop(name, environmentWanted) {
-  return environmentWanted || /\.(hdr|exr)$/i.test(name) ? 'environment' : 'height';
-}
-
-/**
- * Shows a picture or a mesh that a person opened. Throws a LucentError.
- * @param files  one, or a mesh with its parts
- * @param kind   of a picture: 'height' or 'environment'
- */
-export async function openOwn({ runtime, handle }, files, kind) {
-  const file = mainFile(files);
-  const { name } = file;
-  if (/\.json$/i.test(name))
-    throw new LucentError(
-      'file',
-      `${name}: a scene names further files, which a page cannot read from disk; put it on a server and name it in src`,
-    );
-  const bytes = await toPlain(name, new Uint8Array(await file.arrayBuffer()), among(files));
-  const message = isMesh(file)
-    ? runtime.text('viewer_open_mesh', handle, name, bytes)
-    : runtime.text('viewer_open_image', handle, name, bytes, kind === 'environment' ? 1 : 0);
-  if (message) throw new LucentError('file', message);
 }

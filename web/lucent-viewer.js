@@ -12,11 +12,14 @@
  * compare="truth" or "error" shows the picture beside its exact truth: that of the file which `truth` names (with its
  * own error in `truth-noise`), which belongs to the scene as src has it, or one that is computed when a person asks.
  */
+import { bringScene, droppedFiles, kindOfDrop, openPicture } from './bring.js';
 import { Controls } from './controls.js';
-import { fetchScene, isMesh, kindOfDrop, loadFiles, mainFile, openOwn } from './files.js';
+import { fetchScene, loadFiles, needsWhole } from './files.js';
 import { Gestures } from './gestures.js';
+import { PhotoBar } from './photos.js';
 import { LucentError, Runtime } from './runtime.js';
 import { TruthBar } from './truth.js';
+import { askUses } from './uses.js';
 import { camelCase, textOf, valueOf } from './values.js';
 import css from './viewer.css';
 
@@ -41,7 +44,7 @@ const kMarkup = `
 <div class="stage" part="stage">
   <canvas tabindex="0" role="img" aria-describedby="keys"></canvas>
   <img class="poster" part="poster" alt="">
-  <div class="zones"><div>Height map or model</div><div>Environment</div></div>
+  <div class="zones"><div>New scene</div><div>Environment</div></div>
   <input class="unseen" id="divider" type="range" min="0" max="1" step="0.01" hidden
     aria-label="Divider: share of the picture left of it">
   <button class="play" type="button" hidden></button>
@@ -62,6 +65,7 @@ export class LucentViewer extends HTMLElement {
   #hint;
   #divider; // what the keyboard moves the divider with
   #truth; // TruthBar
+  #photos = new PhotoBar();
   #rmse; // that was said last
   #truthFetched = false; // the file was asked for since the scene was loaded
   #voice; // what a screen reader says
@@ -72,6 +76,7 @@ export class LucentViewer extends HTMLElement {
   #task = 0; // number of the newest load: older ones give up
   #src = null; // what is loaded or on its way
   #shown = null; // what is loaded
+  #own = null; // {path, files} of the scene that is shown, where it is made of a person's files
   #near = false; // the element or its surroundings are on the screen
   #seen = false; // the element itself is
   #play; // the button
@@ -122,7 +127,7 @@ export class LucentViewer extends HTMLElement {
       fail: (error) => this.#fail(error),
       changed: () => this.#truth.update(this.comparison()),
     });
-    find('.stage').append(this.#truth.element);
+    find('.stage').append(this.#truth.element, this.#photos.element);
     new Gestures(this.#canvas, {
       pointer: (...event) => this.#apply('viewer_pointer', ...event),
       wheel: (...event) => this.#apply('viewer_wheel', ...event),
@@ -408,16 +413,27 @@ export class LucentViewer extends HTMLElement {
   }
 
   /**
-   * Shows a picture or a model that a person chose.
-   * @param file  File, or Blob with a name; or several: a model with the files that it has its parts in
-   * @param kind  of a picture: 'height' or 'environment'
+   * The scene that is shown where it is made of a person's own files, else null: `path` of the scene file as it is now, and
+   * `files`, the bytes of it and of all that it names by name (Map).
    */
-  async openFile(file, kind = 'height') {
-    const files = file instanceof Blob ? [file] : [...file];
+  get ownScene() {
+    if (!this.#own) return null;
+    const { path, files } = this.#own;
+    return { path, files: new Map(files).set(path, new TextEncoder().encode(this.sceneJson)) };
+  }
+
+  /**
+   * Makes a scene of files that a person chose, or takes a picture as the environment of the one that is shown.
+   * @param files  File, or Blob with a name, or several: pictures that belong together, a model with its parts
+   * @param kind   'scene' or 'environment'
+   */
+  async openFile(files, kind = 'scene') {
+    const all = files instanceof Blob ? [files] : [...files];
     const task = ++this.#task;
+    this.#status.textContent = 'Loading…';
     try {
-      const seat = await this.#seat(task, isMesh(mainFile(files)));
-      if (seat) await this.#load(seat, task, mainFile(files).name, () => openOwn(seat, files, kind));
+      if (kind === 'environment') await this.#openEnvironment(task, all[0]);
+      else await this.#openScene(task, await this.#bring(all));
     } catch (error) {
       if (task === this.#task) this.#fail(error);
     }
@@ -449,10 +465,13 @@ export class LucentViewer extends HTMLElement {
   moduleEnded(error, handle) {
     const isLoaded = this.loaded && this.#src === this.#shown;
     const isInnocent = handle !== this.#handle && (handle !== 0 || isLoaded);
+    const own = this.#own;
     this.#forget();
     this.#settled.splice(0).forEach((resolve) => resolve());
     this.#fail(error);
-    if (isInnocent) this.#loadSource();
+    if (!isInnocent) return;
+    if (own) this.#openScene(++this.#task, own).catch((reason) => this.#fail(reason));
+    else this.#loadSource();
   }
 
   // ---- loading ----
@@ -472,8 +491,39 @@ export class LucentViewer extends HTMLElement {
     return { runtime: this.#runtime, handle: this.#handle };
   }
 
+  #bring(files) {
+    return bringScene(files, {
+      ask: (pictures) => askUses(this.#root, pictures),
+      solve: (light, photos) => {
+        this.#status.textContent = '';
+        return this.#photos.solve(light, photos);
+      },
+    });
+  }
+
+  // @param scene  {path, files} of a person's own; null: they went back
+  async #openScene(task, scene) {
+    if (task !== this.#task) return;
+    if (!scene) this.#status.textContent = '';
+    if (!scene) return;
+    const seat = await this.#seat(task, needsWhole(scene.files.get(scene.path)));
+    if (seat) await this.#load(seat, task, { name: scene.path, own: scene }, () => loadFiles(seat, scene));
+    if (scene.residual && this.#own === scene) await this.#photos.showResidual(scene);
+  }
+
+  async #openEnvironment(task, file) {
+    const { name, bytes } = await openPicture(file);
+    const seat = await this.#seat(task, false);
+    if (!seat) return;
+    const own = this.#own && { ...this.#own, files: new Map(this.#own.files).set(name, bytes) };
+    await this.#load(seat, task, { name, own }, () => {
+      const message = seat.runtime.text('viewer_open_environment', seat.handle, name, bytes);
+      if (message) throw new LucentError('file', message);
+    });
+  }
+
   // The scene that was showing stays, with its viewer, until the new one is there.
-  async #load(seat, task, name, load) {
+  async #load(seat, task, { name, own = null }, load) {
     const moves = seat.runtime !== this.#runtime;
     let isThere = false;
     try {
@@ -484,6 +534,12 @@ export class LucentViewer extends HTMLElement {
     }
     if (!isThere) return;
     if (moves) this.#moveTo(seat);
+    if (own && own.path !== this.#own?.path) {
+      this.truth = '';
+      this.alt = seat.runtime.text('viewer_title', seat.handle);
+    }
+    this.#own = own;
+    this.#photos.clear();
     this.#takeScene(name);
   }
 
@@ -507,7 +563,7 @@ export class LucentViewer extends HTMLElement {
       if (!seat) return;
       const { changes } = this;
       const files = this.#runtime.files('viewer_pack', this.#handle);
-      await this.#load(seat, task, this.src, () => loadFiles(seat, { path: 'scene.json', files }));
+      await this.#load(seat, task, { name: this.src, own: this.#own }, () => loadFiles(seat, { path: 'scene.json', files }));
       for (const [path, text] of Object.entries(changes)) this.#set(path, String(text));
     } catch (error) {
       if (task === this.#task) this.#fail(error);
@@ -528,7 +584,7 @@ export class LucentViewer extends HTMLElement {
         allowed.map((address) => new URL(address, document.baseURI)),
       );
       const seat = await this.#seat(task, scene.whole);
-      if (seat) await this.#load(seat, task, this.src, () => loadFiles(seat, scene));
+      if (seat) await this.#load(seat, task, { name: this.src }, () => loadFiles(seat, scene));
     } catch (error) {
       if (task !== this.#task) return;
       this.#fail(error);
@@ -579,8 +635,9 @@ export class LucentViewer extends HTMLElement {
   // As before the first load.
   #forget() {
     this.#task++;
+    this.#photos.cancel();
     this.#truth.cancel();
-    this.#src = this.#shown = null;
+    this.#src = this.#shown = this.#own = null;
     this.#controls = [];
     this.#handle = 0;
     clearTimeout(this.#timers.release);
@@ -827,12 +884,13 @@ export class LucentViewer extends HTMLElement {
       'dragleave',
       (event) => this.contains(event.relatedTarget) || zones.classList.remove('shown'),
     );
-    this.addEventListener('drop', (event) => {
+    this.addEventListener('drop', async (event) => {
       zones.classList.remove('shown');
-      const files = [...event.dataTransfer.files];
-      if (!files.length) return;
+      if (!event.dataTransfer.types.includes('Files')) return;
       event.preventDefault();
-      this.openFile(files, kindOfDrop(mainFile(files).name, aims(event)));
+      const aimsAtEnvironment = aims(event);
+      const files = await droppedFiles(event.dataTransfer);
+      if (files.length) this.openFile(files, kindOfDrop(files, aimsAtEnvironment));
     });
   }
 

@@ -8,7 +8,7 @@ const kMakingTime = 5000; // ms between looks at a gallery that is still being m
 const find = (id) => document.getElementById(id);
 const viewer = find('viewer');
 let gallery = [];
-let current = ''; // id of the gallery's scene that is shown
+let current = ''; // id of the gallery's scene that is shown; null: a person's own
 let pending = {}; // parameters that a link sets once its scene is there
 
 function note(text) {
@@ -25,6 +25,7 @@ function readLink() {
 }
 
 function writeLink() {
+  if (current === null) return; // a link names scenes of the gallery, and holds no files
   // A person has just gone to another scene: that link is to be followed, not written over.
   const { scene = current } = readLink();
   if (scene !== current) return;
@@ -109,7 +110,7 @@ async function takeWhatIsMade() {
       viewer.truth = 'gallery/' + entry.truth.file;
     }
   }
-  if (!current) followLink();
+  if (current === '') followLink();
   showMaking();
 }
 
@@ -166,10 +167,20 @@ function showModes() {
     button.setAttribute('aria-pressed', String(button.textContent.toLowerCase() === mode));
 }
 
+/** The page shows files of the person's own: nothing of it speaks of the gallery's scene any more. */
+function leaveGallery() {
+  if (current === null) return;
+  current = null;
+  for (const link of find('gallery').children) link.removeAttribute('aria-current');
+  history.pushState(null, '', location.pathname + location.search); // the way back leads to the scene before
+}
+
 viewer.addEventListener('load', () => {
   const changes = pending;
   pending = {};
   applyChanges(changes);
+  if (viewer.ownScene) leaveGallery();
+  document.title = `${viewer.sceneTitle} – Lucent`;
   find('title').textContent = viewer.sceneTitle;
   find('caption').textContent = viewer.caption;
   writeLinkSoon();
@@ -208,11 +219,13 @@ function openWith(button, input, kind) {
 
 async function savePicture() {
   const address = URL.createObjectURL(await viewer.toBlob());
-  Object.assign(document.createElement('a'), { href: address, download: `${current || 'lucent'}.png` }).click();
+  const name = current ?? viewer.sceneTitle;
+  Object.assign(document.createElement('a'), { href: address, download: `${name || 'lucent'}.png` }).click();
   URL.revokeObjectURL(address);
 }
 
 async function copyLink() {
+  if (current === null) return note('A link holds no files of your own; it can name scenes of the gallery only');
   writeLink();
   try {
     await navigator.clipboard.writeText(location.href);
@@ -233,9 +246,9 @@ find('check').addEventListener('click', async () => {
   const check = await import('./selfcheck.js').catch(({ message }) => note(`Self-check: ${message}`));
   check?.openSelfCheck(viewer);
 });
-openWith('open-height', 'height-file', 'height');
+openWith('open-maps', 'maps-file', 'scene');
 openWith('open-environment', 'environment-file', 'environment');
-openWith('open-mesh', 'mesh-file');
+openWith('open-mesh', 'mesh-file', 'scene');
 
 async function fetchGallery() {
   const response = await fetch('gallery/index.json');

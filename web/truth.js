@@ -3,7 +3,7 @@
  * bar says how far that is and ends it.
  */
 import { fetchPicture } from './files.js';
-import { LucentError } from './runtime.js';
+import { progressText, runJob } from './job.js';
 
 // Longer side of a computed truth in pixels, so that it is there within half a minute or so: a lamp is one question
 // a pixel, soft lamps and light from all around on matt things are hundreds.
@@ -11,40 +11,6 @@ const kSide = { hard: 256, soft: 128 };
 const kSamples = 128;
 
 const kAddress = new URL('lucent-truth.js', import.meta.url).href;
-
-class NoWorker extends Error {}
-
-const cancelled = () => new DOMException('cancelled', 'AbortError');
-
-function computeInWorker(request, report, signal) {
-  let worker;
-  try {
-    worker = new Worker(kAddress, { type: 'module' });
-  } catch (error) {
-    throw new NoWorker(error.message); // a sandboxed frame, a script from another site
-  }
-  return new Promise((done, failed) => {
-    const end = (settle, value) => {
-      worker.terminate();
-      settle(value);
-    };
-    signal.addEventListener('abort', () => end(failed, cancelled()));
-    worker.addEventListener('error', ({ message }) => end(failed, new NoWorker(message ?? 'it cannot be loaded')));
-    worker.addEventListener('message', ({ data: { share, truth, message } }) => {
-      if (truth) end(done, truth);
-      else if (message) end(failed, new LucentError('scene', message));
-      else report(share);
-    });
-    worker.postMessage(request);
-  });
-}
-
-async function computeOnPage(request, report, signal) {
-  const { computeTruth } = await import(kAddress);
-  const truth = await computeTruth(request, (share) => (report(share), !signal.aborted));
-  if (!truth) throw cancelled();
-  return truth;
-}
 
 const isSoft = (light) => light.radius > 0 || light.angle > 0 || light.type === 'area';
 
@@ -80,7 +46,7 @@ export class TruthBar {
     this.#cancel.textContent = 'Cancel';
     this.#compute.addEventListener('click', () => this.compute());
     this.#cancel.addEventListener('click', () => this.cancel());
-    this.element.className = 'truth';
+    this.element.className = 'bar truth';
     this.element.append(this.#text, this.#progress, this.#compute, this.#cancel);
     this.update({ mode: 'off' });
   }
@@ -118,21 +84,12 @@ export class TruthBar {
       const request = requestFor(this.#actions.ask());
       const { width, height } = request;
       const start = performance.now();
-      let place = 'Computing the truth';
-      const report = (share) => {
-        const left = Math.ceil(((performance.now() - start) / 1000) * (1 / share - 1));
-        const time = share > 0.02 ? `, ${left} s left` : '';
-        this.#report(`${place}, ${width} × ${height} pixels: ${Math.floor(100 * share)} %${time}`, share);
+      const report = (share, isOnPage) => {
+        const place = isOnPage ? 'This page may start no worker; computing the truth here' : 'Computing the truth';
+        this.#report(`${place}, ${width} × ${height} pixels: ${progressText(share, start)}`, share);
       };
       report(0);
-      let truth;
-      try {
-        truth = await computeInWorker(request, report, signal);
-      } catch (error) {
-        if (!(error instanceof NoWorker)) throw error;
-        place = 'This page may start no worker; computing the truth here';
-        truth = await computeOnPage(request, report, signal);
-      }
+      const truth = await runJob(kAddress, request, report, signal);
       if (!signal.aborted) this.#actions.take({ ...truth, width, height });
     });
   }

@@ -141,10 +141,12 @@ Result<measure::BenchEnvironment> environmentOf(const std::string& path) {
 Result<measure::BenchMesh> meshOf(const std::string& path) {
     const Result<Bytes> bytes = scene::plainFiles(path)(path);
     if (!bytes) return bytes.error();
-    const Result<scene::Scene> scene = scene::sceneFromMesh(path, *bytes, technique::tables());
-    if (!scene) return scene.error();
+    Result<scene::Mesh> mesh = scene::decodeMesh(*bytes, path);
+    if (!mesh) return mesh.error();
+    if (!mesh->parts.empty()) mesh = scene::partOf(*mesh, mesh->parts.front());
+    if (mesh->normals.empty()) mesh->normals = scene::areaWeightedNormals(mesh->positions, mesh->indices);
     return measure::BenchMesh{fs::path(path).stem().string(),
-                              std::get<scene::MeshShape>(scene->objects.front().shape).mesh};
+                              std::make_shared<scene::Mesh>(std::move(*mesh))};
 }
 
 // The gallery's files; what is not there is said and left out.

@@ -17,13 +17,7 @@ Result<SourcedHeights> fromHeights(std::span<const std::byte> bytes, const std::
 Result<SourcedHeights> fromNormals(std::span<const std::byte> bytes, const std::string& name) {
     const Result<Image> normals = decodeImage(bytes, name, Encoding::Linear);
     if (!normals) return normals.error();
-    Result<Image> heights = heightsFromNormals(*normals, name);
-    if (!heights) return heights.error();
-    const float highest = *std::max_element(heights->pixels.begin(), heights->pixels.end());
-    if (highest > 0)
-        for (float& height : heights->pixels)
-            height /= highest;
-    return SourcedHeights{std::make_shared<Image>(std::move(*heights)), highest};
+    return heightsOfNormals(*normals, name);
 }
 
 Result<SourcedHeights> fromMesh(const HeightSource& source, std::span<const std::byte> bytes,
@@ -35,6 +29,16 @@ Result<SourcedHeights> fromMesh(const HeightSource& source, std::span<const std:
 }
 
 } // namespace
+
+Result<SourcedHeights> heightsOfNormals(const Image& normals, const std::string& name) {
+    Result<Image> heights = heightsFromNormals(normals, name);
+    if (!heights) return heights.error();
+    const float highest = *std::max_element(heights->pixels.begin(), heights->pixels.end());
+    if (highest > 0)
+        for (float& height : heights->pixels)
+            height /= highest;
+    return SourcedHeights{std::make_shared<Image>(std::move(*heights)), highest};
+}
 
 Result<SourcedHeights> loadHeights(const HeightSource& source, std::span<const std::byte> bytes,
                                    const std::string& name) {
@@ -57,15 +61,6 @@ void digHoles(HeightField& field) {
             if (*alpha.at(alphaX, alphaY) < 0.5f) *dug->at(x, y) = bottom;
         }
     field.heights = dug;
-}
-
-void fitHeights(Object& object) {
-    HeightField& field = object.field();
-    const auto [low, high] = std::minmax_element(field.heights->pixels.begin(), field.heights->pixels.end());
-    if (*low >= 0 && *high <= 1) return;
-    const float range = *high - *low;
-    field.heightScale = std::min(0.1f * field.width / std::max(range, 1e-6f), 1e5f);
-    object.transform.translate.z = -*low * field.heightScale * object.transform.scale;
 }
 
 } // namespace lucent::scene

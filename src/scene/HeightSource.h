@@ -13,6 +13,9 @@ struct SourcedHeights {
     float texelsPerHeight = 0;          ///< of a normal map: how many texel widths high a height of 1 stands
 };
 
+/// Of a normal map as stored (heightsFromNormals() in Mesh.h).
+Result<SourcedHeights> heightsOfNormals(const Image& normals, const std::string& name);
+
 /// Decodes the file of `source`.
 ///
 /// @param name  of the file, for messages
@@ -23,9 +26,5 @@ Result<SourcedHeights> loadHeights(const HeightSource& source, std::span<const s
 /// Sinks every texel with alpha below 0.5 (nearest texel of `field.alpha`, which must be there) as deep below
 /// the lowest height as the larger side of the footprint, at most 1e4 heights.
 void digHoles(HeightField& field);
-
-/// Chooses a scale for heights outside [0,1], such as metres: the range becomes a tenth of the width, and the
-/// lowest height lies in the object's plane. Heights inside keep what they have.
-void fitHeights(Object& object);
 
 } // namespace lucent::scene

@@ -23,24 +23,6 @@ Result<Scene> load(const std::string& path, const ReadFile& read,
 /// before it calls load().
 Result<std::vector<std::string>> dependencies(const std::string& path, std::span<const std::byte> scene);
 
-/// A scene around one height map: what a person gets who drops a picture on the page.
-///
-/// Lit by a point light, seen from above so that the whole field fits.
-Result<Scene> sceneFromHeights(const std::string& name, std::span<const std::byte> bytes,
-                               std::span<const ParamTable* const> techniques);
-
-/// A scene around a mesh in the plain form: what a person gets who drops a model on the page.
-///
-/// With the materials of its file, under a sky and a distant light, seen by a perspective camera so that all
-/// of it fits as it stands at time 0.
-/// @return  Error "NAME: ..." for what is no mesh, or has no extent
-Result<Scene> sceneFromMesh(const std::string& name, std::span<const std::byte> bytes,
-                            std::span<const ParamTable* const> techniques);
-
-/// Replaces the heights of an object by another file; alpha and colour maps of the old picture are dropped.
-/// Error for objects that are no height field.
-Status replaceHeights(Object& object, const std::string& name, std::span<const std::byte> bytes);
-
 /// Decodes an environment map; `source` is a file name or a procedural name, for which `bytes` is empty.
 Result<std::shared_ptr<const Image>> loadEnvironmentMap(const std::string& source,
                                                         std::span<const std::byte> bytes);

@@ -56,51 +56,19 @@ Status Viewer::load(const std::string& path, const ReadFile& read) {
     return Done{};
 }
 
-Status Viewer::openImage(const std::string& name, std::span<const std::byte> bytes, bool asEnvironment) {
-    const Status opened = asEnvironment ? openEnvironment(name, bytes) : openHeights(name, bytes);
-    if (!opened) showMessage(opened.error().message);
-    return opened;
-}
-
-Status Viewer::openMesh(const std::string& name, std::span<const std::byte> bytes) {
-    Result<scene::Scene> scene = scene::sceneFromMesh(name, bytes, technique::tables());
-    if (!scene) {
-        showMessage(scene.error().message);
-        return scene.error();
-    }
-    state_->adopt(std::move(*scene));
-    return Done{};
-}
-
 Status Viewer::openEnvironment(const std::string& name, std::span<const std::byte> bytes) {
     State& s = *state_;
-    if (!s.scene) return Error{name + ": there is no scene to light; open a height map first"};
+    const auto refuse = [&](const Error& error) {
+        showMessage(error.message);
+        return error;
+    };
+    if (!s.scene) return refuse({name + ": there is no scene to light; open a height map or a model first"});
     auto map = scene::loadEnvironmentMap(name, bytes);
-    if (!map) return map.error();
+    if (!map) return refuse(map.error());
     if (!s.scene->environment) s.scene->environment.emplace();
     s.scene->environment->source = name;
     s.scene->environment->map = std::move(*map);
     s.scene->environment->enabled = true;
-    s.message.clear();
-    s.bind();
-    s.changed();
-    return Done{};
-}
-
-Status Viewer::openHeights(const std::string& name, std::span<const std::byte> bytes) {
-    State& s = *state_;
-    if (!s.scene || !s.hasField()) {
-        Result<scene::Scene> scene = scene::sceneFromHeights(name, bytes, technique::tables());
-        if (!scene) return scene.error();
-        s.adopt(std::move(*scene));
-        return Done{};
-    }
-    auto& objects = s.scene->objects;
-    const auto field = std::find_if(objects.begin(), objects.end(),
-                                    [](const scene::Object& object) { return object.isField(); });
-    scene::Object object = *field;
-    if (Status replaced = scene::replaceHeights(object, name, bytes); !replaced) return replaced;
-    *field = std::move(object);
     s.message.clear();
     s.bind();
     s.changed();
@@ -372,11 +340,6 @@ std::vector<std::pair<std::string, Bytes>> Viewer::pack() const {
     scene::Scene scene = *s.asLoaded;
     const auto mapOf = [](const auto& environment) { return environment ? environment->map : nullptr; };
     if (mapOf(scene.environment) != mapOf(s.scene->environment)) scene.environment = s.scene->environment;
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        auto* field = std::get_if<scene::HeightField>(&scene.objects[i].shape);
-        const auto* shown = std::get_if<scene::HeightField>(&s.scene->objects[i].shape);
-        if (field && shown && field->heights != shown->heights) *field = *shown;
-    }
     return packScene(std::move(scene));
 }
 

@@ -31,11 +31,8 @@ public:
     /// Loads a scene file through `read`. On error the scene that was showing stays and the message is shown
     /// on the canvas until dismissed.
     Status load(const std::string& path, const ReadFile& read);
-    /// A dropped or opened picture: a height map, or an environment map when `asEnvironment`. Heights take
-    /// the place of the scene's first height field; without one they become a scene.
-    Status openImage(const std::string& name, std::span<const std::byte> bytes, bool asEnvironment);
-    /// A dropped or opened mesh in the plain form becomes a scene.
-    Status openMesh(const std::string& name, std::span<const std::byte> bytes);
+    /// A picture becomes the environment of the scene that is showing.
+    Status openEnvironment(const std::string& name, std::span<const std::byte> bytes);
     /// Shows a message over the picture ("" removes it).
     void showMessage(const std::string& message);
 
@@ -142,8 +139,6 @@ public:
     void attach(gl::Context& context, gl::ImGuiHost& imgui);
 
 private:
-    Status openEnvironment(const std::string& name, std::span<const std::byte> bytes);
-    Status openHeights(const std::string& name, std::span<const std::byte> bytes);
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -142,12 +142,8 @@ const char* viewer_load(int viewer, const char* path) {
     return answer(viewerOf(viewer).load(path, readFetched));
 }
 
-const char* viewer_open_image(int viewer, const char* name, const std::uint8_t* bytes, int size, int kind) {
-    return answer(viewerOf(viewer).openImage(name, bytesOf(bytes, size), kind == 1));
-}
-
-const char* viewer_open_mesh(int viewer, const char* name, const std::uint8_t* bytes, int size) {
-    return answer(viewerOf(viewer).openMesh(name, bytesOf(bytes, size)));
+const char* viewer_open_environment(int viewer, const char* name, const std::uint8_t* bytes, int size) {
+    return answer(viewerOf(viewer).openEnvironment(name, bytesOf(bytes, size)));
 }
 
 void viewer_message(int viewer, const char* text) { viewerOf(viewer).showMessage(text); }

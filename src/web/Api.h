@@ -26,10 +26,8 @@ int viewer_create(); ///< handle > 0
 void viewer_destroy(int viewer);
 /// "" or the message; the files must have been put. After an error the old scene stays.
 const char* viewer_load(int viewer, const char* path);
-/// kind: 0 height map, 1 environment map
-const char* viewer_open_image(int viewer, const char* name, const std::uint8_t* bytes, int size, int kind);
-/// A mesh in the plain form becomes the scene; "" or the message.
-const char* viewer_open_mesh(int viewer, const char* name, const std::uint8_t* bytes, int size);
+/// A picture becomes the environment of the scene; "" or the message.
+const char* viewer_open_environment(int viewer, const char* name, const std::uint8_t* bytes, int size);
 void viewer_message(int viewer, const char* text);
 void viewer_resize(int viewer, int width, int height, float scale);
 void viewer_panel(int viewer, int visible);

@@ -1,15 +1,18 @@
-/// The page's second module: it turns glTF and EXR into what the first one reads, and is fetched only when a
-/// scene names such a file. C functions as in Api.h; strings returned stay valid until the next call that
-/// returns one.
+/// The page's second module: it turns glTF and EXR into what the first one reads and a person's own files
+/// into scenes, and is fetched only when a scene names such a file or a person brings one. C functions as in
+/// Api.h; strings returned stay valid until the next call that returns one.
 
 #include "scene/readers/Readers.h"
 #include "base/JsonWriter.h"
+#include "scene/Ptm.h"
 #include "scene/readers/Obj.h"
+#include "scene/readers/Photos.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 using namespace lucent;
@@ -19,6 +22,10 @@ namespace {
 struct Converter {
     std::map<std::string, Bytes> files;
     Bytes plain;
+    scene::Brought brought;
+    std::vector<scene::LitPhoto> photos; // that a light file names
+    std::optional<scene::PhotometricStereo> stereo;
+    std::size_t photo = 0; // the next to come
     std::string answer;
 };
 
@@ -65,6 +72,33 @@ ReadFile filesBeside(const std::string& name) {
             if (resolvePath(name, key) == path) return bytes;
         return Error{path + ": was not fetched; must lie beside " + name};
     };
+}
+
+std::vector<Output> takeFiles() {
+    std::vector<Output> taken;
+    for (auto& [name, bytes] : converter().files)
+        taken.push_back({name, std::move(bytes)});
+    converter().files.clear();
+    return taken;
+}
+
+const char* answer(const Error& error) {
+    JsonWriter json;
+    return answer(json.beginObject().key("error").value(error.message).end().text());
+}
+
+const char* answer(Result<scene::Brought> brought) {
+    if (!brought) return answer(brought.error());
+    JsonWriter json;
+    json.beginObject();
+    converter().brought = std::move(*brought);
+    json.key("files").beginArray();
+    for (const Output& file : converter().brought) {
+        json.beginObject().key("name").value(file.path);
+        json.key("at").value(double(std::uintptr_t(file.bytes.data())));
+        json.key("size").value(int(file.bytes.size())).end();
+    }
+    return answer(json.end().end().text());
 }
 
 } // namespace
@@ -114,4 +148,100 @@ const char* reader_to_plain(const char* name) {
 
 const std::uint8_t* reader_bytes() { return reinterpret_cast<const std::uint8_t*>(converter().plain.data()); }
 int reader_size() { return int(converter().plain.size()); }
+
+/// The name of what reader_to_plain() made of a file.
+const char* reader_plain_name(const char* name, const std::uint8_t* bytes, int size) {
+    return answer(scene::plainName(name, std::as_bytes(std::span(bytes, std::size_t(size)))));
+}
+
+/// JSON array of what each picture that was put, in plain form, is for: {"name", "use"}, with the use ""
+/// where a person must be asked. Forgets all files.
+const char* reader_uses() {
+    const std::vector<Output> pictures = takeFiles();
+    const auto uses = scene::usesOf(pictures);
+    JsonWriter json;
+    json.beginArray();
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        json.beginObject().key("name").value(pictures[i].path);
+        json.key("use").value(uses[i] ? scene::mapUseNames()[std::size_t(*uses[i])] : "").end();
+    }
+    return answer(json.end().text());
+}
+
+/// The scene of pictures that were put. `uses` is JSON: the use of each by its name, others are left out.
+/// JSON:
+/// {"files": [{"name", "at", "size"}]}, the scene first, or {"error"}; the bytes stay until the next call
+/// that answers so. Forgets all files.
+const char* reader_bring_maps(const char* uses) {
+    const nlohmann::json wanted = nlohmann::json::parse(uses, nullptr, false);
+    std::vector<scene::MapFile> maps;
+    for (Output& file : takeFiles()) {
+        const auto use = scene::mapUseNamed(wanted.value(file.path, ""));
+        if (use) maps.push_back({*use, file.path, std::move(file.bytes)});
+    }
+    return answer(scene::sceneOfMaps(maps));
+}
+
+/// The same of a mesh that was put in plain form.
+const char* reader_bring_mesh(const char* name) {
+    const Bytes mesh = std::move(converter().files[name]);
+    converter().files.clear();
+    return answer(scene::sceneOfMesh(name, mesh));
+}
+
+/// The same of a PTM file that was put.
+const char* reader_bring_ptm(const char* name) {
+    const Bytes file = std::move(converter().files[name]);
+    converter().files.clear();
+    const Result<scene::SurfaceMaps> maps = scene::decodePtm(file, name);
+    if (!maps) return answer(maps.error());
+    return answer(scene::sceneOfSurface(scene::titleOf(name), *maps));
+}
+
+/// A light file: JSON, {"files": [...]} of the photographs in the order in which they are to come, or
+/// {"error"}.
+const char* stereo_begin(const char* name, const std::uint8_t* bytes, int size) {
+    constexpr std::size_t kMostBytes = std::size_t(512) << 20; // a quarter of a module's memory
+    Converter& c = converter();
+    auto photos = scene::parseLightFile(std::as_bytes(std::span(bytes, std::size_t(size))), name);
+    if (!photos) return answer(photos.error());
+    c.photos = std::move(*photos);
+    c.photo = 0;
+    std::vector<dvec3> lights;
+    std::vector<std::string> files;
+    for (const scene::LitPhoto& photo : c.photos) {
+        lights.push_back(photo.light);
+        files.push_back(photo.file);
+    }
+    c.stereo.emplace(lights, kMostBytes);
+    return answer("{\"files\": " + namesJson(files) + "}");
+}
+
+/// Takes the next photograph; "" or the message.
+const char* stereo_add(const std::uint8_t* bytes, int size) {
+    Converter& c = converter();
+    const std::string& name = c.photos[c.photo++].file;
+    const auto content = std::as_bytes(std::span(bytes, std::size_t(size)));
+    const Result<Bytes> plain =
+        scene::toPlain(name, Bytes(content.begin(), content.end()), filesBeside(name));
+    if (!plain) return answer(plain.error().message);
+    const Result<Image> image = decodeImage(*plain, name, Encoding::Srgb);
+    if (!image) return answer(image.error().message);
+    const Status added = c.stereo->add(*image, name);
+    return answer(added ? std::string() : added.error().message);
+}
+
+/// Works for about that long; the share that is done, [0,1].
+double stereo_step(double milliseconds) { return converter().stereo->step(milliseconds / 1000); }
+
+/// What it comes to, in words; once stereo_step() has returned 1.
+const char* stereo_text() { return answer(scene::describe(*converter().stereo)); }
+
+/// As reader_bring_maps(), and behind the scene's files those of the normals and the residual.
+const char* stereo_scene(const char* title) {
+    return answer(scene::sceneOfSurface(title, converter().stereo->maps()));
+}
+
+/// What all files of a set are called.
+const char* reader_title(const char* name) { return answer(scene::titleOf(name)); }
 }

@@ -343,55 +343,5 @@ TEST(Load, DependenciesAreAllFilesOnceInTheOrderOfTheFile) {
               "a.json:1:1: unexpected end of input; expected string literal");
 }
 
-TEST(Load, DroppedPictureBecomesASceneThatShowsAllOfIt) {
-    Image heights(30, 60, 1);
-    heights.pixels[7] = 1;
-    const Result<Scene> scene =
-        sceneFromHeights("x/my.relief.png", *encodeImage(heights, "a.png"), test::kTechniques);
-    ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(scene->objects[0].name, "my");
-    EXPECT_GE(scene->camera.height, 2); // the field is 1 m x 2 m
-    EXPECT_EQ(scene->lights.size(), 1u);
-    EXPECT_EQ(scene->environment->source, "rainbow");
-    EXPECT_FALSE(scene->environment->enabled);
-    EXPECT_TRUE(scene->environment->map);
-    EXPECT_TRUE(scene->technique.contains("demo"));
-    EXPECT_EQ(sceneFromHeights("a.png", {}, {}).error().message,
-              "a.png: is empty; must be a PNG, JPEG, HDR or PFM image");
-}
-
-TEST(Load, DroppedHeightsInMetresAreScaledToATenthOfTheWidth) {
-    Image heights(2, 1, 1);
-    heights.pixels = {300, 700};
-    const Result<Scene> scene = sceneFromHeights("dem.pfm", *encodeImage(heights, "a.pfm"), {});
-    ASSERT_TRUE(scene);
-    EXPECT_FLOAT_EQ(scene->objects[0].field().heightScale, 0.1f / 400);
-    EXPECT_FLOAT_EQ(scene->objects[0].transform.translate.z, -300 * 0.1f / 400); // the lowest lies at z = 0
-}
-
-TEST(Load, ReplacedHeightsDropWhatBelongedToTheOldPicture) {
-    Files files;
-    files.put("scenes/c.png", Image(1, 1, 3));
-    Result<Scene> scene = test::load(files, around(R"("material": { "baseMap": "c.png", "depth": 0.2 })",
-                                                   R"("heights": "h.pfm", "alpha": "c.png")"));
-    ASSERT_TRUE(scene) << scene.error().message;
-    Object& object = scene->objects[0];
-    const Object before = object;
-    EXPECT_FALSE(replaceHeights(object, "new.png", {}));
-    EXPECT_EQ(object.field().heights, before.field().heights); // a failed load keeps what was there
-    ASSERT_TRUE(replaceHeights(object, "new.png", *encodeImage(Image(3, 3, 1), "a.png")));
-    EXPECT_EQ(object.field().texels(), ivec2(3));
-    EXPECT_EQ(object.field().source.file, "new.png");
-    EXPECT_FALSE(object.field().alpha);
-    EXPECT_FALSE(object.material.baseMap);
-    EXPECT_EQ(object.material.relief().depth, 0.2f);
-
-    Object ball;
-    ball.name = "ball";
-    ball.shape = Sphere{};
-    EXPECT_EQ(replaceHeights(ball, "new.png", *encodeImage(Image(3, 3, 1), "a.png")).error().message,
-              "new.png: would replace \"ball\", a \"sphere\"; must replace a height field");
-}
-
 } // namespace
 } // namespace lucent::scene

@@ -185,31 +185,21 @@ TEST_F(Picture, AMessageIsClosedByItsButton) {
     EXPECT_EQ(differences(before, window->read()), 0);
 }
 
-TEST_F(Picture, APictureDroppedOnTheViewerBecomesItsHeightField) {
+TEST_F(Picture, APictureBecomesTheEnvironmentAndNothingElseChanges) {
+    EXPECT_EQ(viewer->openEnvironment("sky.pfm", {}).error().message,
+              "sky.pfm: there is no scene to light; open a height map or a model first");
     load(kLampScene);
     const Image before = window->read();
-    const Bytes broken(20, std::byte(7));
-    EXPECT_FALSE(viewer->openImage("broken.png", broken, false).ok());
-    EXPECT_EQ(viewer->get("lights.0.position"), "0.2 0.1 0.5");
-    Image ramp(8, 8, 1);
-    for (int i = 0; i < 64; ++i)
-        ramp.pixels[std::size_t(i)] = float(i % 8) / 8;
-    ASSERT_TRUE(viewer->openImage("ramp.pfm", *encodeImage(ramp, "ramp.pfm"), false).ok());
-    settle();
-    EXPECT_GT(differences(before, window->read()), 1000);
+    EXPECT_FALSE(viewer->openEnvironment("broken.png", Bytes(20, std::byte(7))).ok());
+    EXPECT_EQ(viewer->get("environment.enabled"), "");
     Image sky(4, 2, 3);
     for (float& value : sky.pixels)
         value = 0.5f;
-    ASSERT_TRUE(viewer->openImage("sky.pfm", *encodeImage(sky, "sky.pfm"), true).ok());
+    ASSERT_TRUE(viewer->openEnvironment("sky.pfm", *encodeImage(sky, "sky.pfm")).ok());
     EXPECT_EQ(viewer->get("environment.enabled"), "true");
+    EXPECT_EQ(viewer->get("lights.0.position"), "0.2 0.1 0.5");
     settle();
-}
-
-TEST_F(Picture, AViewerWithoutASceneMakesOneOfAPicture) {
-    ASSERT_TRUE(viewer->openImage("wave.pfm", wave(), false).ok());
-    settle();
-    EXPECT_GT(viewer->drawCount(), 0);
-    EXPECT_NE(viewer->scene(), nullptr);
+    EXPECT_GT(differences(before, window->read()), 1000);
 }
 
 TEST_F(Picture, TwoViewersShareAContextAndKeepTheirPictures) {
@@ -386,29 +376,6 @@ TEST_F(Playing, AStillSceneHasNothingToPlay) {
     EXPECT_FALSE(viewer->key(" ", {}));
     EXPECT_FALSE(viewer->set("playing", "true").ok());
     EXPECT_EQ(viewer->get("playing"), "false");
-}
-
-// --- models
-
-TEST_F(Picture, AMeshDroppedOnTheViewerBecomesAScene) {
-    load(kLampScene);
-    ASSERT_TRUE(viewer->openMesh("tent.glb", scene::encodeMesh(tentMesh())).ok());
-    settle();
-    EXPECT_EQ(viewer->title(), "tent.glb");
-    EXPECT_EQ(viewer->get("objects.mesh/pane.material.transmission"), "1");
-    const Status broken = viewer->openMesh("half.glb", Bytes(20, std::byte(7)));
-    ASSERT_FALSE(broken.ok());
-    EXPECT_EQ(broken.error().message,
-              "half.glb: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM4");
-    EXPECT_EQ(viewer->title(), "tent.glb");
-}
-
-TEST_F(Picture, HeightsDroppedOnASceneWithoutAReliefBecomeASceneOfTheirOwn) {
-    openCoarse();
-    load(kGlassScene);
-    ASSERT_TRUE(viewer->openImage("wave.pfm", wave(), false).ok());
-    EXPECT_EQ(viewer->title(), "wave");
-    ASSERT_EQ(viewer->scene()->objects.size(), 1u);
 }
 
 } // namespace

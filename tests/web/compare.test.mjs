@@ -113,7 +113,7 @@ test('what lies beside glass is sampled, with its standard error', async () => {
     scene.environment = { source: 'uniform' };
     scene.camera = { type: 'orthographic', eye: [1, 0, 3], target: [1, 0, 0], height: 0.4 };
     const files = new Map([['scene.json', new TextEncoder().encode(JSON.stringify(scene))]]);
-    const { computeTruth } = await import('./lucent-truth.js');
+    const { work: computeTruth } = await import('./lucent-truth.js');
     return computeTruth({ files, width: 8, height: 8, samples: 64 }, () => true);
   });
   const red = Object.values(pixels).filter((_, index) => index % 4 === 0);
@@ -232,7 +232,7 @@ test('the page computes the truth that the program computed', async () => {
     const header = new TextDecoder().decode(file.subarray(0, 40)).split('\n', 3);
     [request.width, request.height] = header[1].split(' ').map(Number);
     const native = new Float32Array(file.slice(header.join('\n').length + 1).buffer);
-    const { computeTruth } = await import('./lucent-truth.js');
+    const { work: computeTruth } = await import('./lucent-truth.js');
     const { pixels } = await computeTruth(request, () => true);
     let most = 0;
     for (let y = 0; y < request.height; ++y)

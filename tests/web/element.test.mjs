@@ -1,7 +1,6 @@
 /** <lucent-viewer> as a page uses it: attributes, properties, events, files, sizes and places. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { glassTriangle, greyPng } from './scenes.mjs';
 import {
   brightness,
   complete,
@@ -143,112 +142,6 @@ test('pixels are never finer than two a CSS pixel', async () => {
   const page = await open(kDome, { deviceScaleFactor: 3 });
   const { width, height } = await pictureOf(page);
   assert.deepEqual([width, height], [800, 600]);
-  await page.leave();
-});
-
-// Drops a file at a place of the viewer, as a person does: first over it, then let go.
-const drop = (page, name, bytes, share) => dropAll(page, { [name]: bytes }, share);
-
-// The same for files that are dropped together, by name.
-async function dropAll(page, files, share) {
-  await page.evaluate(
-    ([contents, part]) => {
-      const viewer = document.querySelector('lucent-viewer');
-      const transfer = new DataTransfer();
-      for (const [name, text] of contents)
-        transfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], name));
-      const box = viewer.getBoundingClientRect();
-      const place = {
-        clientX: box.left + part * box.width,
-        clientY: box.top + 50,
-        dataTransfer: transfer,
-        bubbles: true,
-        cancelable: true,
-      };
-      viewer.dispatchEvent(new DragEvent('dragover', place));
-      window.zones = [...viewer.shadowRoot.querySelectorAll('.zones.shown > *')].map((zone) => [
-        zone.textContent,
-        zone.className,
-      ]);
-      viewer.dispatchEvent(new DragEvent('drop', place));
-    },
-    [Object.entries(files).map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')]), share],
-  );
-  return page.evaluate(() => window.zones);
-}
-
-test('a height map dropped on the left half takes the place of the relief', async () => {
-  const page = await open();
-  const slope = greyPng(64, 64, (x) => 4 * x); // rises to the right: away from the light on the left
-  let zones;
-  await eventOf(page, 'load', async () => (zones = await drop(page, 'slope.png', slope, 0.25)));
-  assert.deepEqual(zones, [
-    ['Height map or model', 'aimed'],
-    ['Environment', ''],
-  ]);
-  await complete(page);
-  const picture = await pictureOf(page);
-  const columns = [0.35, 0.45, 0.55].map((left) => brightness(picture, [left, 0.4, left + 0.1, 0.6]));
-  assert.ok(columns[0] > columns[1] && columns[1] > columns[2], `brightness from left to right: ${columns}`);
-  await page.leave();
-});
-
-test('a picture dropped on the right half becomes the environment', async () => {
-  const page = await open();
-  const before = await pictureOf(page);
-  await eventOf(page, 'load', () =>
-    drop(
-      page,
-      'evening.png',
-      greyPng(64, 32, (x, y) => 255 - 8 * y),
-      0.75,
-    ),
-  );
-  await complete(page);
-  assert.equal(await valueOf(page, 'environment.enabled'), true);
-  assert.ok(difference(before, await pictureOf(page)).share > 0.2);
-  await page.leave();
-});
-
-test('a dropped model becomes a scene with its own materials, and a damaged one keeps it', async () => {
-  const page = await open();
-  const { model, data } = glassTriangle();
-  await eventOf(page, 'load', () => dropAll(page, { 'pane.bin': data, 'pane.gltf': model }, 0.25));
-  await complete(page);
-  const title = () => page.evaluate(() => document.querySelector('lucent-viewer').sceneTitle);
-  assert.equal(await title(), 'pane.gltf');
-  assert.equal(await valueOf(page, 'objects.mesh/glass.material.transmission'), 1);
-  assert.equal(await valueOf(page, 'camera.type'), 'perspective');
-  const before = await pictureOf(page);
-  const alone = await eventOf(page, 'error', () => drop(page, 'pane.gltf', model, 0.25));
-  assert.match(alone.message, /^pane\.gltf: .*pane\.bin.*;/);
-  const damaged = await eventOf(page, 'error', () => drop(page, 'half.glb', Buffer.from('glTF'), 0.75));
-  assert.match(damaged.message, /^half\.glb: .*;/);
-  assert.equal(await title(), 'pane.gltf');
-  assert.deepEqual(difference(before, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
-  await page.leave();
-});
-
-test('a dropped OBJ without its materials is a scene all the same', async () => {
-  const page = await open();
-  const text = 'mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paper\nf 1 2 3\n';
-  await eventOf(page, 'load', () => drop(page, 'sheet.obj', Buffer.from(text), 0.25));
-  assert.deepEqual(await valueOf(page, 'camera.target'), [0.5, 0.5, 0]);
-  await page.leave();
-});
-
-test('a dropped scene file is refused with the reason, a damaged picture too, and the old picture stays', async () => {
-  const page = await open();
-  const before = await pictureOf(page);
-  const scene = await eventOf(page, 'error', () => drop(page, 'coin.json', Buffer.from('{}'), 0.25));
-  assert.equal(scene.code, 'file');
-  assert.match(scene.message, /^coin\.json: a scene names further files, .*; put it on a server/);
-  const damaged = await eventOf(page, 'error', () =>
-    drop(page, 'half.png', greyPng(64, 64, (x) => x).subarray(0, 60), 0.25),
-  );
-  assert.equal(damaged.code, 'file');
-  assert.match(damaged.message, /^half\.png: .*;/);
-  assert.deepEqual(difference(before, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
   await page.leave();
 });
 

@@ -147,7 +147,11 @@ export function glassTriangle() {
 }
 
 /** An 8-bit grey PNG. @param value  of column x and row y, [0, 255] */
-export function greyPng(width, height, value) {
+export const greyPng = (width, height, value) => pngOf(width, height, 1, value);
+/** The same of a value (x, y, channel). */
+export const colorPng = (width, height, value) => pngOf(width, height, 3, value);
+
+function pngOf(width, height, channels, value) {
   const chunk = (type, data) => {
     const body = Buffer.concat([Buffer.from(type), data]);
     const length = Buffer.alloc(4);
@@ -159,9 +163,13 @@ export function greyPng(width, height, value) {
   const header = Buffer.alloc(13);
   header.writeUInt32BE(width, 0);
   header.writeUInt32BE(height, 4);
-  header[8] = 8; // bits; colour type 0 is grey
-  const rows = Buffer.alloc((width + 1) * height); // each row starts with its filter: none
-  for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) rows[y * (width + 1) + 1 + x] = value(x, y);
+  header[8] = 8; // bits
+  header[9] = channels === 1 ? 0 : 2; // grey or red, green and blue
+  const row = channels * width + 1; // starts with its filter: none
+  const rows = Buffer.alloc(row * height);
+  for (let y = 0; y < height; ++y)
+    for (let at = 0; at < channels * width; ++at)
+      rows[y * row + 1 + at] = value(Math.floor(at / channels), y, at % channels);
   return Buffer.concat([
     Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
     chunk('IHDR', header),
