@@ -1,5 +1,6 @@
 // lucent convert: a mesh, a normal map or any image becomes a map of heights; a mesh another kind of mesh
-// file.
+// file; files of a person a scene in a folder.
+#include "cli/Bring.h"
 #include "cli/Command.h"
 #include "cli/Files.h"
 
@@ -20,7 +21,8 @@ namespace {
 using scene::HeightSource;
 
 struct ConvertOptions {
-    std::string input, output, size, rotate, margin, floorGap;
+    std::vector<std::string> inputs;
+    std::string input, output, size, rotate, margin, floorGap; ///< input: the first
     std::vector<std::string> allowed;
     bool normals = false;
 
@@ -79,8 +81,20 @@ Status convertMesh(const ConvertOptions& options) {
     return Done{};
 }
 
-Status convert(const ConvertOptions& options) {
+Status convertFolder(const ConvertOptions& options) {
+    if (options.normals || options.forMesh())
+        return Error{options.output +
+                     ": is a folder; --normals, --size, --rotate, --margin and --floor-gap make heights"};
+    return bringInto(options.output, options.inputs, options.allowed);
+}
+
+Status convert(ConvertOptions options) {
     const std::string ending = endingOf(options.output);
+    if (ending.empty()) return convertFolder(options);
+    options.input = options.inputs.front();
+    if (options.inputs.size() > 1)
+        return Error{options.output + ": is to be made of " + std::to_string(options.inputs.size()) +
+                     " files; several become a folder"};
     if (ending == ".mesh" || ending == ".obj") return convertMesh(options);
     if (Status known = checkImageEnding(options.output); !known) return known;
     if (ending == ".png")
@@ -108,14 +122,20 @@ Status convert(const ConvertOptions& options) {
 
 Command addConvert(CLI::App& program) {
     CLI::App* parser = program.add_subcommand(
-        "convert", "Makes a height map from a mesh, a normal map or an image, or another mesh file");
+        "convert", "Makes a height map from a mesh, a normal map or an image, another mesh file, or a scene");
     const auto options = std::make_shared<ConvertOptions>();
     parser
-        ->add_option("INPUT", options->input,
-                     "Mesh (.gltf, .glb, .obj, .mesh) or image (.png, .jpg, .hdr, .exr, .pfm)")
+        ->add_option(
+            "INPUT", options->inputs,
+            "Mesh (.gltf, .glb, .obj, .mesh) or image (.png, .jpg, .hdr, .exr, .pfm); for a folder also "
+            "several images that belong together, by what their names end in (_height, _normal, _albedo, "
+            "_alpha, _specular), a light file of photographs (.lp: normals and colours by photometric "
+            "stereo), or a .ptm")
         ->required();
-    addOutput(*parser, options->output,
-              "Heights: .pfm, .exr or .hdr; a mesh: .mesh (all of it, read fastest) or .obj (its rest)");
+    addOutput(
+        *parser, options->output,
+        "Heights: .pfm, .exr or .hdr; a mesh: .mesh (all of it, read fastest) or .obj (its rest); without an "
+        "ending a folder for a scene of the input with all files that it names");
     addAllow(*parser, options->allowed);
     parser->add_flag("--normals", options->normals,
                      "The image is a normal map: integrates it by least squares");
@@ -131,7 +151,9 @@ Command addConvert(CLI::App& program) {
     parser->footer("Examples:\n"
                    "  lucent convert dragon.glb -o dragon.pfm --size 1024x768 --rotate 0,-20,0\n"
                    "  lucent convert bricks-normal.png -o bricks.exr --normals\n"
-                   "  lucent convert fish.glb -o fish.mesh");
+                   "  lucent convert fish.glb -o fish.mesh\n"
+                   "  lucent convert coin_height.png coin_albedo.png -o coin && lucent render coin/coin.json "
+                   "-o coin.png");
     return {parser, [options] { return convert(*options); }};
 }
 
