@@ -1,4 +1,4 @@
-/** What a person opens or drops becomes a scene of its own: pictures that belong together, or a model with its parts. */
+/** What a person opens or drops becomes a scene of its own: pictures that belong together, a model with its parts. */
 import { toPlain, withReaders } from './files.js';
 import { LucentError } from './runtime.js';
 import { callWasm } from './wasm.js';
@@ -67,11 +67,10 @@ export async function bringScene(files, { ask, solve }) {
   const ptm = files.find(({ name }) => /\.ptm$/i.test(name));
   if (ptm) return askReaders([{ name: ptm.name, bytes: await bytesOf(ptm) }], takeScene, 'reader_bring_ptm', ptm.name);
   const scene = files.find(({ name }) => /\.json$/i.test(name));
-  if (scene)
-    throw new LucentError(
-      'file',
-      `${scene.name}: a scene names further files, which a page cannot read from disk; put it on a server and name it in src`,
-    );
+  if (scene) {
+    const why = 'a scene names further files, which a page cannot read from disk';
+    throw new LucentError('file', `${scene.name}: ${why}; put it on a server and name it in src`);
+  }
   const plain = await Promise.all(files.map((file) => plainFile(file, files)));
   const known = await askReaders(plain, (uses) => new Map(uses.map(({ name, use }) => [name, use])), 'reader_uses');
   const told = plain.map(({ name }) => known.get(name));

@@ -76,7 +76,7 @@ export class LucentViewer extends HTMLElement {
   #task = 0; // number of the newest load: older ones give up
   #src = null; // what is loaded or on its way
   #shown = null; // what is loaded
-  #own = null; // {path, files} of the scene that is shown, where it is made of a person's files
+  #brought = null; // {path, files} of the scene that is shown, where it is made of a person's files
   #near = false; // the element or its surroundings are on the screen
   #seen = false; // the element itself is
   #play; // the button
@@ -413,12 +413,12 @@ export class LucentViewer extends HTMLElement {
   }
 
   /**
-   * The scene that is shown where it is made of a person's own files, else null: `path` of the scene file as it is now, and
-   * `files`, the bytes of it and of all that it names by name (Map).
+   * The scene that is shown where it is made of a person's own files, else null: `path` of the scene file as it is now,
+   * and `files`, the bytes of it and of all that it names by name (Map).
    */
   get ownScene() {
-    if (!this.#own) return null;
-    const { path, files } = this.#own;
+    if (!this.#brought) return null;
+    const { path, files } = this.#brought;
     return { path, files: new Map(files).set(path, new TextEncoder().encode(this.sceneJson)) };
   }
 
@@ -465,7 +465,7 @@ export class LucentViewer extends HTMLElement {
   moduleEnded(error, handle) {
     const isLoaded = this.loaded && this.#src === this.#shown;
     const isInnocent = handle !== this.#handle && (handle !== 0 || isLoaded);
-    const own = this.#own;
+    const own = this.#brought;
     this.#forget();
     this.#settled.splice(0).forEach((resolve) => resolve());
     this.#fail(error);
@@ -508,14 +508,14 @@ export class LucentViewer extends HTMLElement {
     if (!scene) return;
     const seat = await this.#seat(task, needsWhole(scene.files.get(scene.path)));
     if (seat) await this.#load(seat, task, { name: scene.path, own: scene }, () => loadFiles(seat, scene));
-    if (scene.residual && this.#own === scene) await this.#photos.showResidual(scene);
+    if (scene.residual && this.#brought === scene) await this.#photos.showResidual(scene);
   }
 
   async #openEnvironment(task, file) {
     const { name, bytes } = await openPicture(file);
     const seat = await this.#seat(task, false);
     if (!seat) return;
-    const own = this.#own && { ...this.#own, files: new Map(this.#own.files).set(name, bytes) };
+    const own = this.#brought && { ...this.#brought, files: new Map(this.#brought.files).set(name, bytes) };
     await this.#load(seat, task, { name, own }, () => {
       const message = seat.runtime.text('viewer_open_environment', seat.handle, name, bytes);
       if (message) throw new LucentError('file', message);
@@ -534,11 +534,11 @@ export class LucentViewer extends HTMLElement {
     }
     if (!isThere) return;
     if (moves) this.#moveTo(seat);
-    if (own && own.path !== this.#own?.path) {
+    if (own && own.path !== this.#brought?.path) {
       this.truth = '';
       this.alt = seat.runtime.text('viewer_title', seat.handle);
     }
-    this.#own = own;
+    this.#brought = own;
     this.#photos.clear();
     this.#takeScene(name);
   }
@@ -562,8 +562,10 @@ export class LucentViewer extends HTMLElement {
       const seat = await this.#seat(task, true);
       if (!seat) return;
       const { changes } = this;
-      const files = this.#runtime.files('viewer_pack', this.#handle);
-      await this.#load(seat, task, { name: this.src, own: this.#own }, () => loadFiles(seat, { path: 'scene.json', files }));
+      const path = this.#brought?.path ?? 'scene.json';
+      const packed = [...this.#runtime.files('viewer_pack', this.#handle)];
+      const scene = { path, files: new Map(packed.map(([name, bytes]) => [name === 'scene.json' ? path : name, bytes])) };
+      await this.#load(seat, task, { name: this.src, own: this.#brought && scene }, () => loadFiles(seat, scene));
       for (const [path, text] of Object.entries(changes)) this.#set(path, String(text));
     } catch (error) {
       if (task === this.#task) this.#fail(error);
@@ -637,7 +639,7 @@ export class LucentViewer extends HTMLElement {
     this.#task++;
     this.#photos.cancel();
     this.#truth.cancel();
-    this.#src = this.#shown = this.#own = null;
+    this.#src = this.#shown = this.#brought = null;
     this.#controls = [];
     this.#handle = 0;
     clearTimeout(this.#timers.release);

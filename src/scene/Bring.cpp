@@ -43,7 +43,7 @@ void writeExposure(JsonWriter& json, float brightest) {
 
 // Chosen by eye: air around the relief, where the lamp stands (of half the sides, and above the highest
 // place), and how far the camera. Lengths are parts of the longer side.
-constexpr float kReliefAir = 0.06f, kLampAcross = 1, kLampAbove = 0.35f, kEyeAbove = 2;
+constexpr float kReliefAir = 0.06f, kLampAcross = 1, kLampAbove = 0.25f, kEyeAbove = 2;
 constexpr float kReliefHeight = 0.1f; // of heights in no unit of the relief's own
 constexpr float kGloss = 0.2f; // specularity where a set says nothing of colours, or something of highlights
 constexpr float kDiffuse = 0.8f; // where a set says nothing of colours

@@ -127,7 +127,9 @@ test('an own scene has its own name, and its files can be taken', async () => {
   });
   assert.equal(scene.view.exposure, 0.125);
   assert.equal(scene.objects[0].material.diffuseMap, 'coin_albedo.png');
-  await eventOf(page, 'load', () => page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/ridge.json')));
+  await eventOf(page, 'load', () =>
+    page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/ridge.json')),
+  );
   assert.equal((await stateOf(page)).path, undefined);
   await page.leave();
 });
