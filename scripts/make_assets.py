@@ -28,6 +28,7 @@ sys.path.insert(0, str(ROOT / "scripts/assets"))
 import cast_glass
 import coin
 import dragon
+import flame
 import gallery
 import head
 import meshes
@@ -121,6 +122,7 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(meshes.dragon_40k, [DRAGON], [GALLERY / "dragon-40k.glb"], SIMPLIFIER)
     stamps.make(meshes.prism, [], [GALLERY / "prism.glb"])
     stamps.make(meshes.tiles, [], [GALLERY / "tiles.glb"])
+    stamps.make(flame.flame, [], [GALLERY / "flame.glb"], [Path(meshes.__file__)])
     stamps.make(head.head, [], [GALLERY / "head.glb"], [Path(meshes.__file__)])
     stamps.make(strokes.checkerboard, [], [GALLERY / "checkerboard-strokes.json"])
     stamps.make(strokes.makeup, [], [GALLERY / "makeup-strokes.json"], [Path(head.__file__)])

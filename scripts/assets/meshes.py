@@ -100,9 +100,13 @@ def write_glb(path: Path, positions: np.ndarray, triangles: np.ndarray) -> None:
                       {"bufferView": 1, "componentType": 5126, "count": len(positions), "type": "VEC3"},
                       {"bufferView": 2, "componentType": 5125, "count": triangles.size, "type": "SCALAR"}],
     }
+    write_document(path, document, points + normals + corners)
+
+
+def write_document(path: Path, document: dict, binary: bytes) -> None:
+    """Binary glTF of a document and its one buffer, whose length is a multiple of 4."""
     text = json.dumps(document, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
-    binary = points + normals + corners
     path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + len(binary)) +
                      struct.pack("<I4s", len(text), b"JSON") + text +
                      struct.pack("<I4s", len(binary), b"BIN\0") + binary)
