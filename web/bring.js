@@ -24,7 +24,9 @@ const among = (files) => async (name) => {
 
 /** A file in a form that the loader reads, under the name that such files have. */
 async function plainFile(file, files) {
-  const bytes = await toPlain(file.name, await bytesOf(file), among(files));
+  const own = await bytesOf(file);
+  const bytes = await toPlain(file.name, own, among(files));
+  if (bytes === own) return { name: file.name, bytes };
   const nameIn = (wasm) => wasm.UTF8ToString(callWasm(wasm, 'reader_plain_name', file.name, bytes));
   return { name: await withReaders(file.name, nameIn), bytes };
 }
