@@ -1,6 +1,7 @@
 // lucent render: pictures on the GPU, one or a sequence.
 #include "cli/Command.h"
 #include "cli/Files.h"
+#include "cli/Interrupt.h"
 #include "cli/ProgressBar.h"
 
 #include "base/JsonWriter.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -29,9 +29,6 @@ struct RenderOptions {
     int frames = 0;             ///< 0: one picture, without a number in its name
     int fps = 30;
 };
-
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free); // or a signal handler must not touch it
 
 // "out.png" -> "out-0001.png"
 std::string numbered(const std::string& output, int number) {
@@ -140,11 +137,8 @@ Status renderAll(const RenderOptions& options, const gl::Context& context, frame
     std::vector<Drawn> pictures;
     const std::vector<std::string> paths = pathsOf(options);
     const float start = scene.view.time;
-    if (paths.size() > 1)
-        std::signal(SIGINT, [](int) {
-            interrupted = true;
-            std::signal(SIGINT, SIG_DFL);
-        });
+    const std::atomic<bool> never = false;
+    const std::atomic<bool>& interrupted = paths.size() > 1 ? catchInterrupt() : never;
     ProgressBar bar;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         bar.show(double(i) / double(paths.size()));

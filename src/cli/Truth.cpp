@@ -1,6 +1,7 @@
 // lucent truth: the exact models, or the physics that they stand for, on the CPU.
 #include "cli/Command.h"
 #include "cli/Files.h"
+#include "cli/Interrupt.h"
 #include "cli/ProgressBar.h"
 #include "cli/TruthOutput.h"
 
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -37,9 +37,6 @@ struct TruthOptions {
     std::uint32_t seed = 0;
     int threads = 0;
 };
-
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free); // or a signal handler must not touch it
 
 bool isLight(const TruthOptions& options) {
     return options.estimator == "light" || options.estimator == "light-tree";
@@ -139,6 +136,7 @@ Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scen
 
 Result<truth::Picture> solve(const scene::Scene& scene, const TruthOptions& options, const truth::Tile& tile,
                              const truth::Work& work) {
+    const std::atomic<bool>& interrupted = catchInterrupt();
     const truth::Model drawn = technique::modelOf(scene);
     if (isLight(options))
         return truth::traceLight(scene, scene.size,
@@ -227,7 +225,6 @@ Status makeTruth(TruthOptions options) {
     if (!tile) return tile.error();
 
     tellNotDrawn(*scene);
-    std::signal(SIGINT, [](int) { interrupted = true; });
     Result<truth::Picture> picture = [&] {
         ProgressBar bar;
         return solve(*scene, options, *tile, {options.threads, [&](double share) { bar.show(share); }});
