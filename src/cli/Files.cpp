@@ -1,5 +1,6 @@
 #include "cli/Files.h"
 
+#include "base/Archive.h"
 #include "base/Text.h"
 #include "frame/Renderer.h"
 #include "scene/Keys.h"
@@ -19,7 +20,7 @@ namespace lucent::cli {
 namespace fs = std::filesystem;
 
 void SceneOptions::addTo(CLI::App& parser) {
-    parser.add_option("SCENE", path, "Scene file (JSON)")->required();
+    parser.add_option("SCENE", path, "Scene file (JSON), or a zip archive of one with its files")->required();
     parser.add_option("--size", size, "Size of the picture in pixels, WxH; else the scene's own")
         ->type_name("WxH");
     parser
@@ -54,7 +55,9 @@ Result<scene::Aov> parseAov(const std::string& text) {
 } // namespace
 
 Result<scene::Scene> SceneOptions::load() const {
-    Result<scene::Scene> scene = scene::load(path, scene::plainFiles(path, allowed), technique::tables());
+    const Result<scene::SceneSource> source = scene::sceneSource(path, allowed);
+    if (!source) return source.error();
+    Result<scene::Scene> scene = scene::load(source->path, source->read, technique::tables());
     if (!scene) return scene;
     for (const std::string& set : sets)
         if (Status applied = applySet(*scene, set); !applied) return applied.error();
@@ -72,6 +75,7 @@ Result<scene::Scene> SceneOptions::load() const {
 }
 
 Result<std::vector<std::string>> SceneOptions::files() const {
+    if (isArchive(path)) return std::vector{path};
     const Result<Bytes> bytes = readFile(path);
     if (!bytes) return bytes.error();
     Result<std::vector<std::string>> files = scene::dependencies(path, *bytes);

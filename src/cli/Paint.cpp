@@ -2,6 +2,7 @@
 #include "cli/Command.h"
 #include "cli/Files.h"
 
+#include "base/Archive.h"
 #include "base/Text.h"
 #include "scene/Load.h"
 #include "scene/Painting.h"
@@ -45,6 +46,9 @@ Result<scene::Object*> objectOf(const PaintOptions& options, scene::Scene& scene
 }
 
 Status checkPlaces(const PaintOptions& options, const std::vector<std::string>& inputs) {
+    if (isArchive(options.scene.path))
+        return Error{options.scene.path + ": is an archive, beside which no painted map is found; must be a "
+                                          "scene file"};
     const fs::path folder = fs::absolute(options.scene.path).parent_path();
     if (Status possible = checkOutputs({options.output, options.entering, options.leaving}, inputs);
         !possible)

@@ -29,4 +29,16 @@ Result<Bytes> encodeExr(const Image& image);
 /// file turned into its plain form.
 ReadFile plainFiles(const std::string& path, const std::vector<std::string>& allowed = {});
 
+/// A scene, and what reads it and all that it names.
+struct SceneSource {
+    std::string path; ///< of the scene file; "ARCHIVE.zip/FILE" for one in an archive
+    ReadFile read;
+};
+
+/// What native programs load the scene `path` with: plainFiles() of a scene file. Of a zip archive the scene
+/// in it, whose files lie in it too.
+///
+/// @return  Error "PATH: what; what was expected" for an archive that cannot be read, or holds no scene
+Result<SceneSource> sceneSource(const std::string& path, const std::vector<std::string>& allowed = {});
+
 } // namespace lucent::scene
