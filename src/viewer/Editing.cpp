@@ -44,6 +44,7 @@ void Viewer::State::changed() {
 
 void Viewer::State::adopt(scene::Scene newScene) {
     scene = std::make_unique<scene::Scene>(std::move(newScene));
+    ++sceneNumber;
     loaded.clear();
     offered.clear();
     play = {};

@@ -108,7 +108,7 @@ void Viewer::State::frame() {
 
 void Viewer::State::overlays() {
     const vec2 size = pictureSize();
-    if (scene && scene->view.lightDot) {
+    if (scene && scene->view.lightDot && !bare) {
         ImDrawList& list = *ImGui::GetBackgroundDrawList();
         const Rect place = picturePlace();
         list.PushClipRect({place.low.x, place.low.y}, {place.high.x, place.high.y});
@@ -118,6 +118,7 @@ void Viewer::State::overlays() {
     }
     compareOverlay();
     energyOverlay();
+    if (bare) return;
     paintOverlay();
     if (showStats && renderer && compare.mode == CompareMode::Off) // whose card holds the cost as well
         drawStats(renderer->stats(), openSize(), theme(dark));

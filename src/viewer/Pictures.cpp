@@ -24,6 +24,7 @@ bool Viewer::State::advance() {
         picture.camera = seenCamera();
         if (dropTime && picture.view.time < *dropTime) dropTime.reset(); // the water begins anew
         ++pictureNumber;
+        failure.clear();
         stale = false;
         phase = Phase::Look;
     }
@@ -33,7 +34,7 @@ bool Viewer::State::advance() {
         renderer->advance(picture, pictureNumber, size, phase == Phase::Look);
     if (!progress) {
         phase = Phase::Done;
-        message = progress.error().message;
+        message = failure = progress.error().message;
         settled = false;
         return false;
     }

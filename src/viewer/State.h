@@ -63,6 +63,9 @@ struct Viewer::State {
     Panel panel;
     std::string message, focus;
     bool help = false, showStats = false, touch = false;
+    bool bare = false;   // nothing stands over the picture
+    int sceneNumber = 0; // of scenes that were adopted
+    std::string failure; // why the picture could not be drawn
 
     scene::Scene picture; // what is being drawn: the scene as it was when this picture began
     std::uint64_t pictureNumber = 0;

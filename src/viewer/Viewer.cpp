@@ -75,6 +75,18 @@ Status Viewer::openEnvironment(const std::string& name, std::span<const std::byt
     return Done{};
 }
 
+void Viewer::copy(const Viewer& other) {
+    const State& from = *other.state_;
+    if (!from.scene) return;
+    State& s = *state_;
+    s.adopt(*from.scene);
+    s.mode = from.mode;
+    s.paintSettings = from.paintSettings;
+    s.bind();
+}
+
+int Viewer::sceneNumber() const { return state_->sceneNumber; }
+
 void Viewer::showMessage(const std::string& message) {
     state_->message = message;
     state_->settled = false;
@@ -90,6 +102,11 @@ void Viewer::resize(ivec2 pixels, float scale) {
 
 void Viewer::setPanelVisible(bool visible) {
     state_->panel.setVisible(visible);
+    state_->settled = false;
+}
+
+void Viewer::setBare(bool bare) {
+    state_->bare = bare;
     state_->settled = false;
 }
 
@@ -332,6 +349,14 @@ bool Viewer::drawsAll() const {
     const State& s = *state_;
     return !s.scene || std::all_of(s.scene->objects.begin(), s.scene->objects.end(),
                                    [](const scene::Object& object) { return technique::isShaded(object); });
+}
+
+std::string Viewer::failure() const { return state_->failure; }
+
+Result<Image> Viewer::linear() {
+    State& s = *state_;
+    if (!s.renderer || !s.complete()) return Error{"picture: is not finished; must be drawn first"};
+    return s.renderer->read(s.picture, s.picture.view.show);
 }
 
 std::vector<std::pair<std::string, Bytes>> Viewer::pack() const {

@@ -33,12 +33,20 @@ public:
     Status load(const std::string& path, const ReadFile& read);
     /// A picture becomes the environment of the scene that is showing.
     Status openEnvironment(const std::string& name, std::span<const std::byte> bytes);
+    /// Shows what another viewer shows, as it stands now, with steps and controls of its own: for pictures of
+    /// other sizes. What drops have left on water is not taken over.
+    void copy(const Viewer& other);
+    /// Counts the scenes that were shown: another number is another scene, not one that was changed.
+    int sceneNumber() const;
     /// Shows a message over the picture ("" removes it).
     void showMessage(const std::string& message);
 
     /// Framebuffer size in pixels and pixels per CSS pixel.
     void resize(ivec2 pixels, float scale);
     void setPanelVisible(bool visible);
+    /// Bare: nothing stands over the picture, neither light dots nor the brush's ring, costs, help or
+    /// messages.
+    void setBare(bool bare);
     void setDark(bool dark);
 
     /// Draws if something changed or the picture is not complete. @return true when another call is wanted
@@ -120,6 +128,10 @@ public:
     std::vector<std::pair<std::string, Bytes>> askTruth();
     /// Whether the techniques of this program show every object.
     bool drawsAll() const;
+    /// Why the picture could not be drawn; "" where it could.
+    std::string failure() const;
+    /// The finished picture as linear values: the light, or the quantity that is shown. See Renderer::read().
+    Result<Image> linear();
     /// The scene without changes(), but with the pictures that a person opened, as files like those of
     /// askTruth(): what a viewer of another program goes on with.
     std::vector<std::pair<std::string, Bytes>> pack() const;

@@ -22,6 +22,7 @@ struct Page {
     std::map<int, std::unique_ptr<Viewer>> viewers;
     int lastViewer = 0;
     std::vector<std::pair<std::string, Bytes>> packed; // files of a scene for another module
+    Image linear;                                      // that viewer_linear answered with
     std::string answer;
 };
 
@@ -146,6 +147,9 @@ const char* viewer_open_environment(int viewer, const char* name, const std::uin
     return answer(viewerOf(viewer).openEnvironment(name, bytesOf(bytes, size)));
 }
 
+void viewer_copy(int viewer, int other) { viewerOf(viewer).copy(viewerOf(other)); }
+int viewer_scene_number(int viewer) { return viewerOf(viewer).sceneNumber(); }
+void viewer_bare(int viewer, int bare) { viewerOf(viewer).setBare(bare != 0); }
 void viewer_message(int viewer, const char* text) { viewerOf(viewer).showMessage(text); }
 void viewer_resize(int viewer, int width, int height, float scale) {
     viewerOf(viewer).resize({width, height}, scale);
@@ -154,6 +158,23 @@ void viewer_panel(int viewer, int visible) { viewerOf(viewer).setPanelVisible(vi
 void viewer_dark(int viewer, int dark) { viewerOf(viewer).setDark(dark != 0); }
 int viewer_draw(int viewer, double seconds) { return viewerOf(viewer).draw(seconds); }
 int viewer_draw_count(int viewer) { return viewerOf(viewer).drawCount(); }
+
+const char* viewer_failure(int viewer) { return answer(viewerOf(viewer).failure()); }
+
+const char* viewer_linear(int viewer) {
+    Result<Image> picture = viewerOf(viewer).linear();
+    JsonWriter json;
+    json.beginObject();
+    if (picture) {
+        page().linear = std::move(*picture);
+        const Image& image = page().linear;
+        json.key("width").value(image.width).key("height").value(image.height);
+        json.key("at").value(double(std::uintptr_t(image.pixels.data())));
+    } else {
+        json.key("error").value(picture.error().message);
+    }
+    return answer(json.end().text());
+}
 
 int viewer_pointer(int viewer, int event, float x, float y, int button, int modifiers, int touch,
                    float pressure) {

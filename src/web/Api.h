@@ -28,12 +28,19 @@ void viewer_destroy(int viewer);
 const char* viewer_load(int viewer, const char* path);
 /// A picture becomes the environment of the scene; "" or the message.
 const char* viewer_open_environment(int viewer, const char* name, const std::uint8_t* bytes, int size);
+void viewer_copy(int viewer, int other); ///< see Viewer::copy()
+int viewer_scene_number(int viewer);
+void viewer_bare(int viewer, int bare);
 void viewer_message(int viewer, const char* text);
 void viewer_resize(int viewer, int width, int height, float scale);
 void viewer_panel(int viewer, int visible);
 void viewer_dark(int viewer, int dark);
 int viewer_draw(int viewer, double seconds); ///< 1: another frame is wanted
 int viewer_draw_count(int viewer);
+const char* viewer_failure(int viewer); ///< "" or why the picture could not be drawn
+/// JSON: {"width", "height", "at"}, the finished picture as linear values at an address of width x height x 4
+/// floats, valid until the next call of this function; or {"error"}.
+const char* viewer_linear(int viewer);
 /// event: 0 down, 1 move, 2 up, 3 leave; modifiers: 1 shift, 2 control, 4 alt; pressure [0,1] of a pen.
 /// Returns 1 when used.
 int viewer_pointer(int viewer, int event, float x, float y, int button, int modifiers, int touch,

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <string>
@@ -143,6 +144,19 @@ const char* reader_to_plain(const char* name) {
     c.files.clear();
     if (!plain) return answer(plain.error().message);
     c.plain = std::move(*plain);
+    return answer(std::string());
+}
+
+/// Linear values, `channels` (1, 3 or 4) floats a pixel with row 0 at the top, as EXR: "" or the message; the
+/// result is at reader_bytes().
+const char* reader_to_exr(int width, int height, int channels, const std::uint8_t* floats, int size) {
+    Image image(width, height, channels);
+    if (std::size_t(size) != image.pixels.size() * sizeof(float))
+        return answer("picture: has " + std::to_string(size) + " bytes; must have 4 for each value");
+    std::memcpy(image.pixels.data(), floats, std::size_t(size));
+    Result<Bytes> exr = scene::encodeExr(image);
+    if (!exr) return answer(exr.error().message);
+    converter().plain = std::move(*exr);
     return answer(std::string());
 }
 
