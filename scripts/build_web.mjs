@@ -74,7 +74,7 @@ await build({
   entryPoints: [web('lucent-viewer.js')],
   outfile: out('lucent-viewer.js'),
   alias: { 'lucent-relief-wasm': wasm('lucent-relief.mjs') },
-  external: ['./selfcheck.js'], // fetched when asked for
+  external: ['./export.js', './selfcheck.js', './zip.js'], // fetched when asked for
   plugins: [cssAsText],
 });
 await bundleOf('lucent-check', {
@@ -107,7 +107,17 @@ await build({
   entryPoints: [web('stereo_job.js')],
   outfile: out('lucent-stereo.js'),
 });
-await build({ ...common, entryPoints: [web('page.js')], outfile: out('page.js') });
+for (const name of ['export', 'zip'])
+  await build({ ...common, bundle: true, entryPoints: [web(`${name}.js`)], outfile: out(`${name}.js`) });
+const dialogs = ['./open.js', './picture.js', './selfcheck.js']; // fetched when asked for
+for (const name of ['page', 'open', 'picture'])
+  await build({
+    ...common,
+    bundle: true,
+    entryPoints: [web(`${name}.js`)],
+    outfile: out(`${name}.js`),
+    external: ['./lucent-viewer.js', ...dialogs],
+  });
 await build({ minify: true, entryPoints: [web('page.css')], outfile: out('page.css') });
 for (const name of ['index.html', 'bench.html']) copyFileSync(web(name), out(name));
 
@@ -141,6 +151,7 @@ if (!options.first && existsSync(kGallery)) {
 // The terms of what the page carries, as the packages state them.
 const kCarried = ['emscripten', 'fonts-inter', 'libeigen3-dev', 'libglm-dev', 'libstb-dev', 'libtinyexr-dev', 'libtiff-dev', 'libtinygltf-dev', 'nlohmann-json3-dev', 'zlib1g-dev'];
 const terms = kCarried.map((name) => [name, `/usr/share/doc/${name}/copyright`]);
+terms.push(['zip.js', join(kRoot, 'node_modules/@zip.js/zip.js/LICENSE')]);
 terms.push(['imgui', join(kRoot, 'build/packages/imgui/LICENSE.txt')], ['lucent', join(kRoot, 'LICENSE')]);
 const notices = terms.filter(([, file]) => existsSync(file)).map(([name, file]) => `==== ${name}\n\n${readFileSync(file, 'utf8')}`);
 writeFileSync(out('licences.txt'), notices.join('\n'));

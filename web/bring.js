@@ -1,5 +1,5 @@
 /** What a person opens or drops becomes a scene of its own: pictures that belong together, a model with its parts. */
-import { toPlain, withReaders } from './files.js';
+import { sceneAmong, toPlain, withReaders } from './files.js';
 import { LucentError } from './runtime.js';
 import { callWasm } from './wasm.js';
 
@@ -10,7 +10,7 @@ const isLightFile = ({ name }) => /\.lp$/i.test(name);
 
 /** What files are for. @param environmentWanted  the person pointed at that half, or held Alt */
 export function kindOfDrop(files, environmentWanted) {
-  const isAlone = files.length === 1 && !isMesh(files[0]);
+  const isAlone = files.length === 1 && !isMesh(files[0]) && !sceneAmong(files);
   return isAlone && (environmentWanted || /\.(hdr|exr)$/i.test(files[0].name)) ? 'environment' : 'scene';
 }
 
@@ -68,11 +68,6 @@ export async function bringScene(files, { ask, solve }) {
   }
   const ptm = files.find(({ name }) => /\.ptm$/i.test(name));
   if (ptm) return askReaders([{ name: ptm.name, bytes: await bytesOf(ptm) }], takeScene, 'reader_bring_ptm', ptm.name);
-  const scene = files.find(({ name }) => /\.json$/i.test(name));
-  if (scene) {
-    const why = 'a scene names further files, which a page cannot read from disk';
-    throw new LucentError('file', `${scene.name}: ${why}; put it on a server and name it in src`);
-  }
   const plain = await Promise.all(files.map((file) => plainFile(file, files)));
   const known = await askReaders(plain, (uses) => new Map(uses.map(({ name, use }) => [name, use])), 'reader_uses');
   const told = plain.map(({ name }) => known.get(name));

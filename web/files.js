@@ -117,12 +117,31 @@ async function convert(wasm, name, bytes, part) {
   for (const [path, content] of parts) callWasm(wasm, 'reader_file_put', path, content);
   const message = wasm.UTF8ToString(callWasm(wasm, 'reader_to_plain', name));
   if (message) throw new LucentError('scene', message);
+  return converted(wasm);
+}
+
+function converted(wasm) {
   const start = callWasm(wasm, 'reader_bytes');
   return wasm.HEAPU8.slice(start, start + callWasm(wasm, 'reader_size'));
 }
 
-/** Parts of a file that was fetched lie beside it. */
-const beside = (url, reach) => async (name) => fetchBytes(reach.find(name, url), name, reach);
+/** Linear values as EXR. @param picture  width, height and bytes of 4 floats a pixel @return {Promise<Blob>} */
+export async function encodeExr({ width, height, bytes }) {
+  const wasm = await loadReaders();
+  const message = wasm.UTF8ToString(callWasm(wasm, 'reader_to_exr', width, height, 4, bytes));
+  if (message) throw new LucentError('file', message);
+  return new Blob([converted(wasm)], { type: 'image/x-exr' });
+}
+
+/** The name of a file that another one names, as seen from where that one's own name is. */
+const besideFile = (from, name) => (from.includes('/') ? from.slice(0, from.lastIndexOf('/') + 1) : '') + name;
+
+/** A file among those that a person opened together: by its whole name, else by the last part of it. */
+async function among(files, name) {
+  const last = (path) => path.split('/').pop();
+  const file = files.find((one) => one.name === name) ?? files.find((one) => last(one.name) === last(name));
+  return file && new Uint8Array(await file.arrayBuffer());
+}
 
 const fileName = (url) => decodeURIComponent(url.pathname.split('/').pop());
 
@@ -139,44 +158,164 @@ export function needsWhole(bytes) {
 }
 
 /**
- * Fetches a scene and every file it names.
- * @param start    (whole) => promise of the runtime that draws it
+ * A file in the plain form, and what was read for it: '' itself, and its parts by the names that it has for them.
+ * @param read  (name, part) => promise of the bytes of such a part
+ */
+async function readSource(name, read) {
+  const source = new Map();
+  const take = async (part) => {
+    const bytes = await read(name, part);
+    if (bytes) source.set(part, new Blob([bytes]));
+    return bytes;
+  };
+  const bytes = await take('');
+  return { source, bytes: await toPlain(name, bytes, take) };
+}
+
+/**
+ * Collects what a scene needs.
+ * @param start  (whole) => promise of the runtime that draws it
+ * @param path   name of the scene file, whose content is `scene`
+ * @param read   see readSource()
+ * @return {Promise<object>}  path; files, all in the plain form by name; whole, whether it needs the whole module;
+ *                            sources, by name what was read for each
+ */
+async function collect(start, path, scene, read) {
+  const whole = needsWhole(scene);
+  const runtime = await start(whole);
+  const names = namesIn(runtime, path, scene);
+  const files = new Map([[path, scene]]);
+  const sources = new Map();
+  const all = await Promise.all(names.map((name) => readSource(name, read)));
+  all.forEach(({ source, bytes }, at) => {
+    files.set(names[at], bytes);
+    sources.set(names[at], source);
+  });
+  return { path, files, whole, sources };
+}
+
+/** Files that a scene names, as seen from `path`. */
+export function namesIn(runtime, path, scene) {
+  runtime.call('file_put', path, scene);
+  const { files, error } = runtime.json('scene_dependencies', path);
+  runtime.call('file_forget', path);
+  if (error) throw new LucentError('scene', error);
+  return files;
+}
+
+const isZip = ([a, b]) => a === 0x50 && b === 0x4b; // PK
+
+/** A scene in an archive, whose files lie in it too. */
+async function collectZip(start, name, blob) {
+  const { openZip } = await loadZip();
+  try {
+    const archive = await openZip(name, blob);
+    const read = (file, part) => archive.read(part ? besideFile(file, part) : file);
+    return await collect(start, archive.scene, await read(archive.scene), read);
+  } catch (error) {
+    throw error instanceof LucentError ? error : new LucentError('file', error.message);
+  }
+}
+
+/** The module of archives, fetched when the first is opened or made. */
+export const loadZip = () =>
+  import('./zip.js').catch(({ message }) => {
+    throw new LucentError('fetch', `zip.js: ${message}; it must lie beside the script`);
+  });
+
+/**
+ * Fetches a scene and every file it names, or an archive of both. See collect().
  * @param allowed  addresses of folders beneath which files may lie, beside the scene's own
- * @return {Promise<{path: string, files: Map<string, Uint8Array>, whole: boolean}>}  the scene's own name, all files by
- *                 name, and whether it needs the whole module
  */
 export async function fetchScene(start, url, allowed) {
   const path = fileName(url) || url.href;
   const scene = await fetchBytes(url, path);
-  const whole = needsWhole(scene);
-  const runtime = await start(whole);
-  runtime.call('file_put', path, scene);
-  const { files: names, error } = runtime.json('scene_dependencies', path);
-  runtime.call('file_forget', path);
-  if (error) throw new LucentError('scene', error);
-  const files = new Map([[path, scene]]);
+  if (isZip(scene)) return collectZip(start, path, new Blob([scene]));
   const reach = new Reach(url, allowed);
-  const fetchOne = async (name) => {
+  return collect(start, path, scene, async (name, part) => {
     const address = reach.find(name, url);
-    return [name, await toPlain(name, await fetchBytes(address, name, reach), beside(address, reach))];
-  };
-  for (const [name, bytes] of await Promise.all(names.map(fetchOne))) files.set(name, bytes);
-  return { path, files, whole };
+    return fetchBytes(part ? reach.find(part, address) : address, part || name, reach);
+  });
+}
+
+/**
+ * A scene that a person opened: an archive, or a scene file among the files that it names. See collect().
+ * @param files  File objects, of which one is a scene
+ */
+export async function openScene(start, files) {
+  const main = sceneAmong(files);
+  if (isArchive(main)) return collectZip(start, main.name, main);
+  return collect(start, main.name, new Uint8Array(await main.arrayBuffer()), async (name, part) => {
+    const bytes = await among(files, part ? besideFile(name, part) : name);
+    if (bytes || part) return bytes;
+    throw new LucentError(
+      'file',
+      `${main.name}: names ${name}, which was not opened with it; must be opened together with all that it names`,
+    );
+  });
 }
 
 /**
  * Gives fetched files to the module for one load and takes them back, so that two scenes may use the same names. Throws a
- * LucentError.
+ * LucentError. @return  the scene's sources: see collect(); the files themselves where nobody says them
  */
-export function loadFiles({ runtime, handle }, { path, files }) {
+export function loadFiles({ runtime, handle }, { path, files, sources }) {
   for (const [name, bytes] of files) runtime.call('file_put', name, bytes);
   const message = runtime.text('viewer_load', handle, path);
   for (const name of files.keys()) runtime.call('file_forget', name);
   if (message) throw new LucentError('scene', message);
+  return sources ?? sourcesOf([...files].filter(([name]) => name !== path));
 }
+
+/** Sources of files that need no others. @param files  [name, bytes] of each */
+export const sourcesOf = (files) => new Map(files.map(([name, bytes]) => [name, new Map([['', new Blob([bytes])]])]));
 
 /** The name and the bytes of one picture, in a form that the module reads. */
 export async function fetchPicture(url) {
   const name = fileName(url);
-  return { name, bytes: await toPlain(name, await fetchBytes(url, name), beside(url, new Reach(url))) };
+  return { name, bytes: await toPlain(name, await fetchBytes(url, name)) };
+}
+const isArchive = ({ name }) => /\.zip$/i.test(name);
+/** An archive of a scene, or a scene file. */
+const isScene = ({ name }) => /\.(zip|json)$/i.test(name);
+
+/** Of files that a person opened together the scene; undefined where they are none. */
+export const sceneAmong = (files) =>
+  [isArchive, ({ name }) => name === 'scene.json', isScene].map((is) => files.find(is)).find(Boolean);
+
+/** `name`, or with a number where it is taken. @param taken  has() says what is */
+export function freeName(name, taken) {
+  const [stem, ending] = name.split(/(?=\.[^.]*$)/);
+  let free = name;
+  for (let number = 2; taken.has(free); ++number) free = `${stem}-${number}${ending ?? ''}`;
+  return free;
+}
+
+const kTexts = ['title', 'caption', 'name', 'part']; // of a scene that are no files' names
+
+/** A name that stays in an archive: beneath its top, without parts "." or "..". */
+function nameInside(name, taken) {
+  const stays = !/^[a-z]+:|[?#\\]/i.test(name) && !name.split('/').some((part) => ['', '.', '..'].includes(part));
+  return freeName(stays ? name : decodeURIComponent(name.replace(/[?#].*/, '').split('/').pop()) || 'file', taken);
+}
+
+/**
+ * A scene with all its files as an archive holds them: "scene.json", and what it names.
+ * @param json     the scene
+ * @param sources  see collect()
+ * @return {Map<string, Blob>}
+ */
+export function filesOfScene(runtime, json, sources) {
+  const files = new Map([['scene.json', undefined]]);
+  const renamed = new Map();
+  for (const name of namesIn(runtime, 'scene.json', new TextEncoder().encode(json))) {
+    const source = sources.get(name);
+    if (!source) throw new LucentError('file', `${name}: its content is not at hand; must be opened again`);
+    const inside = nameInside(name, files);
+    if (inside !== name) renamed.set(name, inside);
+    for (const [part, blob] of source) files.set(part ? besideFile(inside, part) : inside, blob);
+  }
+  const rename = (key, value) => (kTexts.includes(key) ? value : (renamed.get(value) ?? value));
+  const text = renamed.size ? JSON.stringify(JSON.parse(json), rename, 2) : json;
+  return files.set('scene.json', new Blob([text], { type: 'application/json' }));
 }

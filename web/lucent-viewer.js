@@ -14,7 +14,19 @@
  */
 import { bringScene, droppedFiles, kindOfDrop, openPicture } from './bring.js';
 import { Controls } from './controls.js';
-import { fetchScene, loadFiles, needsWhole } from './files.js';
+import {
+  encodeExr,
+  fetchScene,
+  filesOfScene,
+  freeName,
+  loadFiles,
+  loadZip,
+  namesIn,
+  needsWhole,
+  openScene,
+  sceneAmong,
+  sourcesOf,
+} from './files.js';
 import { Gestures } from './gestures.js';
 import { PhotoBar } from './photos.js';
 import { LucentError, Runtime } from './runtime.js';
@@ -27,6 +39,7 @@ const kMaxScale = 2; // device pixels a CSS pixel: more is not seen, but costs
 const kNear = '300px'; // around the window: within it viewers load and draw
 const kReleaseAfter = 4000; // ms off screen until the GPU memory goes back
 const kHintTime = 1600; // ms
+const kUp = 2; // of events of the pointer: see viewer_pointer in Api.h
 const kKeys =
   'Arrow keys on a relief move the light or turn the environment, page up and page down raise or lower the light or ' +
   'zoom, shift with arrow keys orbits the camera. Arrow keys in other scenes orbit the camera, page up and page down ' +
@@ -77,6 +90,9 @@ export class LucentViewer extends HTMLElement {
   #src = null; // what is loaded or on its way
   #shown = null; // what is loaded
   #brought = null; // {path, files} of the scene that is shown, where it is made of a person's files
+  #sources = new Map(); // by name what was read for each file of the scene: see collect() in files.js
+  #openedFiles = new Set(); // names of files that the person opened into the scene
+  #paintAsLoaded = ''; // see #paint()
   #near = false; // the element or its surroundings are on the screen
   #seen = false; // the element itself is
   #play; // the button
@@ -129,7 +145,7 @@ export class LucentViewer extends HTMLElement {
     });
     find('.stage').append(this.#truth.element, this.#photos.element);
     new Gestures(this.#canvas, {
-      pointer: (...event) => this.#apply('viewer_pointer', ...event),
+      pointer: (...event) => this.#pointer(...event),
       wheel: (...event) => this.#apply('viewer_wheel', ...event),
       pinch: (factor) => this.#apply('viewer_pinch', factor),
       key: (...event) => this.#apply('viewer_key', ...event),
@@ -261,6 +277,23 @@ export class LucentViewer extends HTMLElement {
   get sceneJson() {
     return this.#ask('viewer_scene_json');
   }
+  /**
+   * The scene with every file it names, by their names: "scene.json" as sceneJson says it, paint included, and the files
+   * as they were read. openFile() takes them, and saveScene() packs them. @return {Map<string, Blob>}
+   */
+  get sceneFiles() {
+    if (!this.loaded) throw new LucentError('scene', 'sceneFiles: no scene is shown; one must be loaded');
+    return filesOfScene(this.#runtime, this.sceneJson, this.#sources);
+  }
+  /** What is shown and no link can carry, as its changes do: 'scene' or 'files' that the person opened, 'paint'. */
+  get beyondLink() {
+    if (!this.loaded) return [];
+    if (this.#brought) return ['scene'];
+    const files = this.#openedFiles;
+    const used = files.size ? namesIn(this.#runtime, 'scene.json', new TextEncoder().encode(this.sceneJson)) : [];
+    const found = used.some((name) => files.has(name)) ? ['files'] : [];
+    return this.#paint() === this.#paintAsLoaded ? found : [...found, 'paint'];
+  }
   /** {path: text} of every parameter that differs from the loaded scene: what a link carries. */
   get changes() {
     return JSON.parse(this.#ask('viewer_changes') || '{}');
@@ -391,25 +424,86 @@ export class LucentViewer extends HTMLElement {
     return runSelfCheck(options);
   }
 
-  /** The finished picture without the panel. */
-  async toBlob(type = 'image/png', quality) {
-    if (!this.loaded || !this.#size.width)
-      throw new LucentError('scene', 'toBlob(): no scene is shown; one must be loaded and have a size on the page');
+  /**
+   * The finished picture, by all samples of its pixels, with nothing over it.
+   * @param options  type, 'image/png' unless given; 'image/x-exr' holds linear values; quality of a lossy type. width and
+   *                 height: pixels, those of the canvas unless given, up to largestSide; other ones are drawn beside
+   *                 what the page shows. signal: AbortSignal. Or the type alone, and the quality behind it
+   */
+  async toBlob(options = {}, quality) {
+    const asked = typeof options === 'string' ? { type: options, quality } : options;
+    this.#refuseWithoutPicture('toBlob()');
+    const { width, height } = this.#size;
+    const { type = 'image/png' } = asked;
+    if (type === 'image/x-exr' || (asked.width ?? width) !== width || (asked.height ?? height) !== height)
+      return (await this.#loadExport()).picture(this.#studio(asked), asked);
+    const canvas = await this.#canvasWhenFinished();
+    return new Promise((resolve) => canvas.toBlob(resolve, type, asked.quality));
+  }
+  async #canvasWhenFinished() {
     const playing = !this.paused;
     this.pause();
     this.#capturing = true;
     this.#apply('viewer_panel', 0);
-    this.#apply('viewer_message', '');
+    this.#apply('viewer_bare', 1);
     await this.#whenFinished();
     const copy = document.createElement('canvas');
     copy.width = this.#canvas.width;
     copy.height = this.#canvas.height;
     copy.getContext('2d').drawImage(this.#canvas, 0, 0);
     this.#capturing = false;
+    this.#apply('viewer_bare', 0);
     this.#layout();
     if (!this.#near) this.#moved(false);
     if (playing) this.play();
-    return new Promise((resolve) => copy.toBlob(resolve, type, quality));
+    return copy;
+  }
+
+  /**
+   * Pictures one after the other, drawn beside what the page shows.
+   * @param options  path: 'camera' leads the camera around its target, over a relief to and fro; 'lamp' leads the first
+   *                 lamp around, or without one turns the environment. frames; width and height as in toBlob(); type:
+   *                 'application/zip' of numbered PNG files called `name`-0001.png and so on, or 'video/webm' where
+   *                 canRecord, with fps; signal; progress(share)
+   * @return {Promise<Blob>}
+   */
+  async toSequence(options) {
+    this.#refuseWithoutPicture('toSequence()');
+    return (await this.#loadExport()).sequence(this.#studio(options), options);
+  }
+  /** Of the picture on the page: width and height, pixels. */
+  get pictureSize() {
+    const { width, height } = this.#size;
+    return { width, height };
+  }
+  /** Longest side that a picture can have on this device, pixels; 0 before a scene is loaded. */
+  get largestSide() {
+    return this.#runtime?.largestSide ?? 0;
+  }
+  /** Whether toSequence() can make videos in this browser. */
+  static get canRecord() {
+    return 'captureStream' in HTMLCanvasElement.prototype && Boolean(self.MediaRecorder?.isTypeSupported('video/webm'));
+  }
+  #refuseWithoutPicture(where) {
+    if (!this.loaded || !this.#size.width)
+      throw new LucentError('scene', `${where}: no scene is shown; one must be loaded and have a size on the page`);
+  }
+  #loadExport() {
+    return import('./export.js').catch(({ message }) => {
+      throw new LucentError('fetch', `export.js: ${message}; it must lie beside the script`);
+    });
+  }
+  // What export.js draws with.
+  #studio({ width = this.#size.width, height = this.#size.height }) {
+    const [runtime, handle] = [this.#runtime, this.#handle];
+    return { runtime, handle, width, height, scene: JSON.parse(this.sceneJson), encodeExr, loadZip };
+  }
+
+  /** The scene with every file it names, as a zip archive (.lucent.zip): this page and the program open it. */
+  async saveScene() {
+    const files = this.sceneFiles;
+    const { packZip } = await loadZip();
+    return packZip(files);
   }
 
   /**
@@ -423,19 +517,22 @@ export class LucentViewer extends HTMLElement {
   }
 
   /**
-   * Makes a scene of files that a person chose, or takes a picture as the environment of the one that is shown.
+   * Shows a scene file with all that it names or a saved scene, makes a scene of files that a person chose, or takes a picture as the environment of the one that is shown.
    * @param files  File, or Blob with a name, or several: pictures that belong together, a model with its parts
    * @param kind   'scene' or 'environment'
+   * @return {Promise<boolean>}  whether it is shown
    */
   async openFile(files, kind = 'scene') {
     const all = files instanceof Blob ? [files] : [...files];
     const task = ++this.#task;
     this.#status.textContent = 'Loading…';
     try {
-      if (kind === 'environment') await this.#openEnvironment(task, all[0]);
-      else await this.#openScene(task, await this.#bring(all));
+      if (kind === 'environment') return await this.#openEnvironment(task, all[0]);
+      const start = (whole) => Runtime.shared(whole);
+      return await this.#openScene(task, await (sceneAmong(all) ? openScene(start, all) : this.#bring(all)));
     } catch (error) {
       if (task === this.#task) this.#fail(error);
+      return false;
     }
   }
 
@@ -501,38 +598,48 @@ export class LucentViewer extends HTMLElement {
     });
   }
 
-  // @param scene  {path, files} of a person's own; null: they went back
+  // @param scene  {path, files, sources} of a person's own; null: they went back
   async #openScene(task, scene) {
-    if (task !== this.#task) return;
+    if (task !== this.#task) return false;
     if (!scene) this.#status.textContent = '';
-    if (!scene) return;
+    if (!scene) return false;
     const seat = await this.#seat(task, needsWhole(scene.files.get(scene.path)));
-    if (seat) await this.#load(seat, task, { name: scene.path, own: scene }, () => loadFiles(seat, scene));
+    const load = () => loadFiles(seat, scene);
+    const isShown = seat !== null && (await this.#load(seat, task, { name: scene.path, own: scene }, load));
     if (scene.residual && this.#brought === scene) await this.#photos.showResidual(scene);
+    return isShown;
   }
 
   async #openEnvironment(task, file) {
-    const { name, bytes } = await openPicture(file);
+    const { name: given, bytes } = await openPicture(file);
+    const name = freeName(given, this.#sources);
     const seat = await this.#seat(task, false);
-    if (!seat) return;
-    const own = this.#brought && { ...this.#brought, files: new Map(this.#brought.files).set(name, bytes) };
-    await this.#load(seat, task, { name, own }, () => {
+    if (!seat) return false;
+    const { path, files } = this.#brought ?? {};
+    const own = this.#brought && { path, files: new Map(files).set(name, bytes) };
+    return this.#load(seat, task, { name, own, opened: true }, () => {
       const message = seat.runtime.text('viewer_open_environment', seat.handle, name, bytes);
       if (message) throw new LucentError('file', message);
+      return sourcesOf([[name, bytes]]);
     });
   }
 
   // The scene that was showing stays, with its viewer, until the new one is there.
-  async #load(seat, task, { name, own = null }, load) {
+  // @param load  gives the sources of what it loads: all of a scene, or those of a file that comes into it
+  // @param how  name; own: {path, files} of a person's files, null: none; opened: by the person; moved: it was shown
+  //             before, by the other module
+  async #load(seat, task, { name, own = null, opened = own !== null, moved = false }, load) {
     const moves = seat.runtime !== this.#runtime;
+    const before = moves ? 0 : this.#sceneNumber();
+    let sources;
     let isThere = false;
     try {
-      await load();
+      sources = await load();
       isThere = task === this.#task;
     } finally {
       if (moves && !isThere) seat.runtime.drop(seat.handle);
     }
-    if (!isThere) return;
+    if (!isThere) return false;
     if (moves) this.#moveTo(seat);
     if (own && own.path !== this.#brought?.path) {
       this.truth = '';
@@ -540,7 +647,31 @@ export class LucentViewer extends HTMLElement {
     }
     this.#brought = own;
     this.#photos.clear();
-    this.#takeScene(name);
+    this.#takeSources(sources, this.#sceneNumber() !== before);
+    this.#takeScene(name, { opened, moved });
+    return true;
+  }
+
+  #sceneNumber() {
+    return this.#runtime.call('viewer_scene_number', this.#handle);
+  }
+
+  #takeSources(sources, isNew) {
+    if (isNew) {
+      this.#sources = sources;
+      this.#openedFiles.clear();
+      this.#paintAsLoaded = this.#paint();
+      return;
+    }
+    for (const [name, source] of sources) {
+      this.#sources.set(name, source);
+      this.#openedFiles.add(name);
+    }
+  }
+
+  // What is painted on all objects, as text.
+  #paint() {
+    return JSON.stringify(JSON.parse(this.sceneJson).objects.map(({ paint }) => paint));
   }
 
   #moveTo({ runtime, handle }) {
@@ -562,10 +693,12 @@ export class LucentViewer extends HTMLElement {
       const seat = await this.#seat(task, true);
       if (!seat) return;
       const { changes } = this;
+      const hadFiles = this.#openedFiles.size > 0;
       const path = this.#brought?.path ?? 'scene.json';
       const packed = [...this.#runtime.files('viewer_pack', this.#handle)];
       const scene = { path, files: new Map(packed.map(([name, bytes]) => [name === 'scene.json' ? path : name, bytes])) };
-      await this.#load(seat, task, { name: this.src, own: this.#brought && scene }, () => loadFiles(seat, scene));
+      await this.#load(seat, task, { name: this.src, own: this.#brought && scene, moved: true }, () => loadFiles(seat, scene));
+      if (hadFiles) this.#openedFiles = new Set(this.#sources.keys()); // which have other names now
       for (const [path, text] of Object.entries(changes)) this.#set(path, String(text));
     } catch (error) {
       if (task === this.#task) this.#fail(error);
@@ -597,7 +730,7 @@ export class LucentViewer extends HTMLElement {
   }
 
   // A new scene is there: its parameters become attributes, properties and controls.
-  #takeScene(name) {
+  #takeScene(name, how) {
     this.#status.textContent = 'Drawing…';
     this.#complete = false;
     this.#shown = this.#src;
@@ -616,7 +749,7 @@ export class LucentViewer extends HTMLElement {
     this.#truth.cancel();
     this.#truthFetched = false;
     this.#compareChanged();
-    this.#emit('load', { src: name });
+    this.#emit('load', { src: name, ...how });
   }
 
   #fail(error) {
@@ -711,6 +844,7 @@ export class LucentViewer extends HTMLElement {
     this.#compareChanged();
     this.#showPlay();
     this.#showUndrawn();
+    this.#emit('edit');
     for (const control of changed) this.#emit('change', { path: control.path, value: valueOf(control, control.value) });
     if (changed.length && this.#root.activeElement === this.#canvas) this.#sayLater(changed[0]);
   }
@@ -788,6 +922,13 @@ export class LucentViewer extends HTMLElement {
 
   #request() {
     if (this.#handle) this.#runtime.request(this);
+  }
+
+  // What a hand has done is known when it lets go, not with the next picture.
+  #pointer(event, ...rest) {
+    const used = this.#apply('viewer_pointer', event, ...rest);
+    if (event === kUp) this.#sync();
+    return used;
   }
 
   // Calls the module about this viewer when there is one; the picture may change by it.
@@ -892,7 +1033,10 @@ export class LucentViewer extends HTMLElement {
       event.preventDefault();
       const aimsAtEnvironment = aims(event);
       const files = await droppedFiles(event.dataTransfer);
-      if (files.length) this.openFile(files, kindOfDrop(files, aimsAtEnvironment));
+      if (!files.length) return;
+      const kind = kindOfDrop(files, aimsAtEnvironment);
+      const wanted = new CustomEvent('drop-files', { detail: { files, kind }, cancelable: true });
+      if (this.dispatchEvent(wanted)) this.openFile(files, kind);
     });
   }
 

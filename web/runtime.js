@@ -126,6 +126,33 @@ export class Runtime {
     return { side, entering: texels(entering), leaving: texels(leaving) };
   }
 
+  /** The finished picture of a viewer as linear values: width, height and 4 floats a pixel as bytes. */
+  linear(handle) {
+    const { width, height, at, error } = this.json('viewer_linear', handle);
+    if (error) throw new LucentError('gpu', error);
+    return { width, height, bytes: this.#wasm.HEAPU8.slice(at, at + 16 * width * height) };
+  }
+
+  /** A viewer of the module that shows what another one shows now, without an element. drop() ends it. */
+  copyOf(handle) {
+    const copy = this.call('viewer_create');
+    this.call('viewer_copy', copy, handle);
+    this.call('viewer_panel', copy, 0);
+    this.call('viewer_bare', copy, 1);
+    return copy;
+  }
+
+  /** Longest side that a picture may have on this device, pixels. */
+  get largestSide() {
+    const gl = this.#gl;
+    const limit = (name) => gl.getParameter(name);
+    return Math.min(limit(gl.MAX_TEXTURE_SIZE), limit(gl.MAX_RENDERBUFFER_SIZE), ...limit(gl.MAX_VIEWPORT_DIMS));
+  }
+  /** Whether the graphics context is lost, or was given back. */
+  get lost() {
+    return this.#lost;
+  }
+
   /** Whether it draws all that scenes may ask for. */
   get isWhole() {
     return this.#kind === 'whole';
@@ -168,6 +195,14 @@ export class Runtime {
     const before = this.call('viewer_draw_count', handle);
     const more = this.call('viewer_draw', handle, seconds) === 1;
     return { more, drawn: this.call('viewer_draw_count', handle) !== before };
+  }
+
+  /** The picture that was just drawn, on a canvas of its own. */
+  copyPicture() {
+    const { width, height } = this.#canvas;
+    const copy = Object.assign(document.createElement('canvas'), { width, height });
+    copy.getContext('2d').drawImage(this.#canvas, 0, 0);
+    return copy;
   }
 
   /** Moves the picture that was just drawn to a context of the displayContext kind. */
