@@ -647,8 +647,9 @@ export class LucentViewer extends HTMLElement {
     }
     this.#brought = own;
     this.#photos.clear();
-    this.#takeSources(sources, this.#sceneNumber() !== before);
-    this.#takeScene(name, { opened, moved });
+    const into = this.#sceneNumber() === before;
+    this.#takeSources(sources, into);
+    this.#takeScene(name, { opened, moved, into });
     return true;
   }
 
@@ -656,8 +657,9 @@ export class LucentViewer extends HTMLElement {
     return this.#runtime.call('viewer_scene_number', this.#handle);
   }
 
-  #takeSources(sources, isNew) {
-    if (isNew) {
+  // @param into  they came into the scene that was shown
+  #takeSources(sources, into) {
+    if (!into) {
       this.#sources = sources;
       this.#openedFiles.clear();
       this.#paintAsLoaded = this.#paint();

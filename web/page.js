@@ -1,14 +1,20 @@
 /** The product page: one large viewer, the gallery below it, and links that carry what was changed. */
 import './lucent-viewer.js';
+import { ask, download, make } from './dialog.js';
+import { Keeper } from './keep.js';
 
 const kLinkDelay = 300; // ms of rest before the address follows
 const kNoteTime = 2500; // ms
 const kMakingTime = 5000; // ms between looks at a gallery that is still being made
 
+const kBare = location.pathname + location.search; // the address of the person's own work
+
 const find = (id) => document.getElementById(id);
 const viewer = find('viewer');
+const keeper = new Keeper(viewer, tellNotKept);
 let gallery = [];
-let current = ''; // id of the gallery's scene that is shown; null: a person's own
+let current = {}; // scene: id of the gallery's that is shown, or src: its address; neither for the person's own
+let isRestoring = false;
 let pending = {}; // parameters that a link sets once its scene is there
 
 function note(text) {
@@ -17,29 +23,59 @@ function note(text) {
   note.timer = setTimeout(() => (find('note').textContent = ''), kNoteTime);
 }
 
-// ---- links: #scene=coin&light.intensity=2
+/** Says something that stays, above the picture. @param actions  [label, what to do] of buttons */
+function tell(text, ...actions) {
+  const buttons = actions.map(([textContent, act]) => {
+    const button = make('button', { textContent });
+    button.addEventListener('click', () => (tell(''), act()));
+    return button;
+  });
+  find('kept').replaceChildren(...(text ? [make('span', { textContent: text }), ...buttons] : []));
+}
+
+// ---- links: #scene=coin&light.intensity=2, or #src=ADDRESS for a scene elsewhere on this site
 
 function readLink() {
-  const { scene, ...changes } = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
-  return { scene, changes };
+  const { scene, src, ...changes } = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
+  return { scene, src, changes };
+}
+
+/** The address of what is shown; the person's own scenes have none. */
+function linkOfPage() {
+  const { scene, src, ...changes } = keeper.link;
+  const first = src ? { src } : { scene };
+  return '#' + new URLSearchParams({ ...first, ...changes });
 }
 
 function writeLink() {
-  if (current === null) return; // a link names scenes of the gallery, and holds no files
   // A person has just gone to another scene: that link is to be followed, not written over.
-  const { scene = current } = readLink();
-  if (scene !== current) return;
-  const link = new URLSearchParams({ scene: current, ...viewer.changes });
-  history.replaceState(null, '', '#' + link);
+  const { scene = current.scene, src } = readLink();
+  if (!shownByLink() || scene !== current.scene || src !== current.src) return;
+  history.replaceState(history.state, '', linkOfPage());
 }
+const shownByLink = () => Boolean(current.scene || current.src);
 
 function writeLinkSoon() {
   clearTimeout(writeLink.timer);
   writeLink.timer = setTimeout(writeLink, kLinkDelay);
 }
 
+/** Goes where the address leads, unless the person wants to keep what is shown. */
+async function follow() {
+  const work = history.state?.work;
+  if (work && work === keeper.id) return;
+  keeper.leave();
+  if (!(await mayReplace())) {
+    history.pushState({ work: keeper.id }, '', shownByLink() ? linkOfPage() : kBare);
+    return keeper.stay();
+  }
+  await keeper.putAside();
+  if (!work || !(await restore(work))) followLink();
+}
+
 function followLink() {
-  const { scene, changes } = readLink();
+  const { scene, src, changes } = readLink();
+  if (src) return showAddress(src, changes);
   const named = gallery.find(({ id }) => id === scene);
   const wanted = [named, ...gallery].find((entry) => entry && !isMaking(entry, 'scene'));
   if (!wanted) return;
@@ -47,7 +83,7 @@ function followLink() {
     note(named ? `${named.title} is still being made` : `There is no scene "${scene}" here`);
     history.replaceState(null, '', '#' + new URLSearchParams({ scene: wanted.id, ...changes }));
   }
-  if (wanted.id === current && viewer.loaded) {
+  if (wanted.id === current.scene && viewer.loaded && !keeper.beyondLink.length) {
     viewer.reset();
     applyChanges(changes);
   } else showScene(wanted, changes);
@@ -63,14 +99,112 @@ function applyChanges(changes) {
 const isMaking = ({ making = [] }, what) => making.includes(what);
 
 function showScene({ id, title, scene, poster, truth }, changes = {}) {
-  current = id;
+  current = { scene: id };
   pending = changes;
+  tell('');
   if (poster && !viewer.loaded) viewer.poster = 'gallery/' + poster;
   viewer.alt = title;
   viewer.truth = truth && 'gallery/' + truth.file;
   viewer.truthNoise = truth?.noise;
   viewer.src = 'gallery/' + scene;
-  for (const link of find('gallery').children) link.toggleAttribute('aria-current', link.dataset.id === id);
+  markCard();
+}
+
+/** A scene at another address of this site. */
+function showAddress(src, changes = {}) {
+  current = { src };
+  pending = changes;
+  tell('');
+  viewer.truth = undefined;
+  viewer.src = src;
+  markCard();
+}
+
+function markCard() {
+  for (const link of find('gallery').children) link.toggleAttribute('aria-current', link.dataset.id === current.scene);
+}
+
+// ---- work of the person's own
+
+function tellNotKept(reason) {
+  const text = `This browser does not keep your work (${reason}): save the scene before you leave the page.`;
+  tell(text, ['Save scene', saveScene]);
+}
+
+/** Whether something else may take the place of what is shown: asks where work would be lost. */
+async function mayReplace() {
+  if (!keeper.unsaved) return true;
+  const answer = await ask(
+    'Save your scene first?',
+    `“${viewer.sceneTitle}” has work of yours that no file holds yet.`,
+    ['save', 'Save scene'],
+    ['replace', 'Replace it'],
+    ['cancel', 'Cancel'],
+  );
+  return answer === 'save' ? saveScene() : answer === 'replace';
+}
+
+/** Shows a work that the page has kept, and says so. @return {Promise<boolean>}  false where it is gone */
+async function restore(id) {
+  isRestoring = true;
+  const work = await keeper.restore(id).finally(() => (isRestoring = false));
+  if (!work) return false;
+  const { scene, src } = work.base;
+  current = scene ? { scene } : src ? { src } : {};
+  markCard();
+  tell('Your work is back as you left it.', ['Start from the gallery instead', startFromGallery]);
+  return true;
+}
+
+/** The way back from a work: it stays where it is kept. */
+async function startFromGallery() {
+  const { id } = keeper;
+  await keeper.putAside();
+  history.pushState(null, '', kBare);
+  showScene(gallery.find((entry) => !isMaking(entry, 'scene')));
+  offer(id);
+}
+
+/** Says that there is a work to come back to. */
+function offer(id, title = 'Your work') {
+  tell(`${title} is still kept in this browser.`, ['Open it', async () => {
+    if (!(await mayReplace())) return;
+    history.pushState({ work: id }, '', kBare);
+    if (await restore(id)) return;
+    note('It is not there any more');
+    keeper.resume();
+  }]);
+}
+
+// What a person opened has taken the place of the scene that the address names.
+function takeOwn() {
+  current = {};
+  tell('');
+  history.pushState(null, '', kBare);
+  markCard();
+}
+
+/** @return {Promise<boolean>}  whether the file was handed out */
+async function saveScene() {
+  try {
+    download(await viewer.saveScene(), `${nameOfScene()}.lucent.zip`);
+    keeper.saved();
+    note('Scene saved');
+    return true;
+  } catch ({ message }) {
+    note(message);
+    return false;
+  }
+}
+
+/** For files: of the gallery's scene, else its title without what no file may be called. */
+function nameOfScene() {
+  return current.scene ?? (viewer.sceneTitle.replace(/[/\\:*?"<>|]+/g, '-').trim() || 'lucent');
+}
+
+async function openFiles(files, kind) {
+  if (kind !== 'environment' && !(await mayReplace())) return; // which comes into the scene
+  await viewer.openFile(files, kind);
 }
 
 function galleryCard(entry) {
@@ -83,13 +217,18 @@ function galleryCard(entry) {
     ? Object.assign(new Image(), { src: 'gallery/' + thumbnail, alt: '', loading: 'lazy' })
     : Object.assign(document.createElement('span'), { textContent: `${waits ? 'Scene' : 'Picture'} being made` });
   if (waits) card.setAttribute('aria-disabled', 'true');
-  card.toggleAttribute('aria-current', id === current);
+  card.toggleAttribute('aria-current', id === current.scene);
   const name = Object.assign(document.createElement('b'), { textContent: title });
   const text = Object.assign(document.createElement('small'), { textContent: caption });
   card.append(image, name, text);
-  card.addEventListener('click', () => {
-    if (id === current) showScene(entry); // as it was before the person opened files of their own
+  card.addEventListener('click', async (event) => {
     viewer.scrollIntoView({ block: 'nearest' });
+    if (id !== current.scene || !keeper.beyondLink.length) return;
+    event.preventDefault(); // the address is that of the scene, but more is shown than it says
+    if (!(await mayReplace())) return;
+    await keeper.putAside();
+    history.pushState(null, '', card.href);
+    showScene(entry);
   });
   return card;
 }
@@ -105,12 +244,12 @@ async function takeWhatIsMade() {
     const newer = galleryCard(entry);
     card?.replaceWith(newer);
     if (isFocused) newer.focus();
-    if (entry.id === current && entry.truth && !viewer.truth) {
+    if (entry.id === current.scene && entry.truth && !viewer.truth) {
       viewer.truthNoise = entry.truth.noise;
       viewer.truth = 'gallery/' + entry.truth.file;
     }
   }
-  if (current === '') followLink();
+  if (!viewer.loaded && !shownByLink()) followLink();
   showMaking();
 }
 
@@ -121,7 +260,7 @@ function showMaking() {
   const parts = Object.keys(names)
     .filter(count)
     .map((what) => `${count(what)} ${names[what]}${count(what) > 1 ? 's' : ''}`);
-  const entry = gallery.find(({ id }) => id === current);
+  const entry = gallery.find(({ id }) => id === current.scene);
   const asked = entry && isMaking(entry, 'truth') && viewer.loaded && viewer.get('compare') !== 'off';
   find('making').textContent =
     (asked ? 'The exact solution of this scene is being made. ' : '') +
@@ -142,10 +281,12 @@ function galleryCards() {
 
 // ---- modes: what light does in a scene, as the gallery sorts them
 
-/** Shows a mode of the scene at hand, or else of the first scene that has it. */
+/** Shows a mode of the scene at hand, or else of the first scene that has it, unless the person's own would go. */
 function showMode(kind) {
   const mode = kind.toLowerCase();
   if (viewer.stats().modes?.includes(mode)) return viewer.set('mode', mode);
+  if (keeper.beyondLink.length)
+    return note(`${kind}: nothing in your scene is for this mode; the gallery below has scenes that are`);
   const entry = gallery.find((one) => one.kind === kind);
   history.pushState(null, '', '#' + new URLSearchParams({ scene: entry.id, mode }));
   showScene(entry, { mode });
@@ -167,25 +308,27 @@ function showModes() {
     button.setAttribute('aria-pressed', String(button.textContent.toLowerCase() === mode));
 }
 
-/** The page shows files of the person's own: nothing of it speaks of the gallery's scene any more. */
-function leaveGallery() {
-  if (current === null) return;
-  current = null;
-  for (const link of find('gallery').children) link.removeAttribute('aria-current');
-  history.pushState(null, '', location.pathname + location.search); // the way back leads to the scene before
-}
-
-viewer.addEventListener('load', () => {
+viewer.addEventListener('load', ({ detail }) => {
+  const isNew = !isRestoring && !detail.moved && !detail.into;
+  if (isNew && viewer.ownScene) takeOwn();
+  if (isNew) keeper.begin(current);
+  else keeper.keep(); // it has one more file
   const changes = pending;
   pending = {};
   applyChanges(changes);
-  if (viewer.ownScene) leaveGallery();
   document.title = `${viewer.sceneTitle} – Lucent`;
   find('title').textContent = viewer.sceneTitle;
   find('caption').textContent = viewer.caption;
   writeLinkSoon();
 });
-viewer.addEventListener('error', ({ detail }) => note(detail.message));
+viewer.addEventListener('error', ({ detail }) => {
+  note(detail.message);
+  if (['fetch', 'scene', 'file'].includes(detail.code)) keeper.resume();
+});
+viewer.addEventListener('drop-files', (event) => {
+  event.preventDefault();
+  openFiles(event.detail.files, event.detail.kind);
+});
 viewer.addEventListener('change', writeLinkSoon);
 viewer.addEventListener('change', showCompare);
 viewer.addEventListener('load', showCompare);
@@ -212,40 +355,45 @@ function showCost() {
 function openWith(button, input, kind) {
   find(button).addEventListener('click', () => find(input).click());
   find(input).addEventListener('change', ({ target }) => {
-    if (target.files.length) viewer.openFile(target.files, kind);
+    const files = [...target.files];
     target.value = '';
+    if (files.length) openFiles(files, kind);
   });
 }
 
-async function savePicture() {
-  const address = URL.createObjectURL(await viewer.toBlob());
-  const name = current ?? viewer.sceneTitle;
-  Object.assign(document.createElement('a'), { href: address, download: `${name || 'lucent'}.png` }).click();
-  URL.revokeObjectURL(address);
-}
-
+/** Copies a link that keeps all that a link can, and says what it cannot. */
 async function copyLink() {
-  if (current === null) return note('A link holds no files of your own; it can name scenes of the gallery only');
+  const beyond = keeper.beyondLink;
+  const save = ['Save scene', saveScene];
+  if (beyond.includes('scene'))
+    return tell('No link can hold a scene of your own; a saved one is a file that you can send.', save);
   writeLink();
   try {
-    await navigator.clipboard.writeText(location.href);
+    await navigator.clipboard.writeText(new URL(linkOfPage(), location.href).href);
     note('Link copied');
   } catch {
     note('This browser keeps pages from copying: the link is in the address bar');
   }
+  const names = { files: 'the files that you opened', paint: 'what you painted' };
+  const lacking = beyond.map((one) => names[one]).join(' and ');
+  if (lacking) tell(`The link keeps all but ${lacking}; a saved scene holds everything.`, save);
+}
+
+/** A dialog that is fetched when it is asked for. */
+function openDialog(button, load, open) {
+  find(button).addEventListener('click', () => load().then(open, ({ message }) => note(message)));
 }
 
 find('undo').addEventListener('click', () => viewer.undo());
 find('redo').addEventListener('click', () => viewer.redo());
 find('reset').addEventListener('click', () => viewer.reset());
-find('save').addEventListener('click', () => savePicture().catch((error) => note(error.message)));
+openDialog('save', () => import('./picture.js'), ({ openPictureDialog }) => openPictureDialog(viewer, nameOfScene()));
+openDialog('open-scene', () => import('./open.js'), ({ openSceneDialog }) => openSceneDialog({ openFiles, openLink }));
+find('save-scene').addEventListener('click', saveScene);
 find('copy').addEventListener('click', copyLink);
 find('compare').addEventListener('change', ({ target }) => viewer.set('compare', target.value));
 find('time').addEventListener('change', showCost);
-find('check').addEventListener('click', async () => {
-  const check = await import('./selfcheck.js').catch(({ message }) => note(`Self-check: ${message}`));
-  check?.openSelfCheck(viewer);
-});
+openDialog('check', () => import('./selfcheck.js'), ({ openSelfCheck }) => openSelfCheck(viewer));
 openWith('open-maps', 'maps-file', 'scene');
 openWith('open-environment', 'environment-file', 'environment');
 openWith('open-mesh', 'mesh-file', 'scene');
@@ -256,12 +404,31 @@ async function fetchGallery() {
   return response.json();
 }
 
+/** What the page opens with: the work that was here when it was left, else what the address says. */
+async function showFirst() {
+  const newest = await keeper.newest();
+  const here = history.state?.work ?? (location.hash ? undefined : newest?.id);
+  if (here && (await restore(here))) return;
+  followLink();
+  if (newest) viewer.addEventListener('load', () => offer(newest.id, `“${newest.title}”`), { once: true });
+}
+
+/** A link that a person pasted: of this page, or the address of a scene. */
+async function openLink(text) {
+  const address = new URL(text, location.href);
+  const isPage = address.origin === location.origin && address.pathname === location.pathname && address.hash;
+  if (!(await mayReplace())) return;
+  await keeper.putAside();
+  history.pushState(null, '', isPage ? address.hash : '#' + new URLSearchParams({ src: address.href }));
+  followLink();
+}
+
 async function start() {
   gallery = await fetchGallery();
   find('gallery').replaceChildren(...galleryCards());
   find('modes').replaceChildren(...modeButtons());
-  addEventListener('hashchange', followLink);
-  followLink();
+  addEventListener('popstate', follow);
+  await showFirst();
   showMaking();
 }
 start().catch(({ message }) => note(message));

@@ -147,11 +147,15 @@ test('the page speaks of the own scene alone, and the way back leads to the gall
   await page.evaluate(() => document.querySelector('lucent-viewer').set('view.exposure', 0.5));
   await page.waitForTimeout(500);
   assert.equal(await page.evaluate(() => location.hash), '');
-  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
+  await page.click('#save');
+  const saved = page.waitForEvent('download');
+  const [download] = await Promise.all([saved, page.click('dialog[open] button:text("Save")')]);
+  await page.click('dialog[open] button:text("Close")');
   assert.equal(download.suggestedFilename(), 'my coin.png');
   await page.click('#copy');
-  assert.match(await page.textContent('#note'), /^A link holds no files of your own/);
+  assert.match(await page.textContent('#kept'), /^No link can hold a scene of your own/);
   await page.goBack();
+  await page.click('dialog[open] button:text("Replace it")');
   await page.waitForFunction(() => document.querySelector('#title').textContent === 'A dome');
   assert.equal(await page.title(), 'A dome – Lucent');
   assert.equal((await stateOf(page)).path, undefined);
@@ -347,12 +351,12 @@ test('a 16-bit TIFF is a height map like any other', async () => {
   await page.leave();
 });
 
-test('a scene file is refused with the reason, a damaged picture too, and the old picture stays', async () => {
+test('a scene file that is none is refused with the reason, a damaged picture too, and the old picture stays', async () => {
   const page = await open();
   const before = await pictureOf(page);
   const scene = await eventOf(page, 'error', () => drop(page, { 'coin.json': Buffer.from('{}') }));
-  assert.equal(scene.code, 'file');
-  assert.match(scene.message, /^coin\.json: a scene names further files, .*; put it on a server/);
+  assert.equal(scene.code, 'scene');
+  assert.match(scene.message, /^coin\.json:1: .*lucent is missing; must be 1$/);
   const damaged = await eventOf(page, 'error', () => drop(page, { 'half.png': kSlope.subarray(0, 60) }));
   assert.equal(damaged.code, 'file');
   assert.match(damaged.message, /^half\.png: .*;/);

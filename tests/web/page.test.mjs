@@ -84,12 +84,14 @@ test('reset, undo and redo do what they say', async () => {
   assert.equal(await glow(), 0);
 });
 
-test('Save PNG hands out the picture without the panel at the size of the canvas', async () => {
-  const [download] = await Promise.all([shared.waitForEvent('download'), shared.click('#save')]);
+test('Save picture hands out the picture without the panel at the size of the canvas', async () => {
+  await shared.click('#save');
+  const [download] = await Promise.all([shared.waitForEvent('download'), shared.click('dialog[open] button:text("Save")')]);
   assert.equal(download.suggestedFilename(), 'dome.png');
   const png = readFileSync(await download.path());
   const { width, height } = await boxOf(shared);
   assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [width, height]); // of the chunk IHDR
+  await shared.click('dialog[open] button:text("Close")');
 });
 
 test('the frame time is shown on request only', async () => {

@@ -1,10 +1,11 @@
 /**
  * Runs the tests of the page on both software drivers, two files at a time, and counts them.
  *
- *   node tests/web/run.mjs --site build/web/site [--native DIR] [--driver NAME] [FILE...]
+ *   node tests/web/run.mjs --site build/web/site [--native DIR] [--program FILE] [--driver NAME] [FILE...]
  *
  * --site    the finished page
  * --native  folder with SCENE.png that the program rendered: compares the browser's pictures with them
+ * --program  the program, which opens what the page saves
  * --driver  swiftshader or llvmpipe only
  * FILE      parts of names of test files; all without
  */
@@ -18,7 +19,7 @@ const kFolder = dirname(fileURLToPath(import.meta.url));
 const kDrivers = ['swiftshader', 'llvmpipe'];
 // What hands and attributes do does not hang on who draws: the quicker driver.
 const kOnOneDriver = Object.fromEntries(
-  ['controls', 'docs', 'element', 'gestures', 'limits', 'modules', 'serve'].map((name) => [`${name}.test.mjs`, 'llvmpipe']),
+  ['controls', 'docs', 'element', 'gestures', 'keep', 'limits', 'modules', 'serve'].map((name) => [`${name}.test.mjs`, 'llvmpipe']),
 );
 // Much of a test is waiting, compiling and JavaScript, which take one core.
 const kWorkers = 2;
@@ -26,7 +27,7 @@ const kWorkers = 2;
 const kLongest = ['page.test.mjs', 'selfcheck.test.mjs', 'pictures.test.mjs', 'paint.test.mjs', 'compare.test.mjs'];
 
 const { values: options, positionals } = parseArgs({
-  options: { site: { type: 'string' }, native: { type: 'string' }, driver: { type: 'string' } },
+  options: { site: { type: 'string' }, native: { type: 'string' }, program: { type: 'string' }, driver: { type: 'string' } },
   allowPositionals: true,
 });
 if (!options.site) {
@@ -43,6 +44,7 @@ const files = readdirSync(kFolder)
 function runFile(file, driver) {
   const env = { ...process.env, LUCENT_DRIVER: driver, LUCENT_SITE: options.site };
   if (options.native) env.LUCENT_NATIVE = options.native;
+  if (options.program) env.LUCENT_PROGRAM = options.program;
   const child = spawn(process.execPath, ['--test-reporter=tap', join(kFolder, file)], {
     env,
     stdio: ['ignore', 'pipe', 'inherit'],
