@@ -7,8 +7,7 @@
 #ifndef COMPOSED
 #include "views/surface_pixel.glsl"
 #endif
-#include "lib/heat.glsl"
-#include "lib/shading.glsl"
+#include "frame/shown.glsl"
 layout(std140) uniform DisplayBlock {
     vec4 scale;  // the value is scale * sum + shift, before the exposure
     vec4 shift;
@@ -22,8 +21,6 @@ layout(location = 0) out vec4 oColor;
 void main() {
     vec4 sum = texelFetch(uSum, ivec2(gl_FragCoord.xy), 0);
     vec3 value = display.isScalar != 0 ? vec3(sum.a) : sum.rgb;
-    if (display.isHeat != 0) value = vec3(log2(max(max(max(value.r, value.g), value.b), 1e-30)));
-    value = value * display.scale.rgb + display.shift.rgb;
 #ifdef COMPOSED
     float coverage = sum.a;
 #else
@@ -31,11 +28,10 @@ void main() {
     float coverage = pixel.object < 0 ? 0.0 : pixel.coverage;
 #endif
 #ifdef LINEAR
-    oColor = coverage > 0.0 ? vec4(value, coverage) : vec4(0.0);
+    oColor = coverage > 0.0 ? vec4(value * display.scale.rgb + display.shift.rgb, coverage) : vec4(0.0);
 #else
-    if (display.isHeat != 0) value = heatColor(value.r);
-    vec3 clamped = clamp(value, 0.0, 1.0);
-    vec3 encoded = vec3(srgbFromLinear(clamped.r), srgbFromLinear(clamped.g), srgbFromLinear(clamped.b));
-    oColor = vec4((display.encode != 0 ? encoded : clamped) * coverage, coverage);
+    oColor = vec4(shownColor(value, display.scale.rgb, display.shift.rgb, display.encode != 0, display.isHeat != 0) *
+                      coverage,
+                  coverage);
 #endif
 }

@@ -1,4 +1,4 @@
-// From linear light to what is shown, alone or beside its truth.
+// From linear light to what is shown, alone or with another picture beside it.
 #include "frame/RendererState.h"
 
 #include "shaders/frame/Blocks.h"
@@ -103,46 +103,40 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
     return Done{};
 }
 
-void Renderer::State::takeTruth(const Beside& beside) {
-    const TextureDesc desc{.size = beside.truth.size(), .format = Format::RGBA32F};
-    const bool fits = truth && truth.desc() == desc;
-    if (fits && truthNumber == beside.number) return;
-    if (!fits) truth = graph::Texture(context.device(), desc, "frame.truth");
-    context.device().upload(truth.handle(), 0, beside.truth.pixels);
-    truthNumber = beside.number;
+void Renderer::State::takeOther(const Beside& beside) {
+    const TextureDesc desc{.size = beside.image.size(), .format = Format::RGBA32F};
+    const bool fits = other && other.desc() == desc;
+    if (fits && otherNumber == beside.number) return;
+    if (!fits) other = graph::Texture(context.device(), desc, "frame.other");
+    context.device().upload(other.handle(), 0, beside.image.pixels);
+    otherNumber = beside.number;
 }
 
+// Over what is on the screen already.
 Status Renderer::State::recordBeside(graph::FrameGraph& graph, const scene::Scene& scene,
-                                     const Beside& beside, const graph::Texture& linear) {
+                                     const Beside& beside) {
     const gl::Program* program = context.program("frame/beside", {});
-    const auto import = [&](const graph::Texture& texture) {
-        return graph.import(texture.handle(), texture.desc(), texture.label());
-    };
-    const graph::TextureId pictureId = import(linear), truthId = import(truth);
-    const TextureDesc screen{.size = beside.screen, .format = Format::RGBA8};
-    const graph::TextureId target = graph.import(graph::TextureHandle::Screen, screen, "screen");
-    if (Status recorded = recordDisplay(graph, scene, pictureId, true); !recorded) return recorded;
-
+    const graph::TextureId otherId = import(graph, other);
+    const graph::TextureId target =
+        graph.import(graph::TextureHandle::Screen, {.size = size, .format = Format::RGBA8}, "screen");
     const DisplayBlock shown = displayOf(scene, views::makeEye(scene, float(size.x) / float(size.y)));
     BesideBlock block;
     block.scale = shown.scale;
     block.shift = shown.shift;
     block.encode = shown.encode;
+    block.isHeat = shown.isHeat;
     block.corner = {beside.corner.x,
-                    float(beside.screen.y) - beside.corner.y - float(size.y) * beside.pixelsPerTexel};
+                    float(size.y) - beside.corner.y - float(beside.image.height) * beside.pixelsPerTexel};
     block.pixelsPerTexel = beside.pixelsPerTexel;
     block.divider = beside.divider;
     block.full = beside.full;
-    block.right = int(beside.right);
+    block.isError = beside.isError;
     graph.addPass("frame.beside", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("the picture beside its truth");
-        pass.sample(pictureId);
-        pass.sample(truthId);
+        pass.reason("another picture beside it");
+        pass.sample(otherId);
         pass.write(target);
         return [=](const graph::Resources& resources, graph::Commands& commands) {
-            commands.draw({.program = program,
-                           .block = block,
-                           .textures = {{"uPicture", resources[pictureId]}, {"uTruth", resources[truthId]}}});
+            commands.draw({.program = program, .block = block, .textures = {{"uOther", resources[otherId]}}});
         };
     });
     graph.keep(target);

@@ -39,13 +39,10 @@ Status Renderer::present(const scene::Scene& scene) {
 
 Status Renderer::present(const scene::Scene& scene, const Beside& beside) {
     State& s = *state_;
-    assert(s.shown && "present() before the first advance()");
-    assert(beside.truth.size() == s.size && beside.truth.channels == 4);
-    s.takeTruth(beside);
-    s.context.device().setScreenSize(beside.screen);
-    const graph::Texture linear(s.context.device(), {.size = s.size, .format = Format::RGBA32F},
-                                "frame.linear");
-    return s.runGraph([&](graph::FrameGraph& graph) { return s.recordBeside(graph, scene, beside, linear); });
+    assert(beside.image.channels == 4);
+    if (Status drawn = present(scene); !drawn) return drawn;
+    s.takeOther(beside);
+    return s.runGraph([&](graph::FrameGraph& graph) { return s.recordBeside(graph, scene, beside); });
 }
 
 bool Renderer::drop(int object, const views::WaterDrop& drop) {
@@ -103,7 +100,7 @@ void Renderer::release() {
     s.drop();
     s.budget.forget();
     for (graph::Texture* texture : {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable,
-                                    &s.through, &s.mean, &s.truth})
+                                    &s.through, &s.mean, &s.other})
         *texture = graph::Texture();
     s.shownKey.reset();
     s.triangles = {};

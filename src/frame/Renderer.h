@@ -45,18 +45,17 @@ struct Stats {
 /// Ends of the false colours in which a caustic map is shown, 1: what the light leaves undisturbed.
 inline constexpr float kMapDarkest = 1.0f / 16, kMapBrightest = 64;
 
-/// A reference beside the picture. Places are pixels of the screen from its top left corner.
+/// Another picture, right of a divider in place of the one that is drawn: its truth, its error, or the same
+/// scene drawn otherwise. Places are pixels of the drawn one from its top left corner.
 struct Beside {
-    enum class Right : int { Nothing, Truth, Error };
-    const Image& truth;         ///< linear, 4 channels, of the picture's size; the fourth is coverage,
-                                ///< below 0 where it is not known: there the picture's holds
-    std::uint64_t number = 0;   ///< changes when the truth does, > 0
-    Right right = Right::Truth; ///< what stands right of the divider
-    float full = 1;             ///< Error: difference that gets the last colour of measure::heatMap(), > 0
-    ivec2 screen{0};            ///< size of the default framebuffer
-    vec2 corner{0};             ///< upper left one of the picture
-    float pixelsPerTexel = 1;   ///< how large a pixel of the picture is on the screen
-    float divider = 0;          ///< from the screen's left side
+    const Image& image;       ///< linear, 4 channels, of the quantity that is shown; the fourth is coverage,
+                              ///< below 0 where it is not known
+    std::uint64_t number = 0; ///< changes when the image does, > 0
+    bool isError = false;     ///< its values are differences
+    float full = 1;           ///< then: what gets the last colour of measure::heatMap(), > 0
+    vec2 corner{0};           ///< its upper left one
+    float pixelsPerTexel = 1; ///< how large one of its pixels is; nothing is smoothed
+    float divider = 0;        ///< from the left side
 };
 
 /// Draws one scene again and again. One per viewer; the context and its programs are shared.
@@ -78,7 +77,7 @@ public:
     bool canPresent() const;
     /// Draws the picture so far, tone-mapped, into the default framebuffer (premultiplied alpha).
     Status present(const scene::Scene& scene);
-    /// The same with a reference beside it, everything enlarged without smoothing.
+    /// The same with another picture beside it.
     Status present(const scene::Scene& scene, const Beside& beside);
 
     /// Runs advance() until complete.

@@ -101,8 +101,8 @@ struct Renderer::State {
     Budget budget;
     graph::Texture surface, shownSurface, shown, sum, scratch, lightTable, through;
     graph::Texture mean;  // over the pixels' samples; none where each has one
-    graph::Texture truth; // beside the picture
-    std::uint64_t truthNumber = 0;
+    graph::Texture other; // beside the picture
+    std::uint64_t otherNumber = 0;
     views::KeptTriangles triangles;          // of refractive objects,
     std::vector<views::ObjectKey> triangled; // as they stood
     std::uint64_t watersThen = 0;            // Waters::changes()
@@ -238,9 +238,8 @@ struct Renderer::State {
     Result<Image> display(const scene::Scene& scene, bool linear);
     Status recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target,
                          bool linear);
-    Status recordBeside(graph::FrameGraph& graph, const scene::Scene& scene, const Beside& beside,
-                        const graph::Texture& linear);
-    void takeTruth(const Beside& beside);
+    Status recordBeside(graph::FrameGraph& graph, const scene::Scene& scene, const Beside& beside);
+    void takeOther(const Beside& beside);
     const graph::Texture& picture() const { return composed ? through : shown; }
     const graph::Texture& finished() const { return averaged ? mean : picture(); }
     static graph::TextureId import(graph::FrameGraph& graph, const graph::Texture& texture) {

@@ -1,6 +1,7 @@
 #include "viewer/Compare.h"
 
 #include "base/Pfm.h"
+#include "measure/Flip.h"
 #include "scene/Load.h"
 #include "scene/Mesh.h"
 #include "scene/Painting.h"
@@ -14,7 +15,7 @@ namespace lucent::viewer {
 
 namespace {
 
-constexpr std::string_view kModes[] = {"off", "truth", "error"};
+constexpr std::string_view kModes[] = {"off", "truth", "error", "methods"};
 
 // Images and meshes that decide what a scene looks like, in a fixed order.
 std::vector<const void*> contentOf(const scene::Scene& scene) {
@@ -86,7 +87,9 @@ std::span<const Param> compareParams() {
                 {.id = "compare",
                  .label = "Compare",
                  .group = Group::View,
-                 .doc = "The picture beside its exact truth, or beside the error as a heat map.",
+                 .doc =
+                     "A second picture right of a divider: the exact one, how far yours is from it in false "
+                     "colours, or the same scene drawn by other methods, which are chosen below.",
                  .choices = kModes,
                  .attribute = "compare"}),
         declare(&CompareSettings::divider, {.id = "divider",
@@ -112,6 +115,24 @@ std::vector<BoundParam> bindCompare(CompareSettings& settings) {
     return bound;
 }
 
+std::vector<BoundParam> bindBeside(scene::Scene& right) {
+    std::vector<BoundParam> settings;
+    for (BoundParam& bound : scene::bindParams(right)) {
+        if (!bound.path.starts_with("technique.") && !bound.path.starts_with("quality.")) continue;
+        bound.path.insert(0, kBeside);
+        bound.prefix.insert(0, "beside-");
+        bound.place = Group::View;
+        settings.push_back(std::move(bound));
+    }
+    return settings;
+}
+
+scene::Scene withSettingsOf(scene::Scene scene, const scene::Scene& settings) {
+    scene.technique = settings.technique;
+    scene.quality = settings.quality;
+    return scene;
+}
+
 Image asTruthImage(const Image& picture) {
     Image image(picture.width, picture.height, 4);
     const bool isGrey = picture.channels < 3;
@@ -134,6 +155,29 @@ Result<measure::Metrics> compareWithTruth(const Image& picture, const Image& tru
     for (std::size_t i = 0; i < coverage.pixels.size(); ++i)
         coverage.pixels[i] = std::max(picture.pixels[4 * i + 3], truth.pixels[4 * i + 3]);
     return measure::compare(picture, "picture", truth, "truth", &coverage);
+}
+
+double visibleError(const Image& picture, const Image& truth, float exposure) {
+    const auto shown = [&](Image image) {
+        for (float& value : image.pixels)
+            value *= std::exp2(exposure);
+        return image;
+    };
+    return measure::flip(shown(picture), shown(truth)).mean;
+}
+
+void takeCoverage(Image& truth, const Image& picture) {
+    for (std::size_t i = 3; i < truth.pixels.size(); i += 4)
+        if (truth.pixels[i] < 0) truth.pixels[i] = picture.pixels[i];
+}
+
+Image differenceOf(const Image& picture, const Image& truth) {
+    Image difference(truth.width, truth.height, 4);
+    for (std::size_t i = 0; i < difference.pixels.size(); ++i) {
+        const float a = picture.pixels[i], b = truth.pixels[i];
+        difference.pixels[i] = i % 4 == 3 ? std::max(a, b) : std::abs(a - b);
+    }
+    return difference;
 }
 
 double fullScale(double p99) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The picture beside its truth: what a person chooses, what is compared, and when two scenes are the same.
+/// The picture beside another one: what a person chooses, what is compared, and when two scenes are the same.
 
 #include "base/Image.h"
 #include "base/Param.h"
@@ -13,7 +13,7 @@
 
 namespace lucent::viewer {
 
-enum class CompareMode : int { Off, Truth, Error };
+enum class CompareMode : int { Off, Truth, Error, Methods };
 
 /// What a person chooses. Part of the view, not of the scene: no undo step, not in a scene file.
 struct CompareSettings {
@@ -24,6 +24,15 @@ struct CompareSettings {
 /// "compare" and "divider", which are also their paths and attributes.
 std::span<const Param> compareParams();
 std::vector<BoundParam> bindCompare(CompareSettings& settings);
+
+/// In front of the path of a setting: that with which the right side of Methods is drawn.
+inline constexpr std::string_view kBeside = "beside.";
+/// All settings of the right side: "beside.technique.relief.method", as attribute beside-relief-method.
+///
+/// @param right  the scene whose settings they are
+std::vector<BoundParam> bindBeside(scene::Scene& right);
+/// `scene` with the settings of another one: the same light by other methods.
+scene::Scene withSettingsOf(scene::Scene scene, const scene::Scene& settings);
 
 /// An exact picture and the scene that it shows.
 struct Truth {
@@ -40,6 +49,12 @@ bool samePicture(const scene::Scene& a, const scene::Scene& b);
 
 /// Differences over the pixels that the picture or the truth covers; what is not covered counts as black.
 Result<measure::Metrics> compareWithTruth(const Image& picture, const Image& truth);
+/// How visible they are: mean FLIP of what a display shows at an exposure in stops, [0,1].
+double visibleError(const Image& picture, const Image& truth, float exposure);
+/// A truth's unknown coverage is the picture's, which has the same size.
+void takeCoverage(Image& truth, const Image& picture);
+/// Absolute differences where either of them is, 4 channels.
+Image differenceOf(const Image& picture, const Image& truth);
 
 /// A round number from a 99th percentile on, for the end of a scale: 1, 2 or 5 times a power of ten.
 double fullScale(double p99);

@@ -1,4 +1,4 @@
-// The picture beside its truth: when it is, how large, and what is said about it.
+// The picture beside another one: what stands there, where, and what is said about both.
 #include "viewer/State.h"
 
 #include <algorithm>
@@ -34,23 +34,23 @@ bool Viewer::State::truthIsFresh() {
 
 void Viewer::State::takeTruth(Truth newTruth) {
     truth = std::move(newTruth);
-    ++truthNumber;
     freshAt = 0;
-    numbers.reset();
-    stale = true; // the picture is drawn at the truth's size now
+    measured = {};
+    drawing = nullptr;
+    ++besideNumber;
+    shownHash = 0;
     settled = false;
 }
 
 void Viewer::State::dropTruth() {
     truth.reset();
-    numbers.reset();
-    settled = false;
+    dropSides();
 }
 
-// Where the picture lies: all that the panel leaves; beside a truth as much of it as keeps the truth's shape.
-Rect Viewer::State::picturePlace() const {
+// Where the other picture lies: all of the picture, or what of it the truth shows.
+Rect Viewer::State::besidePlace() const {
     const vec2 room = pictureSize();
-    if (!comparing()) return {{0, 0}, room};
+    if (compare.mode == CompareMode::Methods) return {{0, 0}, room};
     const vec2 shape(truth->image.size());
     const vec2 size = shape * std::min(room.x / shape.x, room.y / shape.y);
     const vec2 low = (room - size) / 2.0f;
@@ -58,79 +58,112 @@ Rect Viewer::State::picturePlace() const {
 }
 
 float Viewer::State::dividerPlace() const {
-    const Rect place = picturePlace();
+    const Rect place = besidePlace();
     return glm::mix(place.low.x, place.high.x, compare.divider);
 }
 
 void Viewer::State::moveDivider(float x) {
-    const Rect place = picturePlace();
+    const Rect place = besidePlace();
     const float share = std::clamp((x - place.low.x) / (place.high.x - place.low.x), 0.0f, 1.0f);
     (void)change("divider", number(std::round(share * 1000) / 1000), gesture);
 }
 
-// Compares a finished picture with the truth of the same scene; anything else has no numbers.
-void Viewer::State::measurePicture() {
-    if (!comparing() || phase != Phase::Done || stale || !shown || !truthIsFresh()) return;
-    if (numbers && numbersOf == pictureNumber) return;
-    numbers.reset();
-    const Result<Image> image = renderer->read(picture, picture.view.show);
-    const auto metrics =
-        image ? compareWithTruth(*image, truth->image) : Result<measure::Metrics>(image.error());
-    if (metrics)
-        numbers = *metrics;
-    else
-        message = metrics.error().message;
-    numbersOf = pictureNumber;
-    settled = false;
+// Null: there is none yet. An error that is not known yet leaves the truth in its place.
+const Image* Viewer::State::besideImage() {
+    if (compare.mode == CompareMode::Methods)
+        return other.image.size() == picturePixels ? &other.image : nullptr;
+    const bool isError = compare.mode == CompareMode::Error && truthIsFresh() && measured[0].numbers;
+    return isError ? &error : &truth->image;
 }
 
-frame::Beside Viewer::State::beside() {
-    const Rect place = picturePlace();
-    frame::Beside beside{.truth = truth->image, .number = truthNumber, .screen = pixels};
+std::optional<frame::Beside> Viewer::State::beside() {
+    const Image* image = divided() ? besideImage() : nullptr;
+    if (!image) return std::nullopt;
+    const Rect place = besidePlace();
+    frame::Beside beside{.image = *image, .number = besideNumber, .isError = image == &error};
     beside.corner = place.low * scale;
-    beside.pixelsPerTexel = (place.high.x - place.low.x) * scale / float(truth->image.width);
+    beside.pixelsPerTexel = (place.high.x - place.low.x) * scale / float(image->width);
     beside.divider = dividerPlace() * scale;
-    beside.full = float(numbers ? fullScale(numbers->p99) : 1);
-    if (compare.mode == CompareMode::Truth) beside.right = frame::Beside::Right::Truth;
-    if (compare.mode == CompareMode::Error)
-        beside.right = numbers ? frame::Beside::Right::Error : frame::Beside::Right::Nothing;
+    if (beside.isError) beside.full = float(fullScale(measured[0].numbers->p99));
     return beside;
 }
 
-std::string Viewer::State::compareText() {
-    if (!truth) return "There is no truth of this scene yet.";
-    if (!truthIsFresh())
-        return "The scene has changed since its truth was made: there is nothing to compare.";
-    if (!numbers && phase == Phase::Done && !stale) return "The picture cannot be measured.";
-    if (!numbers) return "The picture is not finished.";
-    const measure::Metrics& m = *numbers;
-    const frame::Stats cost = renderer->stats();
-    const std::string times = " × ", dot = " · ";
+std::string Viewer::State::besideName() {
+    if (compare.mode == CompareMode::Methods)
+        return besideImage() && other.of == pictureNumber ? methodText(true) : "being drawn";
+    if (!truthIsFresh()) return "truth of an earlier scene";
+    return besideImage() == &error ? "error" : "truth";
+}
+
+// What the settings of one side are where they differ from those of the other: "Method march".
+std::string Viewer::State::methodText(bool ofRight) const {
+    std::string text;
+    for (const Control& control : controls) {
+        const std::string& path = control.bound.path;
+        if (!path.starts_with(kBeside)) continue;
+        const Control* left = find(path.substr(kBeside.size()));
+        if (!left) continue;
+        const auto valueOf = [](const Control& of) { return getText(*of.bound.param, of.bound.data); };
+        if (valueOf(control) == valueOf(*left)) continue;
+        text += (text.empty() ? "" : ", ") + std::string(control.bound.param->label) + " " +
+                valueOf(ofRight ? control : *left);
+    }
+    return text.empty() ? "the same methods" : text;
+}
+
+std::string Viewer::State::numbersText(const measure::Metrics& m) const {
+    const std::string dot = " · ";
     std::string text = "RMSE " + number(m.rmse);
+    if (m.flip) return text + dot + "FLIP " + number(*m.flip);
     if (std::isfinite(m.relRmse)) text += dot + "relative " + number(m.relRmse); // to the truth's mean
-    text += dot + "max " + number(m.maximum) + dot + "bias " + number(m.bias) + "\n";
+    return text + dot + "max " + number(m.maximum) + dot + "bias " + number(m.bias);
+}
+
+std::string Viewer::State::compareText() {
+    const bool isMethods = compare.mode == CompareMode::Methods;
+    std::string text;
+    const auto add = [&](const std::string& line) { text += (text.empty() ? "" : "\n") + line; };
+    const auto addSide = [&](const std::string& name, const Side& side) {
+        const bool isKnown = truth && truthIsFresh() && side.of == pictureNumber && side.numbers;
+        add(name + (isKnown ? ": " + numbersText(*side.numbers) : ""));
+    };
+    if (isMethods) {
+        addSide("left: " + methodText(false), measured[0]);
+        addSide("right: " + methodText(true), measured[1]);
+    }
+    if (!truth) return add("There is no truth of this scene yet."), text;
+    if (!truthIsFresh()) return add("The scene has changed since its truth was made."), text;
+    const measure::Metrics* numbers = measured[0].numbers ? &*measured[0].numbers : nullptr;
+    if (measured[0].of != pictureNumber) return add("The error is being measured."), text;
+    if (!numbers) return add("The picture cannot be measured."), text;
+    if (!isMethods) add(numbersText(*numbers));
     if (!truth->noise)
-        text += "the truth's own noise is not known";
+        add("the truth's own noise is not known");
     else
-        text +=
-            *truth->noise > 0 ? "the truth's own noise " + number(*truth->noise) : "the truth has no noise";
-    text += "\n" + number(cost.milliseconds) + " ms" + dot + std::to_string(cost.passes) +
-            (cost.passes == 1 ? " pass" : " passes") + dot + std::to_string(truth->image.width) + times +
-            std::to_string(truth->image.height) + " pixels";
+        add(*truth->noise > 0 ? "the truth's own noise " + number(*truth->noise) : "the truth has no noise");
+    const frame::Stats cost = renderer->stats();
+    const ivec2 size = truth->image.size();
+    add("measured at " + std::to_string(size.x) + " × " + std::to_string(size.y) + " pixels · picture " +
+        number(cost.milliseconds) + " ms, " + std::to_string(cost.passes) +
+        (cost.passes == 1 ? " pass" : " passes"));
     return text;
 }
 
 void Viewer::State::compareOverlay() {
     if (!scene || compare.mode == CompareMode::Off) return;
-    if (comparing()) {
-        const bool isError = compare.mode == CompareMode::Error;
-        const char* right = isError ? "error" : truthIsFresh() ? "truth" : "truth of an earlier scene";
-        drawDivider(dividerPlace(), picturePlace(), right, grip == Grip::Divider || focus == "divider",
-                    theme(dark));
+    const bool isMethods = compare.mode == CompareMode::Methods;
+    if (divided()) {
+        const Rect place = besidePlace();
+        const float x = dividerPlace();
+        drawDivider(x, place, {isMethods ? methodText(false) : "image", besideName()},
+                    grip == Grip::Divider || focus == "divider", theme(dark));
+        if (!isMethods && !truthIsFresh())
+            drawNotice("This truth shows the scene as it was before you changed it. Compute it again.",
+                       {{x, place.low.y}, place.high}, theme(dark));
     }
-    const bool hasScale = compare.mode == CompareMode::Error && numbers && truthIsFresh();
     std::optional<ScaleEnds> scale;
-    if (hasScale) scale = {"0", general(fullScale(numbers->p99))};
+    if (divided() && besideImage() == &error && !isMethods)
+        scale = {"0", general(fullScale(measured[0].numbers->p99))};
     drawNumbersCard(compareText(), scale, openSize(), theme(dark));
 }
 
@@ -143,8 +176,15 @@ ComparisonReport Viewer::State::comparison() {
         report.size = truth->image.size();
         report.noise = truth->noise;
     }
-    if (comparing()) report.place = picturePlace();
-    if (comparing() && truthIsFresh()) report.numbers = numbers;
+    if (divided()) report.place = besidePlace();
+    report.scale = scale;
+    const bool isMeasured = divided() && truthIsFresh() && measured[0].of == pictureNumber;
+    if (isMeasured) report.numbers = measured[0].numbers;
+    if (scene && compare.mode == CompareMode::Methods) {
+        report.left = methodText(false);
+        report.right = methodText(true);
+        if (isMeasured && measured[1].of == pictureNumber) report.rightNumbers = measured[1].numbers;
+    }
     if (renderer) report.cost = renderer->stats();
     return report;
 }

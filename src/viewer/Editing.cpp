@@ -53,10 +53,12 @@ void Viewer::State::adopt(scene::Scene newScene) {
     history.clear();
     grip = Grip::None;
     painter.clear();
+    paintDefaults = brushFor(*scene);
+    paintSettings.brush.radius = paintDefaults.brush.radius; // of the others a person has chosen
     picking.reset();
     light = 0;
     message.clear();
-    asLoaded = *scene;
+    asLoaded = right = *scene;
     asked.reset();
     dropTruth();
     dropTime.reset();
@@ -80,7 +82,14 @@ void Viewer::State::bind() {
     }
     for (BoundParam& bound : bindCompare(compare))
         offerOfView(std::move(bound));
-    for (BoundParam& bound : bindPaint(paintSettings, mode.mode == paintMode())) {
+    for (BoundParam& bound : bindBeside(*right)) {
+        const bool isChoice = bound.param->kind == Kind::Choice && bound.param->group != Group::None;
+        bound.shown = compare.mode == CompareMode::Methods && isChoice &&
+                      !isIdle(*scene, bound.path.substr(kBeside.size()));
+        const auto found = loaded.emplace(bound.path, getText(*bound.param, bound.data)).first;
+        controls.push_back({std::move(bound), found->second});
+    }
+    for (BoundParam& bound : bindPaint(paintSettings, paintDefaults, mode.mode == paintMode())) {
         const std::string before = getText(*bound.param, bound.defaults);
         controls.push_back({std::move(bound), before}); // another brush has other values
     }
@@ -118,7 +127,9 @@ void Viewer::State::offerOfView(BoundParam bound) {
 // What belongs to the view alone: it is in no scene file.
 std::vector<BoundParam> Viewer::State::bindView() {
     std::vector<BoundParam> bound = bindCompare(compare);
-    for (BoundParam& paint : bindPaint(paintSettings, true))
+    for (BoundParam& setting : bindBeside(*right))
+        bound.push_back(std::move(setting));
+    for (BoundParam& paint : bindPaint(paintSettings, paintDefaults, true))
         bound.push_back(std::move(paint));
     for (BoundParam& one : bindMode(mode, *scene))
         bound.push_back(std::move(one));
@@ -209,7 +220,11 @@ Status Viewer::State::changeView(const BoundParam& bound, const std::string& val
     if (Status set = setText(*bound.param, bound.data, value); !set)
         return Error{bound.path + " " + set.error().message};
     if (getText(*bound.param, bound.data) == before) return Done{};
-    if (bound.data == &mode.mode || bound.path.starts_with("paint.")) bind(); // other controls stand there
+    const bool isBeside = bound.path.starts_with(kBeside);
+    if (isBeside || bound.data == &compare.mode) dropSides();
+    if (bound.data == &mode.mode || bound.data == &compare.mode || bound.path.starts_with("paint.") ||
+        isBeside)
+        bind(); // other controls stand there
     const bool seen = bound.data == &mode.matt || bound.data == &paintSettings.layer ||
                       (bound.data == &mode.mode && paintSettings.layer != scene::PaintLayer::None);
     if (seen) stale = true;

@@ -11,6 +11,7 @@ namespace {
 
 // Chosen by eye or after what hands are used to.
 constexpr float kDotReach = 24;                         // CSS pixels around a light's dot that grip it
+constexpr float kDotReachOfBrush = 12;                  // the same while a brush is in hand
 constexpr float kDividerReach = 10, kDividerTouch = 22; // CSS pixels beside it, of a mouse and of a finger
 constexpr float kKeyFactor = 1.1f;
 constexpr float kKeyTurn = 5.0f / 180; // half turns an arrow key
@@ -36,26 +37,31 @@ bool Viewer::State::hasField() const {
                        [](const scene::Object& object) { return object.isField(); });
 }
 
-std::optional<vec2> Viewer::State::dotOf(std::size_t index) const {
-    const vec3* place = lightPlace(index);
-    return place ? lens().project(*place) : std::nullopt;
-}
-
-// Chooses the light whose dot is nearest. @return its distance in CSS pixels
+// Chooses the light whose dot or arrow is nearest. @return its distance in CSS pixels
 float Viewer::State::pickLight(vec2 position) {
     float nearest = FLT_MAX;
     for (std::size_t i = 0; i < scene->lights.size(); ++i)
-        if (const auto dot = dotOf(i); dot && glm::distance(*dot, position) < nearest) {
-            nearest = glm::distance(*dot, position);
+        if (const float distance = glm::distance(handleOf(i).place, position); distance < nearest) {
+            nearest = distance;
             light = i;
         }
     return nearest;
 }
 
+// Chooses the light after the chosen one, for those who have no pointer.
+bool Viewer::State::nextLight() {
+    if (scene->lights.size() < 2) return false;
+    light = (light + 1) % scene->lights.size();
+    return true;
+}
+
 Viewer::State::Grip Viewer::State::gripAt(vec2 position, int button, Modifiers modifiers) {
     if (!scene || button == 1 || position.x > pictureSize().x) return Grip::None;
-    if (comparing() && std::abs(position.x - dividerPlace()) < (touch ? kDividerTouch : kDividerReach))
+    if (divided() && std::abs(position.x - dividerPlace()) < (touch ? kDividerTouch : kDividerReach))
         return Grip::Divider;
+    const bool isPlain = button == 0 && !modifiers.shift && !modifiers.control;
+    if (isPlain && painting() && scene->view.lightDot && pickLight(position) < kDotReachOfBrush)
+        return Grip::Light;
     if (painting() && button == 0 && !modifiers.shift && !modifiers.control && paintPlaceAt(position))
         return Grip::Paint;
     if (painting()) return button == 0 ? Grip::Orbit : Grip::None;
@@ -81,6 +87,8 @@ void Viewer::State::startGrip(Grip wanted, vec2 position) {
     if (grip == Grip::Water) (void)fall(*waterAt(*scene, lens(), position));
     if (grip == Grip::Map || grip == Grip::Roll) gripValue = scene->environment->rotation;
     if (grip != Grip::Light) return;
+    const LightHandle handle = handleOf(light);
+    fromBorder = handle.towards && glm::distance(handle.place, position) < kDotReach;
     if (const vec3* place = lightPlace(light))
         gripValue = *place;
     else
@@ -126,7 +134,8 @@ void Viewer::State::drag(vec2 position) {
 void Viewer::State::moveLight(vec2 from, vec2 to, vec2 turns) {
     if (const vec3* place = lightPlace(light)) {
         const vec3 normal = hasField() ? vec3(0, 0, 1) : lens().forward();
-        const vec3 moved = movedLight(lens(), gripValue, normal, from, to);
+        const auto underHand = fromBorder ? lens().onPlane(to, gripValue, normal) : std::nullopt;
+        const vec3 moved = underHand ? *underHand : movedLight(lens(), gripValue, normal, from, to);
         vec3 readable = rounded(moved, lens().metresPerPixel(moved));
         if (hasField()) readable.z = gripValue.z;
         assign(place, readable);
@@ -199,8 +208,7 @@ bool Viewer::State::fall(WaterPlace place, float depth) {
 }
 
 bool Viewer::State::fallInTheMiddle() {
-    const Rect seen = picturePlace();
-    if (const auto place = waterAt(*scene, lens(), (seen.low + seen.high) / 2.0f)) return fall(*place);
+    if (const auto place = waterAt(*scene, lens(), pictureSize() / 2.0f)) return fall(*place);
     for (std::size_t i = 0; i < scene->objects.size(); ++i)
         if (std::holds_alternative<scene::Water>(scene->objects[i].shape)) return fall({int(i), vec2(0)});
     return false;
@@ -232,6 +240,7 @@ bool Viewer::State::shortcut(const std::string& key, Modifiers modifiers) {
         return true;
     }
     if (key == "c" || key == "C") return nextCompareMode(), true;
+    if (key == "l" || key == "L") return nextLight();
     if (key == "m" || key == "M") return toggleMatt();
     if (key == "0" || key == "Home") return resetPose(), true;
     if (key == " ") return togglePlaying();

@@ -11,6 +11,10 @@ namespace {
 constexpr float kGrazing = 0.05f;      // onPlane(): cosine below which the hit runs away; chosen by eye
 constexpr float kPole = kPi / 180;     // closest angle between sight line and up
 constexpr float kLowestLight = 0.001f; // m, see liftedLight()
+// Pixels from the border to an arrow; above it stand the page's own buttons.
+constexpr float kArrowInset = 24, kArrowTop = 56;
+constexpr float kDisc =
+    1 / kPi; // radius of distant lights' places, of the shorter side: dots follow turnedLight()
 
 vec3 turned(vec3 vector, float angle, vec3 axis) {
     return vec3(glm::rotate(mat4(1), angle, axis) * vec4(vector, 0));
@@ -78,7 +82,30 @@ vec3 colorOf(const scene::Light& light) {
     return std::visit([](const auto& kind) { return kind.color; }, light);
 }
 
+// Where a line from the middle of a box leaves it.
+static vec2 borderOf(vec2 low, vec2 high, vec2 way) {
+    const vec2 middle = (low + high) / 2.0f, half = glm::max(high - low, vec2(1)) / 2.0f;
+    return middle + way / std::max(std::abs(way.x) / half.x, std::abs(way.y) / half.y);
+}
+
+LightHandle handleOf(const scene::Light& light, const Lens& lens, vec2 size) {
+    const vec3* place = placeOf(light);
+    if (!place) {
+        const vec3 source = -glm::normalize(std::get<scene::DistantLight>(light).direction);
+        return {size / 2.0f + lens.across(source) * kDisc * std::min(size.x, size.y), {}};
+    }
+    const std::optional<vec2> dot = lens.project(*place);
+    const bool isSeen =
+        dot && glm::all(glm::greaterThanEqual(*dot, vec2(0))) && glm::all(glm::lessThan(*dot, size));
+    if (isSeen) return {*dot, {}};
+    const vec2 low(kArrowInset, kArrowTop), high = size - kArrowInset;
+    vec2 way = dot ? *dot - (low + high) / 2.0f : lens.across(*place - lens.eye());
+    if (glm::length(way) < 1e-6f) way = {0, -1}; // straight behind the camera
+    return {borderOf(low, high, way), glm::normalize(way)};
+}
+
 vec3 movedLight(const Lens& lens, vec3 position, vec3 normal, vec2 from, vec2 to) {
+    if (!lens.project(position)) return position + lens.aside((to - from) * lens.metresPerPixel(position));
     const auto start = lens.onPlane(from, position, normal);
     const auto end = lens.onPlane(to, position, normal);
     return start && end ? position + *end - *start : position;

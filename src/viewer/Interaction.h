@@ -29,6 +29,11 @@ public:
     float metresPerPixel(vec3 point) const;
     /// Unit vector in which the camera looks.
     vec3 forward() const { return forward_; }
+    vec3 eye() const { return eye_; }
+    /// How far a vector goes to the right and down as it is seen, m.
+    vec2 across(vec3 vector) const { return {glm::dot(vector, right_), -glm::dot(vector, up_)}; }
+    /// The vector parallel to the picture that goes so many metres to the right and down.
+    vec3 aside(vec2 metres) const { return right_ * metres.x - up_ * metres.y; }
 
 private:
     bool perspective_;
@@ -45,8 +50,18 @@ scene::Camera framed(scene::Camera camera, ivec2 sceneSize, vec2 viewSize);
 const vec3* placeOf(const scene::Light& light);
 vec3 colorOf(const scene::Light& light);
 
-/// A light moved from under one pixel to under another, in the plane through it. Unmoved where onPlane()
-/// fails.
+/// Where a light is gripped on the picture.
+struct LightHandle {
+    vec2 place{0};               ///< of its dot, or of an arrow at the border, pixels
+    std::optional<vec2> towards; ///< of an arrow: unit, to where the light is
+};
+/// Every light has one that is seen: where it stands, or an arrow at the border towards one outside of the
+/// picture or behind the camera. A distant light has its dot on a disc in the middle: there while it shines
+/// along the line of sight, at the rim when from the side.
+LightHandle handleOf(const scene::Light& light, const Lens& lens, vec2 size);
+
+/// A light moved from under one pixel to under another, in the plane through it; one behind the camera
+/// parallel to the picture. Unmoved where onPlane() fails.
 vec3 movedLight(const Lens& lens, vec3 position, vec3 normal, vec2 from, vec2 to);
 /// A distant light turned so that its source goes with the pointer; half a turn for the view's shorter side.
 vec3 turnedLight(const scene::Camera& camera, vec3 direction, vec2 turns);

@@ -12,7 +12,7 @@ using namespace layout;
 
 namespace {
 
-constexpr float kDot = 4, kRing = 9;
+constexpr float kDot = 4, kArrow = 6, kRing = 9; // radii
 constexpr float kClose = 28;
 constexpr float kKeyColumn = 150;
 constexpr float kHandle = 14;   // radius of the divider's
@@ -63,8 +63,9 @@ constexpr HelpLine kHelp[] = {
     {"Double click", "types a value"},
     {"H", "panel"},
     {"F", "cost of the picture"},
-    {"C", "image beside truth, beside error, or alone"},
-    {"M", "what has subsurface scattering as if it were matt"},
+    {"C", "beside truth, error, other methods, or alone"},
+    {"L", "chooses the next lamp"},
+    {"M", "translucent objects as if they were matt"},
     {"?", "this list"},
 };
 
@@ -96,12 +97,12 @@ ImVec2 wrappedSize(std::string_view text, float width) {
 }
 
 // A word on a dark ground, so that it is read over any picture; `right` is the share of it left of `at`.
-void label(ImDrawList& list, const char* word, vec2 at, float right, Rect picture) {
-    const float width = ImGui::CalcTextSize(word).x + 12;
+void label(ImDrawList& list, const std::string& word, vec2 at, float right, Rect picture) {
+    const float width = ImGui::CalcTextSize(word.c_str()).x + 12;
     const float x = at.x - right * width;
     if (x < picture.low.x || x + width > picture.high.x) return; // no room beside the divider
     list.AddRectFilled({x, at.y}, {x + width, at.y + kText + 8}, IM_COL32(0, 0, 0, 150), kRound);
-    list.AddText({x + 6, at.y + 3}, IM_COL32_WHITE, word);
+    list.AddText({x + 6, at.y + 3}, IM_COL32_WHITE, word.c_str());
 }
 
 // The false colours with what their ends stand for.
@@ -132,7 +133,8 @@ std::string bytesText(std::size_t bytes) {
 
 } // namespace
 
-void drawLightDot(vec2 place, vec3 color) {
+void drawLightHandle(const LightHandle& handle, vec3 color, bool isChosen) {
+    const vec2 place = handle.place;
     vec3 shown;
     const float brightest = std::max({color.r, color.g, color.b, 1e-6f});
     for (int i = 0; i < 3; ++i)
@@ -142,8 +144,20 @@ void drawLightDot(vec2 place, vec3 color) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddCircle({place.x, place.y}, kRing, shadow, 32, 4);
     list.AddCircle({place.x, place.y}, kRing, ink, 32, 2);
-    list.AddCircleFilled({place.x, place.y}, kDot + 1, shadow, 24);
-    list.AddCircleFilled({place.x, place.y}, kDot, ink, 24);
+    if (isChosen) list.AddCircle({place.x, place.y}, kRing + 4, ink, 32, 1.5f);
+    if (!handle.towards) {
+        list.AddCircleFilled({place.x, place.y}, kDot + 1, shadow, 24);
+        list.AddCircleFilled({place.x, place.y}, kDot, ink, 24);
+        return;
+    }
+    const vec2 along = *handle.towards, aside(-along.y, along.x);
+    const auto triangle = [&](float size, ImU32 color) {
+        const vec2 tip = place + along * size, left = place - along * size * 0.6f + aside * size * 0.8f,
+                   right = place - along * size * 0.6f - aside * size * 0.8f;
+        list.AddTriangleFilled({tip.x, tip.y}, {left.x, left.y}, {right.x, right.y}, color);
+    };
+    triangle(kArrow + 2, shadow);
+    triangle(kArrow, ink);
 }
 
 bool drawMessage(const std::string& message, vec2 picture, const Theme& theme) {
@@ -198,7 +212,7 @@ void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme) {
     list.AddText({low.x + 10, low.y + (size.y - kText) / 2}, theme.text, text.c_str());
 }
 
-void drawDivider(float x, Rect picture, const char* right, bool lively, const Theme& theme) {
+void drawDivider(float x, Rect picture, const SideNames& names, bool lively, const Theme& theme) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float middle = (picture.low.y + picture.high.y) / 2, half = lively ? 2.0f : 1.0f;
     list.AddRectFilled({x - half - 1, picture.low.y}, {x + half + 1, picture.high.y}, IM_COL32(0, 0, 0, 110));
@@ -209,8 +223,21 @@ void drawDivider(float x, Rect picture, const char* right, bool lively, const Th
     for (const float side : {-1.0f, 1.0f})
         list.AddTriangleFilled({x + side * 9, middle}, {x + side * 4, middle - 4.5f},
                                {x + side * 4, middle + 4.5f}, ink);
-    label(list, "image", {x - 10, picture.low.y + kMargin}, 1, picture);
-    label(list, right, {x + 10, picture.low.y + kMargin}, 0, picture);
+    label(list, names.left, {x - 10, picture.low.y + kMargin}, 1, picture);
+    label(list, names.right, {x + 10, picture.low.y + kMargin}, 0, picture);
+}
+
+void drawNotice(std::string_view text, Rect room, const Theme& theme) {
+    constexpr float kLeastWidth = 90, kMostWidth = 280;
+    const float inner = std::min(kMostWidth, room.high.x - room.low.x - 2 * kMargin - 24);
+    if (inner < kLeastWidth) return;
+    const ImVec2 measured = wrappedSize(text, inner);
+    const vec2 size(measured.x + 24, measured.y + 20);
+    const vec2 low = (room.low + room.high - size) / 2.0f, high = low + size;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled({low.x, low.y}, {high.x, high.y}, theme.card, kRound);
+    list.AddText(nullptr, 0, {low.x + 12, low.y + 10}, theme.text, text.data(), text.data() + text.size(),
+                 inner);
 }
 
 void drawNumbersCard(const std::string& text, const std::optional<ScaleEnds>& scale, vec2 room,

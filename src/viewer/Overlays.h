@@ -3,6 +3,7 @@
 /// All need a current ImGui context between NewFrame and Render; all places are CSS pixels.
 
 #include "frame/Renderer.h"
+#include "viewer/Interaction.h"
 #include "viewer/Panel.h"
 
 #include <optional>
@@ -10,8 +11,8 @@
 
 namespace lucent::viewer {
 
-/// A ring with a dot in the light's colour (linear).
-void drawLightDot(vec2 place, vec3 color);
+/// A ring in the light's colour (linear), with a dot or an arrow; a second ring where it is the chosen one.
+void drawLightHandle(const LightHandle& handle, vec3 color, bool isChosen);
 
 /// A card at the top with a message. @return true when its close button was pressed
 bool drawMessage(const std::string& message, vec2 picture, const Theme& theme);
@@ -25,7 +26,13 @@ bool drawHelp(Hand hand, vec2 picture, const Theme& theme);
 void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme);
 
 /// The line between a picture and what stands right of it, with their names. `lively`: it is being moved.
-void drawDivider(float x, Rect picture, const char* right, bool lively, const Theme& theme);
+struct SideNames {
+    std::string left, right;
+};
+void drawDivider(float x, Rect picture, const SideNames& names, bool lively, const Theme& theme);
+
+/// A sentence on a card in the middle of a part of the picture; not drawn where that is too narrow for words.
+void drawNotice(std::string_view text, Rect room, const Theme& theme);
 
 /// What the ends of a scale of false colours stand for.
 struct ScaleEnds {

@@ -20,8 +20,7 @@ constexpr int kRing = 64;             // corners
 // What a pixel shows is found anew when anything but paint has changed.
 std::optional<PaintPlace> Viewer::State::paintPlaceAt(vec2 position) {
     if (!picking || pickingOf != revision || pickingSize != pictureSize()) {
-        const Rect place = picturePlace();
-        picking.emplace(*scene, lens(), place.high);
+        picking.emplace(*scene, lens(), pictureSize());
         pickingOf = revision;
         pickingSize = pictureSize();
     }
@@ -40,7 +39,7 @@ bool Viewer::State::startStroke(vec2 position) {
     paintObject = std::size_t(place->object);
     scene::Object& object = scene->objects[paintObject];
     paintBefore = painter.count(object);
-    if (Status begun = painter.begin(object, brushOf(paintSettings)); !begun) {
+    if (Status begun = painter.begin(object, brushOf(paintSettings), paintSettings.unpainted); !begun) {
         message = begun.error().message;
         return false;
     }
@@ -108,7 +107,7 @@ void Viewer::State::fillWith(const scene::Brush& brush) {
     std::vector<scene::Stroke> strokes;
     if (!objects[paintObject].painting) {
         if (brush.erase) return; // there is nothing to clear
-        strokes.push_back(opaqueStart());
+        if (paintSettings.unpainted == Unpainted::Opaque) strokes.push_back(opaqueStart());
     }
     strokes.push_back(everywhere(brush));
     ++gesture;
@@ -151,9 +150,9 @@ bool Viewer::State::paintKey(const std::string& key) {
 
 void Viewer::State::paintOverlay() {
     if (!painting()) return;
-    const Rect open = picturePlace();
-    const bool inside = hoverAt.x >= open.low.x && hoverAt.y >= open.low.y && hoverAt.x < open.high.x &&
-                        hoverAt.y < open.high.y && !ImGui::GetIO().WantCaptureMouse;
+    const vec2 size = pictureSize();
+    const bool inside = hoverAt.x >= 0 && hoverAt.y >= 0 && hoverAt.x < size.x && hoverAt.y < size.y &&
+                        !ImGui::GetIO().WantCaptureMouse;
     if (const auto place = inside ? paintPlaceAt(hoverAt) : std::nullopt) {
         const float radius = paintSettings.brush.radius * pressure / lens().metresPerPixel(place->seenAt);
         ImDrawList& list = *ImGui::GetBackgroundDrawList();

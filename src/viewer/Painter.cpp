@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 namespace lucent::viewer {
@@ -50,19 +52,28 @@ const ParamTable& valueParams() {
     return table;
 }
 
-const Param& layerParam() {
-    static constexpr std::string_view names[] = {"light", "translucency", "blur", "glow", "outgoing"};
-    static const Param param = declare(
-        &PaintSettings::layer,
-        {.id = "layer",
-         .label = "Show",
-         .group = Group::Mode,
-         .doc =
-             "What painted objects show: light; or a layer of their paint. Translucency and blur are grey: "
-             "black is opaque, or a 16th as far as the material says; white is translucent, or 16 times as "
-             "far. Glow and outgoing are their colours.",
-         .choices = names});
-    return param;
+const ParamTable& viewParams() {
+    static constexpr std::string_view layers[] = {"light", "translucency", "blur", "glow", "outgoing"};
+    static constexpr std::string_view rests[] = {"kept", "opaque"};
+    static const Param params[] = {
+        declare(&PaintSettings::unpainted, {.id = "unpainted",
+                                            .label = "Unpainted",
+                                            .group = Group::Mode,
+                                            .doc = "Where nobody paints: kept as translucent as it is, or "
+                                                   "opaque, so that light goes inside only "
+                                                   "where you paint. Decided by an object's first stroke.",
+                                            .choices = rests}),
+        declare(&PaintSettings::layer,
+                {.id = "layer",
+                 .label = "Show",
+                 .group = Group::Mode,
+                 .doc =
+                     "What painted objects show: light; or a layer of their paint. Translucency and blur are "
+                     "grey: black is opaque, or a 16th as far as the material says; white is translucent, or "
+                     "16 times as far. Glow and outgoing are their colours.",
+                 .choices = layers})};
+    static const ParamTable table = tableOf<PaintSettings>("paint", params);
+    return table;
 }
 
 bool isUsed(const scene::Brush& brush, std::string_view value) {
@@ -70,6 +81,12 @@ bool isUsed(const scene::Brush& brush, std::string_view value) {
     if (brush.map == scene::PaintMap::Translucency) return value == "translucency";
     if (brush.map == scene::PaintMap::Blur) return value == "blur";
     return value == "color" || value == "brightness";
+}
+
+std::string twoDigits(float value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", double(value));
+    return text;
 }
 
 // Where a ray from `from` along `way` meets a triangle: distance in lengths of `way`, and shares of its
@@ -87,8 +104,23 @@ std::optional<vec3> meet(vec3 from, vec3 way, const std::array<vec3, 3>& t) {
 
 } // namespace
 
-std::vector<BoundParam> bindPaint(PaintSettings& settings, bool shown) {
-    static const PaintSettings defaults;
+PaintSettings brushFor(const scene::Scene& scene) {
+    constexpr float kShare = 1.0f / 8;
+    PaintSettings settings;
+    const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), isPaintable);
+    if (found == scene.objects.end()) return settings;
+    vec3 low(kEndless), high(-kEndless);
+    for (const vec3& place : scene::meshOf(*found)->positions) {
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    const vec3 extent = (high - low) * found->transform.scale;
+    const float radius = std::max({extent.x, extent.y, extent.z}) * kShare / 2;
+    if (radius > 0) settings.brush.radius = std::strtof(twoDigits(radius).c_str(), nullptr);
+    return settings;
+}
+
+std::vector<BoundParam> bindPaint(PaintSettings& settings, const PaintSettings& defaults, bool shown) {
     std::vector<BoundParam> bound;
     const auto add = [&](const Param& param, void* data, const void* normal, bool used) {
         bound.push_back({"paint." + std::string(param.id), "paint", &param,
@@ -101,7 +133,8 @@ std::vector<BoundParam> bindPaint(PaintSettings& settings, bool shown) {
         for (const Param& value : valueParams().params)
             add(value, &settings, &defaults, isUsed(settings.brush, value.id));
     }
-    add(layerParam(), &settings, &defaults, true);
+    for (const Param& param : viewParams().params)
+        add(param, &settings, &defaults, true);
     return bound;
 }
 
@@ -254,11 +287,11 @@ scene::Brush Painter::asOfEasel(scene::Brush brush, const scene::Object& object,
     return brush;
 }
 
-Status Painter::begin(scene::Object& object, const scene::Brush& brush) {
+Status Painter::begin(scene::Object& object, const scene::Brush& brush, Unpainted unpainted) {
     const Result<Easel*> easel = easelOf(object);
     if (!easel) return easel.error();
     scene::Canvas& canvas = (*easel)->canvas;
-    if (!object.painting) canvas.add(opaqueStart());
+    if (!object.painting && unpainted == Unpainted::Opaque) canvas.add(opaqueStart());
     canvas.begin(asOfEasel(brush, object, **easel));
     return Done{};
 }

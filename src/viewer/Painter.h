@@ -16,18 +16,27 @@
 
 namespace lucent::viewer {
 
-/// The brush in hand. Part of the view, not of the scene: no undo step, not in a scene file.
+/// What an object looks like where nobody has painted yet, once its first stroke is painted by hand.
+enum class Unpainted : int { Kept, Opaque };
+
+/// The brush in hand. Part of the view, not of the scene: no undo step, not in a scene file. It begins with a
+/// colour, so that the first stroke is seen on any material.
 struct PaintSettings {
-    scene::Brush brush;
+    scene::Brush brush{.map = scene::PaintMap::Glow};
     scene::PaintLayer layer = scene::PaintLayer::None; ///< shown in place of light
     float translucency = 1, blur = 2;                  ///< values of the brushes that take a number
-    vec3 color{1};                                     ///< of the others,
+    vec3 color{1, 0.3f, 0.15f};                        ///< of the others,
     float brightness = 1;                              ///< times this
+    Unpainted unpainted = Unpainted::Kept;
 };
+/// The brush that a person begins with: an eighth as wide as the first object that can be painted.
+PaintSettings brushFor(const scene::Scene& scene);
 
 /// "paint.brush", "paint.radius" and so on; the values of other brushes are not shown. Shown while a person
 /// paints.
-std::vector<BoundParam> bindPaint(PaintSettings& settings, bool shown);
+///
+/// @param defaults  to which reset goes back; outlives what is bound
+std::vector<BoundParam> bindPaint(PaintSettings& settings, const PaintSettings& defaults, bool shown);
 /// The scene as it is drawn while a layer of paint is looked at.
 void applyLayer(const PaintSettings& settings, bool shown, scene::Scene& scene);
 /// The brush with the value that it aims at.
@@ -39,7 +48,7 @@ std::span<const Action> paintActions();
 
 /// A stroke over all of an object.
 scene::Stroke everywhere(const scene::Brush& brush);
-/// The first stroke on an object that is painted by hand: only what a brush makes translucent scatters.
+/// The first stroke on an object whose rest becomes opaque: only what a brush makes translucent scatters.
 scene::Stroke opaqueStart();
 
 /// In front of an object's name: path of how many strokes are on it, among what was changed.
@@ -88,9 +97,10 @@ public:
 
     /// Strokes that are done on an object since it was loaded, without one that is open.
     int count(const scene::Object& object) const;
-    /// A stroke begins. An object without paint is made opaque first. Error where it does not fit into an
-    /// atlas.
-    Status begin(scene::Object& object, const scene::Brush& brush);
+    /// A stroke begins. @return Error where the object does not fit into an atlas
+    ///
+    /// @param unpainted  what is done with the rest of an object without paint
+    Status begin(scene::Object& object, const scene::Brush& brush, Unpainted unpainted);
     void dab(scene::Object& object, const scene::Dab& dab);
     void end(scene::Object& object);
     /// Whole strokes.

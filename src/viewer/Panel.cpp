@@ -159,14 +159,15 @@ std::vector<Group> groupsOf(std::span<const Control> controls) {
 
 } // namespace
 
-// "objects.coin" is called coin, its first layer "coin, layer 1", "lights.1" is called light 2, a technique
-// as its table says.
+// "objects.coin" is called coin, its first layer "coin, layer 1", "lights.1" is called light 2, settings of
+// the picture beside it by their place, a technique as its table says.
 std::string ownerOf(const BoundParam& bound) {
     const std::string_view path = bound.path;
     const std::size_t start = path.find('.') + 1;
     const std::string name(path.substr(start, path.find('.', start) - start));
     if (path.starts_with("objects."))
         return bound.label.empty() ? name : name + ", " + std::string(bound.label);
+    if (path.starts_with("beside.")) return "right of the divider";
     if (path.starts_with("lights.")) return "light " + std::to_string(std::atoi(name.c_str()) + 1);
     return std::string(bound.label);
 }
@@ -288,6 +289,7 @@ std::vector<Edit> Panel::Frame::draw() {
     list_ = ImGui::GetWindowDrawList();
     list_->AddRect(im(place.low), im(place.high), theme_.cardBorder, kRound);
     header(place);
+    panel_.scroll_ = vec2(0);
     if (!panel_.collapsed_) body(place);
     ImGui::End();
     panel_.seenFocus_ = input_.focus;
@@ -320,6 +322,7 @@ void Panel::Frame::body(Rect place) {
         if (groupHeading(group)) groupControls(group);
     take(kPadding);
     scrollByFinger();
+    panel_.scroll_ = {ImGui::GetScrollY(), ImGui::GetScrollMaxY()};
     ImGui::EndChild();
 }
 

@@ -72,6 +72,9 @@ public:
     vec2 pictureSize(vec2 canvas) const;
     /// The part of that over which nothing of the panel lies: a sheet covers the picture's lower end.
     vec2 openSize(vec2 canvas) const;
+    /// Whether a wheel over the panel moves its column: not beyond its ends. @param down  towards its lower
+    /// end
+    bool scrolls(bool down) const { return down ? scroll_.x < scroll_.y : scroll_.x > 0; }
     /// True while a value is being typed: keys belong to the panel.
     bool typing() const { return !typing_.path.empty(); }
 
@@ -99,6 +102,7 @@ private:
     vec3 pickerHsv_{0};
     int handle_ = 0; ///< gripped end of a range
     std::string seenFocus_;
+    vec2 scroll_{0}; ///< of the column: pixels, and the most that they can be
     std::map<std::string, Rect> widgets_;
     std::string hovered_;
     Rect hoveredPlace_;

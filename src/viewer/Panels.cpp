@@ -108,14 +108,9 @@ void Viewer::State::frame() {
 
 void Viewer::State::overlays() {
     const vec2 size = pictureSize();
-    if (scene && scene->view.lightDot && !bare) {
-        ImDrawList& list = *ImGui::GetBackgroundDrawList();
-        const Rect place = picturePlace();
-        list.PushClipRect({place.low.x, place.low.y}, {place.high.x, place.high.y});
+    if (scene && scene->view.lightDot && !bare)
         for (std::size_t i = 0; i < scene->lights.size(); ++i)
-            if (const auto dot = dotOf(i)) drawLightDot(*dot, colorOf(scene->lights[i]));
-        list.PopClipRect();
-    }
+            drawLightHandle(handleOf(i), colorOf(scene->lights[i]), i == light && scene->lights.size() > 1);
     compareOverlay();
     energyOverlay();
     if (bare) return;

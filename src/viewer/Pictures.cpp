@@ -9,8 +9,7 @@ namespace lucent::viewer {
 // something while a hand moves. @return true when there is something new to present
 bool Viewer::State::advance() {
     if (!scene) return false;
-    const ivec2 room = glm::max(ivec2(glm::round(pictureSize() * scale)), ivec2(1));
-    const ivec2 size = comparing() ? truth->image.size() : room;
+    const ivec2 size = glm::max(ivec2(glm::round(pictureSize() * scale)), ivec2(1));
     if (size != picturePixels) {
         picturePixels = size;
         shown = false;
@@ -54,7 +53,8 @@ bool Viewer::State::advance() {
 Status Viewer::State::paint() {
     imguiHost->clear(pixels.x, pixels.y);
     if (scene && shown) {
-        Status presented = comparing() ? renderer->present(picture, beside()) : renderer->present(picture);
+        const std::optional<frame::Beside> other = beside();
+        Status presented = other ? renderer->present(picture, *other) : renderer->present(picture);
         if (!presented) return presented;
     }
     return imguiHost->draw(*ImGui::GetDrawData(), fonts().atlas, pixels.x, pixels.y);

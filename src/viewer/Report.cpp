@@ -50,9 +50,21 @@ void writeBalance(JsonWriter& json, const technique::Balance& balance) {
     json.end();
 }
 
+void writePlace(JsonWriter& json, vec2 place) {
+    const float numbers[] = {place.x, place.y};
+    json.value(std::span<const float>(numbers));
+}
+
 void writeRect(JsonWriter& json, const Rect& rect) {
     const float place[] = {rect.low.x, rect.low.y, rect.high.x - rect.low.x, rect.high.y - rect.low.y};
     json.value(std::span<const float>(place));
+}
+
+void writeNumbers(JsonWriter& json, const measure::Metrics& found) {
+    json.key("rmse").value(found.rmse).key("relRmse").value(found.relRmse);
+    json.key("max").value(found.maximum).key("bias").value(found.bias);
+    json.key("p99").value(found.p99).key("full").value(fullScale(found.p99));
+    if (found.flip) json.key("flip").value(*found.flip);
 }
 
 } // namespace
@@ -89,10 +101,13 @@ std::string statsJson(const StatsInput& input) {
     json.key("finished").value(input.finished);
     json.key("settings").value(input.cost.settings).key("predicted").value(input.cost.predicted);
     json.key("frames").value(input.frames).key("revision").value(double(input.revision));
-    if (input.light) {
-        const float place[] = {input.light->x, input.light->y};
-        json.key("light").value(std::span<const float>(place));
+    if (input.light < input.lamps.size()) writePlace(json.key("light"), input.lamps[input.light].place);
+    json.key("lamps").beginArray();
+    for (const LightHandle& lamp : input.lamps) {
+        writePlace(json.beginObject().key("place"), lamp.place);
+        json.key("outside").value(lamp.towards.has_value()).end();
     }
+    json.end();
     json.key("modes").beginArray();
     for (const Mode mode : input.modes)
         json.value(nameOf(mode));
@@ -117,10 +132,13 @@ std::string comparisonJson(const ComparisonReport& report) {
     json.key("size").value(std::span<const float>(size));
     if (report.noise) json.key("noise").value(*report.noise);
     if (report.place) writeRect(json.key("place"), *report.place);
-    if (const auto& found = report.numbers) {
-        json.key("rmse").value(found->rmse).key("relRmse").value(found->relRmse);
-        json.key("max").value(found->maximum).key("bias").value(found->bias);
-        json.key("p99").value(found->p99).key("full").value(fullScale(found->p99));
+    json.key("pixelsPerCssPixel").value(report.scale);
+    if (report.numbers) writeNumbers(json, *report.numbers);
+    if (!report.left.empty()) {
+        json.key("left").value(report.left).key("right").beginObject();
+        json.key("name").value(report.right);
+        if (report.rightNumbers) writeNumbers(json, *report.rightNumbers);
+        json.end();
     }
     json.key("milliseconds").value(report.cost.milliseconds).key("passes").value(report.cost.passes);
     json.end();

@@ -3,6 +3,7 @@
 
 #include "frame/Renderer.h"
 #include "viewer/Compare.h"
+#include "viewer/Interaction.h"
 #include "viewer/Mode.h"
 #include "viewer/Panel.h"
 
@@ -23,7 +24,8 @@ struct StatsInput {
     bool complete = false, finished = false; ///< the picture is, and has all samples of its pixels
     int frames = 0;
     std::uint64_t revision = 0;
-    std::optional<vec2> light;           ///< CSS pixels of its dot
+    std::vector<LightHandle> lamps;      ///< CSS pixels of their dots and arrows
+    std::size_t light = 0;               ///< the chosen one
     std::vector<Mode> modes;             ///< of the scene
     std::vector<std::string> notDrawn;   ///< what the scene asks for and its picture lacks
     technique::Balance balance;          ///< of the caustic map that is shown
@@ -31,14 +33,17 @@ struct StatsInput {
 };
 std::string statsJson(const StatsInput& input);
 
-/// How the picture stands to its truth.
+/// How the picture stands to what is beside it.
 struct ComparisonReport {
     std::string mode, truth; ///< truth: "none", "stale" or "fresh"
     float divider = 0;
     ivec2 size{0};               ///< of the truth, pixels
     std::optional<double> noise; ///< of the truth
-    std::optional<Rect> place;   ///< of both on the canvas, CSS pixels
+    std::optional<Rect> place;   ///< of what is beside the picture, were the divider at its left; CSS pixels
+    float scale = 1;             ///< pixels a CSS pixel
     std::optional<measure::Metrics> numbers;
+    std::string left, right; ///< of Methods: which
+    std::optional<measure::Metrics> rightNumbers;
     frame::Stats cost;
 };
 std::string comparisonJson(const ComparisonReport& report);

@@ -5,7 +5,8 @@
 ///   Panels.cpp    frames of ImGui
 ///   Pictures.cpp  work on the picture and the screen
 ///   Playing.cpp   time that runs
-///   Comparing.cpp the picture beside its truth
+///   Comparing.cpp the picture beside another one, and what is said about both
+///   Sides.cpp     what is drawn for the comparison alone
 ///   Counting.cpp  where the light of a caustic map went
 ///   PaintPanel.cpp  strokes of the pointer, the brush's ring and buttons
 
@@ -23,6 +24,7 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <chrono>
 #include <set>
 
@@ -99,15 +101,26 @@ struct Viewer::State {
 
     CompareSettings compare;
     std::optional<Truth> truth;
-    std::uint64_t truthNumber = 0;
-    std::uint64_t freshAt = 0; // revision at which `fresh` was found, 0: not yet
-    bool fresh = false;        // the truth shows the scene as it is now
-    std::optional<measure::Metrics> numbers;
-    std::uint64_t numbersOf = 0;          // picture that was measured
+    std::uint64_t freshAt = 0;         // revision at which `fresh` was found, 0: not yet
+    bool fresh = false;                // the truth shows the scene as it is now
+    std::optional<scene::Scene> right; // whose settings the right side of Methods has
+    // What is drawn for the comparison alone, and of which picture.
+    struct Side {
+        Image image; // linear; empty: it could not be drawn
+        std::uint64_t of = 0;
+        std::optional<measure::Metrics> numbers;
+    };
+    Side other;                             // the right side of Methods
+    std::array<Side, 2> measured;           // both of them, at the truth's size
+    Image error;                            // of the left one
+    std::unique_ptr<frame::Renderer> sides; // draws them
+    std::uint64_t sideNumber = 0;           // of what it draws
+    Side* drawing = nullptr;
+    std::uint64_t besideNumber = 0;       // changes when what stands right of the divider does
     std::optional<scene::Scene> asLoaded; // whose truth lies in files
     std::optional<scene::Scene> asked;    // whose truth is being computed
 
-    PaintSettings paintSettings;
+    PaintSettings paintSettings, paintDefaults;
     Painter painter;
     std::optional<Picking> picking; // of the scene as it stands
     std::uint64_t pickingOf = 0;    // revision that it shows
@@ -121,7 +134,8 @@ struct Viewer::State {
     bool held = false;
     Grip grip = Grip::None;
     vec2 gripStart{0};
-    std::size_t light = 0; // the light that drags, wheel and keys move
+    std::size_t light = 0;   // the light that drags, wheel and keys move
+    bool fromBorder = false; // it was gripped at its arrow: it comes to the hand
     scene::Camera gripCamera;
     vec3 gripValue{0};
 
@@ -129,14 +143,8 @@ struct Viewer::State {
     vec2 canvas() const { return vec2(pixels) / scale; }
     vec2 pictureSize() const { return glm::max(panel.pictureSize(canvas()), vec2(1)); }
     vec2 openSize() const { return panel.openSize(canvas()); }
-    Rect picturePlace() const;
-    scene::Camera seenCamera() const {
-        return comparing() ? scene->camera : framed(scene->camera, scene->size, pictureSize());
-    }
-    Lens lens() const {
-        const Rect place = picturePlace();
-        return Lens(seenCamera(), place.high - place.low, place.low);
-    }
+    scene::Camera seenCamera() const { return framed(scene->camera, scene->size, pictureSize()); }
+    Lens lens() const { return Lens(seenCamera(), pictureSize()); }
 
     // --- scene
     void adopt(scene::Scene newScene);
@@ -166,8 +174,11 @@ struct Viewer::State {
     const vec3* lightPlace(std::size_t index) const {
         return index < scene->lights.size() ? placeOf(scene->lights[index]) : nullptr;
     }
-    std::optional<vec2> dotOf(std::size_t index) const;
+    LightHandle handleOf(std::size_t index) const {
+        return viewer::handleOf(scene->lights[index], lens(), openSize());
+    }
     float pickLight(vec2 position);
+    bool nextLight();
     Grip gripAt(vec2 position, int button, Modifiers modifiers);
     void startGrip(Grip wanted, vec2 position);
     void drag(vec2 position);
@@ -184,7 +195,7 @@ struct Viewer::State {
     bool arrow(vec2 step, Modifiers modifiers);
 
     // --- paint
-    bool painting() const { return scene && mode.mode == paintMode() && !comparing(); }
+    bool painting() const { return scene && mode.mode == paintMode() && !divided(); }
     std::optional<PaintPlace> paintPlaceAt(vec2 position);
     bool startStroke(vec2 position);
     void dabTo(vec2 position);
@@ -203,21 +214,33 @@ struct Viewer::State {
     void tick(double now);
     bool togglePlaying();
 
-    // --- the truth beside the picture
-    bool comparing() const { return scene && truth && compare.mode != CompareMode::Off; }
+    // --- another picture beside it
+    // Whether the picture ends at a divider.
+    bool divided() const {
+        return scene && (compare.mode == CompareMode::Methods || (truth && compare.mode != CompareMode::Off));
+    }
     bool truthIsFresh();
     void takeTruth(Truth newTruth);
     void dropTruth();
+    Rect besidePlace() const;
     float dividerPlace() const;
     void moveDivider(float x);
-    void measurePicture();
-    frame::Beside beside();
+    const Image* besideImage();
+    std::optional<frame::Beside> beside();
+    std::string besideName();
+    std::string methodText(bool ofRight) const;
+    std::string numbersText(const measure::Metrics& numbers) const;
     std::string compareText();
     void compareOverlay();
+    ComparisonReport comparison();
+    Side* nextSide();
+    scene::Scene sceneOf(const Side& side) const;
+    void drawSides();
+    void finishSide(Side& side);
+    void dropSides();
     void measureEnergy();
     std::string energyText() const;
     void energyOverlay();
-    ComparisonReport comparison();
 
     // --- ImGui
     void frame();
@@ -240,7 +263,7 @@ struct Viewer::State {
     bool canPresent() const { return !renderer || renderer->canPresent(); }
     // A hand is on a picture that a look shows.
     bool rests() const { return (phase == Phase::Refine || phase == Phase::Smooth) && held && canPresent(); }
-    bool working() const { return scene && (stale || (phase != Phase::Done && !rests())); }
+    bool working() { return scene && (stale || (phase != Phase::Done && !rests()) || nextSide()); }
 };
 
 } // namespace lucent::viewer

@@ -40,6 +40,8 @@ void Viewer::attach(gl::Context& context, gl::ImGuiHost& imgui) {
 
 void Viewer::release() {
     state_->renderer.reset();
+    state_->sides.reset();
+    state_->drawing = nullptr;
     state_->dropTime.reset();
     state_->shown = false;
     state_->stale = state_->scene != nullptr;
@@ -125,7 +127,7 @@ bool Viewer::draw(double nowSeconds) {
     double wait = s.tooltipWait(nowSeconds);
     if (!s.settled) s.settle(); // the panel decides the picture's size
     const bool isNew = s.advance();
-    s.measurePicture();
+    s.drawSides();
     s.measureEnergy();
     if (!s.settled) s.settle();
     wait = std::max(wait, s.tooltipWait(nowSeconds));
@@ -187,6 +189,7 @@ bool Viewer::wheel(vec2 position, float delta, Modifiers modifiers) {
     s.mouse(position);
     s.frame();
     if (ImGui::GetIO().WantCaptureMouse) {
+        if (!s.panel.scrolls(delta > 0)) return false; // then the page does
         ImGui::GetIO().MouseWheel = -delta / kWheelLine;
         s.frame();
         return true;
@@ -280,11 +283,11 @@ Status Viewer::act(const std::string& path) {
 std::string Viewer::controls() { return controlsJson(state_->controls, state_->actions()); }
 
 std::string Viewer::stats() const {
-    const State& s = *state_;
+    State& s = *state_;
     StatsInput input;
     if (s.renderer) input.cost = s.renderer->stats();
     input.complete = s.complete();
-    input.finished = s.complete() && s.phase != State::Phase::Smooth;
+    input.finished = s.complete() && s.phase != State::Phase::Smooth && !s.nextSide();
     input.frames = s.drawCount;
     input.revision = s.revision;
     if (s.scene) {
@@ -292,7 +295,10 @@ std::string Viewer::stats() const {
         input.notDrawn = technique::notDrawn(*s.scene);
     }
     input.balance = s.balance;
-    if (s.scene && s.pixels.y > 0) input.light = s.dotOf(s.light);
+    if (s.scene && s.pixels.y > 0)
+        for (std::size_t i = 0; i < s.scene->lights.size(); ++i)
+            input.lamps.push_back(s.handleOf(i));
+    input.light = s.light;
     input.widgets = s.panel.widgets();
     return statsJson(input);
 }

@@ -94,7 +94,8 @@ public:
     std::string controls();
     /// JSON: milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its
     /// pixels), frames, revision; notDrawn: lines that say what the scene asks for, the picture lacks, and
-    /// why; light: [x, y] of the dot; panel: path -> [x, y, width, height] of each control's widget that can
+    /// why; light: [x, y] of the chosen one's dot or arrow; lamps: place and outside (an arrow at the border
+    /// stands for it) of all; panel: path -> [x, y, width, height] of each control's widget that can
     /// be seen in full. CSS pixels.
     std::string stats() const;
     /// JSON array: of each object that has subsurface scattering owner, profile; reach [mm] and whole (the
@@ -116,12 +117,15 @@ public:
     /// While the parameter "playing" is on, which scenes have in which something moves, each draw() shows a
     /// later moment: view.time follows its clock.
     ///
-    /// The parameters "compare" (off, truth, error) and "divider" show the picture beside its truth, drawn at
-    /// the truth's size. A truth belongs to a scene: once that has changed, nothing is compared.
+    /// The parameters "compare" (off, truth, error, methods) and "divider" show another picture right of a
+    /// divider. The picture keeps its size; the truth is shown at its own, and both are measured at that. A
+    /// truth belongs to a scene: once that has changed, nothing is compared. "methods" shows the same scene
+    /// with the settings "beside.technique..." and "beside.quality...", which begin as the scene has them.
     ///
     /// JSON: mode, divider, truth ("none", "stale", "fresh"), size and noise of the truth; of a finished
-    /// picture rmse, relRmse, max, bias, p99, full (end of the error's scale); milliseconds and passes of the
-    /// picture; place: [x, y, width, height] of the picture in CSS pixels.
+    /// picture rmse, relRmse, max, bias, p99, full (end of the error's scale), and with "methods" flip;
+    /// milliseconds and passes of the picture; place: [x, y, width, height] of the other picture in CSS
+    /// pixels; pixelsPerCssPixel; with "methods" left: what is set there, right: name and numbers.
     std::string comparison();
     /// The scene that is showing with all its images, as files: "scene.json" and what that names. Its truth
     /// comes back by takeComputedTruth().

@@ -199,6 +199,7 @@ TEST_F(CompareView, OffAgainShowsThePictureAsBefore) {
     compare(changed([](int, float) { return 0.f; }), "truth");
     EXPECT_GT(differences(before, window->read()), 10000);
     EXPECT_TRUE(viewer->key("c", {})); // error
+    EXPECT_TRUE(viewer->key("c", {})); // methods
     EXPECT_TRUE(viewer->key("c", {})); // off
     settle();
     EXPECT_EQ(viewer->get("compare"), "off");
@@ -214,11 +215,80 @@ TEST_F(CompareView, WithoutATruthItSaysSo) {
     EXPECT_GT(differences(before, window->read()), 500); // a card at the bottom
 }
 
+TEST_F(CompareView, ThePictureKeepsItsPixelsBesideACoarserTruth) {
+    load(kLampScene);
+    move({700, 390});
+    settle();
+    const Image before = window->read();
+    compare(changed([](int, float) { return 0.f; }), "truth");
+    const Image after = window->read();
+    for (int y = 150; y < 250; ++y) // left of the divider at 232, above the card with the numbers
+        for (int x = 140; x < 210; ++x)
+            for (int channel = 0; channel < 4; ++channel)
+                EXPECT_EQ(before.at(x, y)[channel], after.at(x, y)[channel]) << x << ", " << y;
+    EXPECT_EQ(comparison()["size"], nlohmann::json({kSide, kSide}));
+    EXPECT_EQ(comparison()["place"], nlohmann::json({kLeft, 0, kExtent, kExtent}));
+}
+
+TEST_F(CompareView, AStaleTruthIsStillShownAndSaysThatItIs) {
+    load(kLampScene);
+    compare(changed([](int pixel, float) { return float(pixel % 2); }), "error");
+    set("lights.0.intensity", "0.5");
+    ASSERT_EQ(comparison()["truth"], "stale");
+    const Image screen = window->read();
+    // The right side is the truth, in stripes here, with a card in its middle.
+    EXPECT_GT(glm::distance(shownAt(screen, {24, 12}), shownAt(screen, {25, 12})), 0.9f);
+    const vec3 card = shownAt(screen, {24, 20});
+    set("divider", "1"); // no room for it
+    EXPECT_GT(glm::distance(card, shownAt(window->read(), {24, 20})), 0.02f);
+}
+
+TEST_F(CompareView, MethodsShowsTheOtherOneRightOfTheDivider) {
+    load(kLampScene);
+    set("technique.relief.method", "march");
+    move({700, 390});
+    settle();
+    const Image marched = window->read();
+    set("technique.relief.method", "hierarchy");
+    const Image hierarchy = window->read();
+    ASSERT_GT(differences(marched, hierarchy), 5);
+    set("beside.technique.relief.method", "march");
+    set("compare", "methods");
+    const auto isLike = [](const Image& a, const Image& b) { // above the cards, beside the handle
+        for (int y = 130; y < 180; ++y)
+            for (int x = 135; x < 210; ++x)
+                if (a.at(x, y)[1] != b.at(x, y)[1]) return false;
+        return true;
+    };
+    set("divider", "0");
+    EXPECT_TRUE(isLike(window->read(), marched));
+    set("divider", "1");
+    EXPECT_TRUE(isLike(window->read(), hierarchy));
+    EXPECT_EQ(comparison()["left"], "Method hierarchy");
+    EXPECT_EQ(comparison()["right"]["name"], "Method march");
+    EXPECT_NE(viewer->changes().find("\"beside.technique.relief.method\": \"march\""), std::string::npos);
+}
+
+TEST_F(CompareView, MethodsMeasuresBothSidesAgainstTheTruth) {
+    load(kLampScene);
+    set("beside.technique.relief.method", "march");
+    compare(picture(), "methods");
+    const auto found = comparison();
+    EXPECT_EQ(found["rmse"].get<double>(), 0); // it is its own truth
+    EXPECT_EQ(found["flip"].get<double>(), 0);
+    EXPECT_GT(found["right"]["rmse"].get<double>(), 0);
+    EXPECT_GT(found["right"]["flip"].get<double>(), 0);
+    set("beside.technique.relief.method", "hierarchy");
+    EXPECT_EQ(comparison()["right"]["rmse"].get<double>(), 0);
+    EXPECT_EQ(comparison()["left"], "the same methods");
+    EXPECT_FALSE(viewer->undo()); // nothing of it changes the scene
+}
+
 TEST_F(CompareView, AWrongModeSaysWhatIsExpected) {
     load(kLampScene);
     const Status wrong = viewer->set("compare", "both");
     ASSERT_FALSE(wrong.ok());
-    EXPECT_EQ(wrong.error().message, "compare is \"both\"; must be off, truth or error");
+    EXPECT_EQ(wrong.error().message, "compare is \"both\"; must be off, truth, error or methods");
 }
 
 } // namespace

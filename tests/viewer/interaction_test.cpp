@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace lucent::viewer {
 namespace {
 
@@ -51,6 +53,54 @@ TEST(Lens, APlaneSeenFromItsEdgeHasNoPlaceForThePointer) {
     camera.eye = {0, -2, 0};
     camera.up = {0, 0, 1};
     EXPECT_FALSE(Lens(camera, {100, 100}).onPlane({50, 50}, {0, 0, 0.5f}, {0, 0, 1}).has_value());
+}
+
+constexpr vec2 kView(400, 300);
+
+TEST(LightHandle, ALightInThePictureIsGrippedWhereItIsSeen) {
+    const scene::PointLight light{.position = {0.5f, 0, 0}};
+    const LightHandle handle = handleOf(light, Lens(perspective(), kView), kView);
+    EXPECT_FALSE(handle.towards);
+    EXPECT_LT(glm::distance(handle.place, vec2(200 + 0.5f * 75, 150)),
+              1e-3f); // 4 m high at depth 2: 75 a metre
+}
+
+TEST(LightHandle, ALightOutsideOrBehindHasAnArrowAtTheBorderTowardsIt) {
+    const Lens lens(perspective(), kView);
+    for (const auto& [position, towards] : {std::pair(vec3(9, 0, 0), vec2(1, 0)),
+                                            {vec3(-9, 0, 0), vec2(-1, 0)},
+                                            {vec3(0, 9, 0), vec2(0, -1)},
+                                            {vec3(0, -9, 0), vec2(0, 1)},
+                                            {vec3(3, 0, 5), vec2(1, 0)},
+                                            {vec3(0, -1, 5), vec2(0, 1)},
+                                            {vec3(0, 0, 5), vec2(0, -1)}}) {
+        const LightHandle handle = handleOf(scene::PointLight{.position = position}, lens, kView);
+        ASSERT_TRUE(handle.towards) << position.x << " " << position.y << " " << position.z;
+        EXPECT_GT(glm::dot(*handle.towards, towards), 0.99f);
+        EXPECT_TRUE(glm::all(glm::greaterThan(handle.place, vec2(20))));
+        EXPECT_TRUE(glm::all(glm::lessThan(handle.place, kView - 20.0f)));
+        const vec2 way = handle.place - kView / 2.0f;
+        EXPECT_GT(glm::dot(way, towards), 80); // near the border on that side
+    }
+}
+
+TEST(LightHandle, ADistantLightStandsOnADiscAsItShines) {
+    const Lens lens(perspective(), kView);
+    const auto placeOfDirection = [&](vec3 direction) {
+        const LightHandle handle = handleOf(scene::DistantLight{.direction = direction}, lens, kView);
+        EXPECT_FALSE(handle.towards);
+        return handle.place - kView / 2.0f;
+    };
+    EXPECT_LT(glm::length(placeOfDirection({0, 0, -2})), 1e-3f); // along the line of sight
+    EXPECT_GT(placeOfDirection({0, -1, 0}).y, -0.5f * kView.y);
+    EXPECT_LT(placeOfDirection({0, -1, 0}).y, -80);                            // from above
+    EXPECT_NEAR(placeOfDirection({-1, 0, 0}).x, 300 / std::numbers::pi, 1e-3); // from the right, at the rim
+}
+
+TEST(MovedLight, OneBehindTheCameraMovesParallelToThePicture) {
+    const Lens lens(perspective(), {200, 200});
+    // At 3 m from the eye the view is 6 m high: 0.03 m a pixel.
+    expectNear(movedLight(lens, {1, 0, 5}, {0, 0, 1}, {100, 100}, {110, 80}), {1.3f, 0.6f, 5}, 1e-4f);
 }
 
 TEST(Framed, ANarrowViewShowsTheWholeWidthOfTheScene) {

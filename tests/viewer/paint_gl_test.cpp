@@ -9,7 +9,15 @@
 namespace lucent::viewer {
 namespace {
 
-using Paint = Page;
+class Paint : public Page {
+protected:
+    /// A brush that makes translucent what else becomes opaque.
+    void takeOpaque() {
+        for (const auto& [path, value] :
+             {std::pair("mode", "paint"), {"paint.unpainted", "opaque"}, {"paint.brush", "translucency"}})
+            EXPECT_TRUE(viewer->set(path, value).ok()) << path;
+    }
+};
 
 // A ball of marble in front of a matt wall, 0.5 m high on a picture that shows 1 m: 0.0025 m a pixel.
 // Texels do not depend on how they are drawn, so that the cheapest method does.
@@ -38,7 +46,7 @@ void choose(Viewer& viewer, const std::string& path, const std::string& value) {
 
 TEST_F(Paint, ADragPaintsWhereItGoesOnWhatWasOpaque) {
     load(kBall);
-    choose(*viewer, "mode", "paint");
+    takeOpaque();
     choose(*viewer, "paint.radius", "0.05");
     EXPECT_EQ(ball(*viewer).painting, nullptr);
     drag(kMiddle, kMiddle + vec2(40, 0));
@@ -66,7 +74,7 @@ TEST_F(Paint, ADragPaintsWhereItGoesOnWhatWasOpaque) {
 
 TEST_F(Paint, TheScriptOfAHandPaintsTheSameTexels) {
     load(kBall);
-    choose(*viewer, "mode", "paint");
+    takeOpaque();
     drag(kMiddle, kMiddle + vec2(60, 30));
     choose(*viewer, "paint.brush", "glow");
     choose(*viewer, "paint.color", "1 0.2 0.1");
@@ -86,7 +94,7 @@ TEST_F(Paint, TheScriptOfAHandPaintsTheSameTexels) {
 
 TEST_F(Paint, UndoGoesBackToTheFirstBitAmongOtherSteps) {
     load(kBall);
-    choose(*viewer, "mode", "paint");
+    takeOpaque();
     std::vector<std::array<std::vector<float>, 2>> states{texels(*viewer)};
     for (const float y : {-30.0f, 0.0f, 30.0f}) {
         drag(kMiddle + vec2(-20, y), kMiddle + vec2(20, y));
@@ -126,7 +134,7 @@ TEST_F(Paint, BesideTheObjectAndWithShiftADragLeadsTheCamera) {
 
 TEST_F(Paint, PressureIsOfTheRadiusAndKeysChangeTheBrush) {
     load(kBall);
-    choose(*viewer, "mode", "paint");
+    takeOpaque();
     viewer->pointer(PointerEvent::Down, kMiddle, 0, {}, true, 0.5f);
     viewer->pointer(PointerEvent::Up, kMiddle, 0, {}, true, 0);
     EXPECT_EQ(ball(*viewer).painting->strokes[1].dabs[0].pressure, 0.5f);
@@ -141,7 +149,7 @@ TEST_F(Paint, PressureIsOfTheRadiusAndKeysChangeTheBrush) {
 
 TEST_F(Paint, EraseGoesBackToHowTheObjectBegan) {
     load(kBall);
-    choose(*viewer, "mode", "paint");
+    takeOpaque();
     drag(kMiddle, kMiddle + vec2(40, 0));
     EXPECT_TRUE(viewer->act("paint.fill").ok()); // with a translucency of 1
     choose(*viewer, "paint.erase", "true");
@@ -157,7 +165,7 @@ TEST_F(Paint, EraseGoesBackToHowTheObjectBegan) {
     };
     EXPECT_EQ(leastSeen(), 0); // opaque, as by hand it begins
     load(scene.c_str());       // and begins still where the file holds its strokes
-    choose(*viewer, "mode", "paint");
+    takeOpaque();
     choose(*viewer, "paint.erase", "false");
     EXPECT_TRUE(viewer->act("paint.fill").ok());
     EXPECT_EQ(leastSeen(), 1);
@@ -169,7 +177,7 @@ TEST_F(Paint, EraseGoesBackToHowTheObjectBegan) {
         R"({"lucentStrokes": 1, "strokes": [{"brush": "glow", "value": [1, 0, 0], "fill": {}},
                                             {"brush": "translucency", "value": 0, "fill": {}}]})");
     ASSERT_TRUE(painted.ok()) << painted.error().message;
-    choose(*viewer, "mode", "paint");
+    takeOpaque();
     EXPECT_EQ(leastSeen(), 0);
     EXPECT_TRUE(viewer->act("paint.clearTranslucency").ok());
     EXPECT_EQ(leastSeen(), 1);
@@ -195,6 +203,33 @@ vec3 colorAt(const Image& screen, vec2 at) {
             sum += vec3(pixel[0], pixel[1], pixel[2]) / 9.0f;
         }
     return sum;
+}
+
+TEST_F(Paint, TheFirstStrokeIsSeenAndTheRestIsKept) {
+    load(kBall);
+    choose(*viewer, "mode", "paint");
+    move({20, 390}); // where no ring is drawn
+    settle();
+    const Image before = window->read();
+    drag(kMiddle, kMiddle + vec2(40, 0));
+    move({20, 390});
+    settle();
+    const Image after = window->read();
+    EXPECT_EQ(ball(*viewer).painting->strokes.size(), 1u);
+    EXPECT_GT(glm::distance(colorAt(before, kMiddle + vec2(20, 0)), colorAt(after, kMiddle + vec2(20, 0))),
+              0.1f);
+    for (const vec2 elsewhere : {vec2(0, 60), vec2(-60, 0), vec2(20, -60)})
+        EXPECT_EQ(colorAt(before, kMiddle + elsewhere), colorAt(after, kMiddle + elsewhere));
+}
+
+TEST_F(Paint, TheBrushIsAnEighthAsWideAsTheObjectAndResetGoesBackToThat) {
+    load(kBall);
+    EXPECT_EQ(viewer->get("paint.radius"), "0.031"); // 0.5 m / 16
+    choose(*viewer, "paint.radius", "0.2");
+    viewer->reset("paint.radius");
+    EXPECT_EQ(viewer->get("paint.radius"), "0.031");
+    load(kMarbleScene);
+    EXPECT_EQ(viewer->get("paint.radius"), "0.0013"); // 20 mm / 16
 }
 
 TEST_F(Paint, LayersAreShownInPlaceOfLight) {

@@ -1,0 +1,71 @@
+// What is drawn for a comparison alone, once the picture is finished: the right side of Methods, and both
+// sides at the truth's size, where they are measured.
+#include "viewer/State.h"
+
+namespace lucent::viewer {
+
+// What is still to be drawn; null while the picture itself is, or where nothing is.
+Viewer::State::Side* Viewer::State::nextSide() {
+    const bool isMethods = compare.mode == CompareMode::Methods;
+    if (!divided() || phase != Phase::Done || stale || !shown || play.playing) return nullptr;
+    if (isMethods && other.of != pictureNumber) return &other;
+    if (!truthIsFresh()) return nullptr;
+    if (measured[0].of != pictureNumber) return &measured[0];
+    return isMethods && measured[1].of != pictureNumber ? &measured[1] : nullptr;
+}
+
+scene::Scene Viewer::State::sceneOf(const Side& side) const {
+    scene::Scene drawn = &side == &measured[0] ? picture : withSettingsOf(picture, *right);
+    if (&side != &other) drawn.camera = scene->camera; // as the truth sees it
+    return drawn;
+}
+
+// One slice of work.
+void Viewer::State::drawSides() {
+    Side* next = nextSide();
+    if (!next) {
+        if (compare.mode == CompareMode::Off) sides.reset();
+        return;
+    }
+    if (!sides) sides = std::make_unique<frame::Renderer>(*context);
+    if (drawing != next) ++sideNumber;
+    drawing = next;
+    const scene::Scene drawn = sceneOf(*next);
+    const ivec2 size = next == &other ? picturePixels : truth->image.size();
+    const Result<frame::Progress> progress = sides->advance(drawn, sideNumber, size);
+    if (progress && !progress->complete) return;
+    const Result<Image> image =
+        progress ? sides->read(drawn, drawn.view.show) : Result<Image>(progress.error());
+    if (!image) message = image.error().message;
+    *next = {image ? *image : Image(), pictureNumber, {}};
+    drawing = nullptr;
+    ++besideNumber;
+    shownHash = 0; // what is beside the picture has changed
+    settled = false;
+    if (image && next != &other) finishSide(*next);
+}
+
+// Measures it.
+void Viewer::State::finishSide(Side& side) {
+    takeCoverage(truth->image, side.image);
+    Result<measure::Metrics> numbers = compareWithTruth(side.image, truth->image);
+    if (!numbers) {
+        message = numbers.error().message;
+        return;
+    }
+    const bool isMethods = compare.mode == CompareMode::Methods;
+    if (isMethods && picture.view.show == scene::Aov::Color)
+        numbers->flip = visibleError(side.image, truth->image, picture.view.exposure);
+    side.numbers = *numbers;
+    if (&side == &measured[0]) error = differenceOf(side.image, truth->image);
+}
+
+void Viewer::State::dropSides() {
+    other = {};
+    measured = {};
+    drawing = nullptr;
+    ++besideNumber;
+    settled = false;
+}
+
+} // namespace lucent::viewer
