@@ -129,11 +129,22 @@ function ownerPart(group, owner) {
   return part;
 }
 
+/** What takes the focus within a group, in order. */
+const stopsOf = (group) => [...group.querySelectorAll('input, select, button')];
+
+// A list that has been opened needs the arrow keys itself; browsers that do not know of it handle them before us.
+const isOpen = (element) => element.tagName === 'SELECT' && CSS.supports('selector(:open)') && element.matches(':open');
+
 export class Controls {
   #actions;
   #shows = new Map(); // path -> show(value)
   #built = ''; // what there are controls for
-  element = make('div', { className: 'twin', role: 'group', 'aria-label': 'Controls' });
+  element = make('div', {
+    className: 'twin',
+    role: 'group',
+    'aria-label': 'Controls',
+    'aria-description': 'Tab goes from group to group, arrow keys up and down through the controls of one',
+  });
 
   /**
    * @param actions  set(path, text): true when it was taken; reset(path); act(path) of a button; focus(path), "" when
@@ -142,8 +153,26 @@ export class Controls {
   constructor(actions) {
     this.#actions = actions;
     const pathOf = (event) => event.target.closest('[data-path]')?.dataset.path ?? '';
-    this.element.addEventListener('focusin', (event) => actions.focus(pathOf(event)));
+    this.element.addEventListener('focusin', (event) => {
+      this.#rove(event.target);
+      actions.focus(pathOf(event));
+    });
     this.element.addEventListener('focusout', () => actions.focus(''));
+    this.element.addEventListener('keydown', (event) => this.#walk(event));
+  }
+
+  // A group is one stop of the tab key: where the focus was last in it.
+  #rove(stop) {
+    for (const other of stopsOf(stop.closest('fieldset'))) other.tabIndex = other === stop ? 0 : -1;
+  }
+
+  // Up and down go through a group; left and right stay with sliders and text.
+  #walk(event) {
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!step || event.altKey || event.ctrlKey || event.metaKey || event.shiftKey || isOpen(event.target)) return;
+    const stops = stopsOf(event.target.closest('fieldset'));
+    event.preventDefault();
+    stops[stops.indexOf(event.target) + step]?.focus();
   }
 
   /**
@@ -161,6 +190,7 @@ export class Controls {
       const row = control.kind === 'action' ? this.#button(control) : this.#row(control);
       ownerPart(groups.get(control.group), control.owner).append(row);
     }
+    for (const group of groups.values()) this.#rove(stopsOf(group)[0]);
     this.element.replaceChildren(...groups.values());
     this.update(controls, profiles);
   }

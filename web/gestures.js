@@ -1,6 +1,7 @@
 /**
  * Pointer, wheel and keys of one canvas, with manners: the page scrolls under a wheel or a single finger unless the
- * canvas has the focus. A mouse drag and two fingers act at once.
+ * canvas has the focus. A mouse drag and two fingers act at once, and a wheel over the panel scrolls the panel, up to
+ * its ends.
  */
 const Pointer = { down: 0, move: 1, up: 2, leave: 3 };
 const kLine = 16; // CSS pixels that a wheel step in lines stands for
@@ -24,6 +25,7 @@ export class Gestures {
   #spread = 0; // distance of two fingers, 0 when there are not two
   #held = null; // id of the pointer that the viewer follows
   #used = false; // the viewer did something with the last button
+  #overPanel = false; // the mouse rests on the panel
   #tap = false; // a finger went down on a viewer without the focus: a tap, or the page scrolls
 
   /**
@@ -38,7 +40,7 @@ export class Gestures {
     listen('pointermove', (event) => this.#move(event));
     listen('pointerup', (event) => this.#up(event));
     listen('pointercancel', (event) => this.#cancel(event));
-    listen('pointerleave', (event) => event.pointerId !== this.#held && this.#send(Pointer.leave, event));
+    listen('pointerleave', (event) => event.pointerId !== this.#held && this.#leave(event));
     listen('click', (event) => this.#click(event));
     listen('contextmenu', (event) => this.#used && event.preventDefault());
     listen('keydown', (event) => this.#key(event));
@@ -46,17 +48,33 @@ export class Gestures {
     listen('focus', () => this.#activate(true));
     listen('blur', () => this.#activate(false));
     this.#activate(false);
+    this.#heedWheel();
   }
 
   get #active() {
     return this.#canvas.matches(':focus');
   }
 
-  // A wheel listener that may stop the scrolling makes it slow, so there is one only while it is needed.
   #activate(active) {
     this.#canvas.style.touchAction = active ? 'none' : 'pan-x pan-y';
+    this.#heedWheel();
+  }
+
+  // A wheel listener that may stop the scrolling makes it slow, so there is one only while it is needed.
+  #heedWheel() {
     this.#canvas.removeEventListener('wheel', this.#wheel);
-    this.#canvas.addEventListener('wheel', this.#wheel, { passive: !active });
+    this.#canvas.addEventListener('wheel', this.#wheel, { passive: !this.#active && !this.#overPanel });
+  }
+
+  #hover(overPanel) {
+    if (overPanel === this.#overPanel) return;
+    this.#overPanel = overPanel;
+    this.#heedWheel();
+  }
+
+  #leave(event) {
+    this.#hover(false);
+    this.#send(Pointer.leave, event);
   }
 
   #send(kind, event) {
@@ -104,7 +122,8 @@ export class Gestures {
       this.#spread = spread;
       if (this.#held !== event.pointerId) return;
     }
-    this.#send(Pointer.move, event);
+    const used = this.#send(Pointer.move, event);
+    if (this.#held === null) this.#hover(Boolean(used) && event.pointerType === 'mouse');
   }
 
   #up(event) {
@@ -136,7 +155,8 @@ export class Gestures {
   }
 
   #wheel = (event) => {
-    if (!this.#active) return this.#viewer.hint(false);
+    if (!this.#active && !this.#overPanel) return this.#viewer.hint(false);
+    if (!this.#active && event.ctrlKey) return; // the page is made larger
     const pixels = wheelPixels(event);
     const pinched = Math.max(-kPinchMost, Math.min(kPinchMost, pixels));
     const used = event.ctrlKey

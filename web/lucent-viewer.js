@@ -10,7 +10,8 @@
  * person prefers reduced motion.
  *
  * compare="truth" or "error" shows the picture beside its exact truth: that of the file which `truth` names (with its
- * own error in `truth-noise`), which belongs to the scene as src has it, or one that is computed when a person asks.
+ * own error in `truth-noise`), which belongs to the scene as src has it, or one that is computed when a person asks;
+ * "methods" shows it beside the same scene drawn by other methods: beside-relief-method="march".
  */
 import { bringScene, droppedFiles, kindOfDrop, openPicture } from './bring.js';
 import { Controls } from './controls.js';
@@ -28,7 +29,9 @@ import {
   sourcesOf,
 } from './files.js';
 import { Gestures } from './gestures.js';
+import { isOfHtml, nearestName } from './names.js';
 import { PhotoBar } from './photos.js';
+import { question } from './question.js';
 import { LucentError, Runtime } from './runtime.js';
 import { TruthBar } from './truth.js';
 import { askUses } from './uses.js';
@@ -44,9 +47,9 @@ const kKeys =
   'Arrow keys on a relief move the light or turn the environment, page up and page down raise or lower the light or ' +
   'zoom, shift with arrow keys orbits the camera. Arrow keys in other scenes orbit the camera, page up and page down ' +
   'zoom, shift with arrow keys turns the environment or moves the light, D lets a drop fall into water. Space plays or ' +
-  'pauses, 0 resets camera and light, question mark lists all keys, Escape leaves. In mode paint brackets make the ' +
-  'brush smaller and larger, 1 to 4 choose translucency, blur, glow and outgoing, X erases back to how the object ' +
-  'began, G fills.';
+  'pauses, L chooses the next lamp, 0 resets camera and light, question mark lists all keys, Escape leaves. In mode ' +
+  'paint brackets make the brush smaller and larger, 1 to 4 choose translucency, blur, glow and outgoing, X erases back ' +
+  'to how the object began, G fills.';
 
 const kStyle = new CSSStyleSheet();
 kStyle.replaceSync(css);
@@ -80,6 +83,7 @@ export class LucentViewer extends HTMLElement {
   #truth; // TruthBar
   #photos = new PhotoBar();
   #rmse; // that was said last
+  #asked = false; // what becomes of what nobody paints
   #truthFetched = false; // the file was asked for since the scene was loaded
   #voice; // what a screen reader says
   #twin;
@@ -405,14 +409,18 @@ export class LucentViewer extends HTMLElement {
 
   /**
    * How the picture stands to its truth: mode, divider, truth ('none', 'stale', 'fresh'), size, noise; of a finished
-   * picture of the same scene rmse, relRmse, max, bias, p99, full; milliseconds, passes, place.
+   * picture of the same scene rmse, relRmse, max, bias, p99, full; milliseconds, passes; place of the other picture,
+   * pixelsPerCssPixel. With "methods" also flip; left, the methods there, and right with name and the same numbers.
    */
   comparison() {
     return JSON.parse(this.#ask('viewer_comparison') || '{"mode": "off", "truth": "none"}');
   }
-  /** Computes the truth of the scene as it is now, in a worker; it is shown while compare is on. */
-  computeTruth() {
-    return this.#truth.compute();
+  /**
+   * Computes the truth of the scene as it is now, in a worker; it is shown while compare is on.
+   * @param longer  its longer side in pixels; without one as large as takes half a minute or so
+   */
+  computeTruth(longer) {
+    return this.#truth.compute(longer);
   }
 
   /**
@@ -741,6 +749,7 @@ export class LucentViewer extends HTMLElement {
     for (const control of this.#controls)
       if (control.attribute && this.hasAttribute(control.attribute)) this.#setFromAttribute(control);
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
+    this.#warnOfNames();
     this.#revision = this.#runtime.call('viewer_revision', this.#handle);
     this.#twin.build(this.#controls, this.profiles());
     this.#showPlay();
@@ -751,6 +760,8 @@ export class LucentViewer extends HTMLElement {
     this.#truth.cancel();
     this.#truthFetched = false;
     this.#compareChanged();
+    this.#root.querySelector('.question')?.remove();
+    this.#askBeforePaint();
     this.#emit('load', { src: name, ...how });
   }
 
@@ -813,6 +824,17 @@ export class LucentViewer extends HTMLElement {
     else this.#set(control.path, textOf(control, value));
   }
 
+  // What is written and means nothing.
+  #warnOfNames() {
+    const names = this.#controls.map(({ attribute }) => attribute).filter(Boolean);
+    const isKnown = (name) => names.includes(name) || camelCase(name) in this || isOfHtml(name);
+    for (const name of this.getAttributeNames().filter((one) => !isKnown(one))) {
+      const nearest = nearestName(name, [...names, ...LucentViewer.observedAttributes]);
+      const meant = nearest ? `did you mean ${nearest}?` : 'must be a parameter of the scene';
+      console.warn(`<lucent-viewer>: attribute ${name} does nothing here; ${meant}`);
+    }
+  }
+
   #set(path, text) {
     if (!this.loaded) {
       this.#fail(new LucentError('value', `${path}: no scene is loaded; parameters come with a scene`));
@@ -846,9 +868,30 @@ export class LucentViewer extends HTMLElement {
     this.#compareChanged();
     this.#showPlay();
     this.#showUndrawn();
+    if (changed.some(({ path }) => path === 'mode')) this.#askBeforePaint();
     this.#emit('edit');
     for (const control of changed) this.#emit('change', { path: control.path, value: valueOf(control, control.value) });
     if (changed.length && this.#root.activeElement === this.#canvas) this.#sayLater(changed[0]);
+  }
+
+  // The first stroke decides what becomes of the rest of an object.
+  #askBeforePaint() {
+    const isDecided = this.hasAttribute('paint-unpainted') || this.strokes.strokes.length > 0;
+    if (this.#asked || isDecided || this.get('mode') !== 'paint') return;
+    this.#asked = true;
+    const opaque = () => {
+      this.#set('paint.unpainted', 'opaque');
+      this.#set('paint.brush', 'translucency');
+    };
+    const dialog = question(
+      'Before you paint',
+      'What shall become of the parts that you do not paint? You find this later as Unpainted among the controls.',
+      [
+        ['They stay as they are', () => {}],
+        ['They become opaque: light goes inside only where I paint', opaque],
+      ],
+    );
+    this.#root.querySelector('.stage').append(dialog);
   }
 
   #showPlay() {
@@ -878,7 +921,7 @@ export class LucentViewer extends HTMLElement {
     if (!this.loaded) return;
     const comparison = this.comparison();
     const { mode, divider, truth } = comparison;
-    this.#divider.hidden = mode === 'off' || truth === 'none';
+    this.#divider.hidden = mode === 'off' || (truth === 'none' && mode !== 'methods');
     this.#divider.value = divider;
     if (mode !== 'off' && truth === 'none' && this.truth && !this.#truthFetched && !this.#truth.busy) {
       this.#truthFetched = true;
@@ -888,9 +931,11 @@ export class LucentViewer extends HTMLElement {
   }
 
   #sayNumbers() {
-    const { rmse } = this.comparison();
-    if (rmse !== undefined && rmse !== this.#rmse) this.#say(`Root mean square error ${rmse.toPrecision(2)}`);
-    this.#rmse = rmse;
+    const { rmse, right } = this.comparison();
+    const said = [rmse, right?.rmse].filter((one) => one !== undefined).map((one) => one.toPrecision(2));
+    if (said.length && said.join() !== this.#rmse)
+      this.#say(`Root mean square error ${said.join(' on the left, on the right ')}`);
+    this.#rmse = said.join();
   }
 
   #takeTruth(name, ...values) {
@@ -910,6 +955,7 @@ export class LucentViewer extends HTMLElement {
       this.#poster.hidden = true;
       this.#status.textContent = '';
       this.#sayNumbers();
+      if (drawn) this.#truth.update(this.comparison()); // in a place of another size
     }
     if (finished) this.#settled.splice(0).forEach((resolve) => resolve());
     if (drawn) this.#emit('frame', { complete });

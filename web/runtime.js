@@ -12,7 +12,7 @@ import { callWasm, isAbort } from './wasm.js';
 
 /** An error with a code that pages can test and a message that people can read. */
 export class LucentError extends Error {
-  /** @param {'fetch'|'scene'|'file'|'value'|'gpu'|'abort'} code */
+  /** @param {'fetch'|'policy'|'scene'|'file'|'value'|'gpu'|'abort'} code */
   constructor(code, message) {
     super(message);
     this.code = code;
@@ -37,6 +37,9 @@ function resize(canvas, width, height) {
   if (canvas.width !== width) canvas.width = width;
   if (canvas.height !== height) canvas.height = height;
 }
+
+// As Chromium, Firefox and Safari say that the page's policy forbids to compile a module.
+const kForbidden = /unsafe-eval|content.security.policy|\bCSP\b/i;
 
 const kNames = { relief: 'lucent-relief', whole: 'lucent' }; // of files
 
@@ -66,6 +69,12 @@ export class Runtime {
       const create = kind === 'relief' ? createRelief : (await import(locateFile(`./${name}.js`))).default;
       wasm = await create({ locateFile });
     } catch (reason) {
+      if (kForbidden.test(reason.message ?? reason))
+        throw new LucentError(
+          'policy',
+          `${name}.wasm: the page's Content-Security-Policy forbids WebAssembly; its script-src must contain ` +
+            "'wasm-unsafe-eval'",
+        );
       throw new LucentError('fetch', `${name}.wasm: ${reason.message ?? reason}; it must lie beside the script`);
     }
     const runtime = new Runtime(wasm, canvas, gl, kind);

@@ -18,18 +18,28 @@ const isSoft = (light) => light.radius > 0 || light.angle > 0 || light.type === 
 const isMatt = ({ shape, material = {} }) =>
   shape.type === 'heightfield' || ![material.transmission, material.reflectance].flat().some((share) => share > 0);
 
-/** What to compute for the files of a scene. */
-function requestFor(files) {
+/**
+ * What to compute for the files of a scene.
+ * @param longer  side of the picture in pixels; undefined: as it is there soon
+ */
+function requestFor(files, longer) {
   const scene = JSON.parse(new TextDecoder().decode(files.get('scene.json')));
   const shines = scene.environment && scene.environment.enabled !== false;
   const isSampled = (shines || scene.lights.some(isSoft)) && scene.objects.some(isMatt);
-  const side = isSampled ? kSide.soft : kSide.hard;
+  const side = longer ?? (isSampled ? kSide.soft : kSide.hard);
   const [width, height] = scene.size.map((length) => Math.max(1, Math.round((length * side) / Math.max(...scene.size))));
   return { files, width, height, samples: kSamples };
 }
 
+/** The longer side of the next finer truth, twice the one there is; undefined where that shows the picture's pixels. */
+function finerSide({ truth, size, place, pixelsPerCssPixel }) {
+  const [has, seen] = [Math.max(...size), place ? Math.max(place[2], place[3]) * pixelsPerCssPixel : 0];
+  return truth === 'fresh' && has < 0.9 * seen ? Math.round(Math.min(2 * has, seen)) : undefined;
+}
+
 export class TruthBar {
   #actions;
+  #finer; // side
   #work = null; // AbortController of what is running
   #text = document.createElement('span');
   #progress = document.createElement('progress');
@@ -44,11 +54,11 @@ export class TruthBar {
   constructor(actions) {
     this.#actions = actions;
     this.#cancel.textContent = 'Cancel';
-    this.#compute.addEventListener('click', () => this.compute());
+    this.#compute.addEventListener('click', () => this.compute(this.#finer));
     this.#cancel.addEventListener('click', () => this.cancel());
     this.element.className = 'bar truth';
     this.element.append(this.#text, this.#progress, this.#compute, this.#cancel);
-    this.update({ mode: 'off' });
+    this.update({ mode: 'off', truth: 'none' });
   }
 
   get busy() {
@@ -56,11 +66,15 @@ export class TruthBar {
   }
 
   /** Shows what there is to do. @param comparison  of the viewer */
-  update({ mode, truth }) {
-    const wanted = mode !== 'off' && truth !== 'fresh';
+  update(comparison) {
+    const { mode, truth } = comparison;
+    this.#finer = mode === 'off' ? undefined : finerSide(comparison);
+    const wanted = mode !== 'off' && (truth !== 'fresh' || this.#finer);
     this.element.hidden = !wanted && !this.busy;
     this.#compute.hidden = this.busy;
-    this.#compute.textContent = truth === 'stale' ? 'Compute the truth again' : 'Compute the truth';
+    this.#compute.textContent = this.#finer
+      ? `Compute a finer truth, ${this.#finer} pixels`
+      : truth === 'stale' ? 'Compute the truth again' : 'Compute the truth';
     this.#text.hidden = this.#progress.hidden = this.#cancel.hidden = !this.busy;
   }
 
@@ -78,10 +92,10 @@ export class TruthBar {
     });
   }
 
-  /** Computes the truth of the scene that is showing. */
-  compute() {
+  /** Computes the truth of the scene that is showing. @param longer  its longer side, pixels */
+  compute(longer) {
     return this.#run(async (signal) => {
-      const request = requestFor(this.#actions.ask());
+      const request = requestFor(this.#actions.ask(), longer);
       const { width, height } = request;
       const start = performance.now();
       const report = (share, isOnPage) => {

@@ -46,7 +46,7 @@ test('a truth computed in a worker is what the picture is, under the strict poli
   assert.ok(found.relRmse <= 1e-5, `relative RMSE ${found.relRmse}`);
   assert.ok(found.rmse > 0 && found.max >= found.rmse, `RMSE ${found.rmse}, max ${found.max}`); // floats round
   assert.ok(found.milliseconds > 0 && found.passes > 0);
-  assert.equal(await page.locator('lucent-viewer .truth').isVisible(), false);
+  assert.equal(await page.textContent('lucent-viewer .truth button:visible'), 'Compute a finer truth, 300 pixels');
   assert.deepEqual(page.problems, []);
   assert.deepEqual(await page.violations(), []);
   await page.leave();
@@ -68,6 +68,77 @@ test('after a change the truth is stale, nothing is compared, and it can be comp
   await page.evaluate(() => document.querySelector('lucent-viewer').undo());
   assert.equal((await comparison(page)).truth, 'stale');
   await page.leave();
+});
+
+/** The largest difference of what is shown in a part of the canvas, given in CSS pixels. */
+function largest(a, b, [left, top, right, bottom]) {
+  let most = 0;
+  for (let y = top; y < bottom; ++y)
+    for (let at = 4 * (y * a.width + left); at < 4 * (y * a.width + right); ++at)
+      most = Math.max(most, Math.abs(a.pixels[at] - b.pixels[at]));
+  return most;
+}
+
+test('the picture keeps its pixels beside a coarser truth', async () => {
+  const page = await open();
+  const before = await shownBy(page);
+  await page.evaluate(() => (document.querySelector('lucent-viewer').truth = 'made/black.pfm'));
+  await set(page, 'compare', 'truth');
+  const { size, place } = await numbers(page);
+  await quiet(page);
+  assert.deepEqual(size, [48, 48]);
+  assert.deepEqual(place, [50, 0, 300, 300]);
+  const after = await shownBy(page);
+  assert.equal(largest(before, after, [60, 90, 170, 210]), 0); // left of the divider's handle, above the numbers
+  assert.ok(largest(before, after, [230, 90, 340, 210]) > 100);
+  await page.leave();
+});
+
+test('a finer truth is computed on request, up to the pixels of the picture', async () => {
+  const page = await open();
+  await set(page, 'compare', 'truth');
+  await compute(page);
+  assert.deepEqual((await numbers(page)).size, [256, 256]);
+  const finer = page.locator('lucent-viewer .truth button:text("Compute a finer truth, 300 pixels")');
+  await finer.click();
+  await page.waitForFunction(() => document.querySelector('lucent-viewer').comparison().size[0] === 300);
+  assert.ok((await numbers(page)).relRmse <= 1e-5);
+  await quiet(page);
+  assert.equal(await page.locator('lucent-viewer .truth').isVisible(), false); // finer is not seen
+  await page.leave();
+});
+
+test('two methods stand side by side with their errors after four actions', async () => {
+  const page = await openPage(stage, 'index.html', { viewport: { width: 1000, height: 900 } });
+  await complete(page);
+  await page.selectOption('#compare', 'methods'); // 1
+  const path = 'beside.technique.relief.method';
+  const option = async (index) => {
+    const [x, y, width] = await page.evaluate((one) => document.querySelector('lucent-viewer').stats().panel[one], path);
+    const box = await boxOf(page);
+    return page.mouse.click(box.x + x + (index + 0.5) * 0.28 * width, box.y + y + 14);
+  };
+  await quiet(page);
+  await option(1); // 2: the second of its choices, on the panel
+  assert.equal(await page.evaluate((one) => document.querySelector('lucent-viewer').get(one), path), 'march');
+  await compute(page); // 3
+  await page.waitForFunction(() => 'rmse' in (document.querySelector('lucent-viewer').comparison().right ?? {}));
+  const found = await comparison(page);
+  assert.equal(found.left, 'Method hierarchy');
+  assert.equal(found.right.name, 'Method march');
+  assert.ok(found.rmse < 1e-4 && found.flip < 1e-3, `RMSE ${found.rmse}, FLIP ${found.flip} of what is exact`);
+  assert.ok(found.right.rmse > 10 * found.rmse && found.right.flip > found.flip, JSON.stringify(found.right));
+  await page.focus('lucent-viewer #divider'); // 4: what stands where
+  await page.keyboard.press('Home');
+  assert.equal((await comparison(page)).divider, 0);
+  assert.match(await page.evaluate(() => location.hash), /compare=methods/);
+  const other = await openPage(stage, 'index.html' + (await page.evaluate(() => location.hash)));
+  await complete(other);
+  assert.equal((await comparison(other)).right.name, 'Method march');
+  assert.deepEqual(page.problems, []);
+  assert.deepEqual(await page.violations(), []);
+  await page.leave();
+  await other.leave();
 });
 
 test('the work shows its progress and ends when it is cancelled', async () => {

@@ -6,6 +6,7 @@ import {
   complete,
   difference,
   eventOf,
+  openPage,
   openStage,
   openViewers,
   pictureOf,
@@ -169,7 +170,7 @@ test('controls="html" shows the twin and no panel', async () => {
   await page.leave();
 });
 
-test('tab walks from the picture through the twin to the rest of the page', async () => {
+test('tab goes from the picture group by group to the rest of the page, arrow keys within a group', async () => {
   const page = await open();
   await page.evaluate(() => document.body.insertAdjacentHTML('beforeend', '<button id="next">next</button>'));
   await page.locator('lucent-viewer canvas').focus();
@@ -177,12 +178,43 @@ test('tab walks from the picture through the twin to the rest of the page', asyn
     page.evaluate(() => document.activeElement.shadowRoot?.activeElement?.ariaLabel ?? document.activeElement.id);
   await page.keyboard.press('Tab');
   assert.equal(await focused(), 'Light position x');
-  const inputs = await page.evaluate(
-    () =>
-      document.querySelector('lucent-viewer').shadowRoot.querySelectorAll('.twin :is(input, select, button)').length,
+  await page.keyboard.press('ArrowDown');
+  assert.equal(await focused(), 'Light position y');
+  await page.keyboard.press('ArrowUp');
+  await page.keyboard.press('ArrowUp'); // there is nothing above
+  assert.equal(await focused(), 'Light position x');
+  const walk = await page.evaluate(
+    () => document.querySelector('lucent-viewer').shadowRoot.querySelectorAll('fieldset')[0].querySelectorAll('input, select, button').length,
   );
-  for (let press = 0; press < inputs; ++press) await page.keyboard.press('Tab');
+  const met = new Set([await focused()]);
+  for (let step = 1; step < walk; ++step) met.add((await page.keyboard.press('ArrowDown'), await focused()));
+  assert.equal(met.size, new Set(met).size);
+  const last = await focused();
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Shift+Tab');
+  assert.equal(await focused(), last); // it comes back to where it was
+  const groups = await page.locator('lucent-viewer fieldset').count();
+  for (let press = 0; press < groups; ++press) await page.keyboard.press('Tab');
   assert.equal(await focused(), 'next');
+  await page.leave();
+});
+
+test('at most 20 stops of the tab key lie between the picture and the toolbar', async () => {
+  const page = await openPage(stage);
+  for (const scene of ['dome', 'pond']) {
+    await eventOf(page, 'load', () =>
+      page.evaluate((name) => (document.querySelector('lucent-viewer').src = `made/${name}.json`), scene),
+    );
+    await page.evaluate(() => document.querySelector('lucent-viewer').set('compare', 'methods'));
+    await page.locator('lucent-viewer canvas').focus();
+    let stops = -1;
+    do {
+      await page.keyboard.press('Tab');
+      ++stops;
+    } while (stops < 40 && (await page.evaluate(() => document.activeElement.id)) !== 'undo');
+    assert.ok(stops > 3 && stops <= 20, `${scene}: ${stops} stops`);
+    console.log(`# ${process.env.LUCENT_DRIVER}: ${scene}: ${stops} stops of the tab key between picture and toolbar`);
+  }
   await page.leave();
 });
 

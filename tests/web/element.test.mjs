@@ -251,3 +251,46 @@ test('a saved picture decodes to what toBlob drew', async () => {
   assert.deepEqual(difference(await decodePng(page, bytes), await pictureOf(page)), { max: 0, mean: 0, share: 0 });
   await page.leave();
 });
+
+test('a mistyped attribute is named with the one that was meant, attributes of HTML are not', async () => {
+  const attributes =
+    'material-specularty="0.3" lihgt="0 0 1" zzz="1" class="a" id="b" style="" data-x="1" aria-busy="false" ' +
+    'tabindex="0" view-exposure="0.5" truth-noise="0" alt';
+  const page = await openPage(stage, 'blank.html', { markup: kDome.replace('src="made/dome.json" alt', attributes) });
+  const warnings = [];
+  page.on('console', (message) => message.type() === 'warning' && warnings.push(message.text()));
+  await eventOf(page, 'load', () =>
+    page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/dome.json')),
+  );
+  assert.deepEqual(
+    warnings.filter((text) => text.includes('lucent-viewer')),
+    [
+      '<lucent-viewer>: attribute material-specularty does nothing here; did you mean material-specularity?',
+      '<lucent-viewer>: attribute lihgt does nothing here; did you mean light?',
+      '<lucent-viewer>: attribute zzz does nothing here; must be a parameter of the scene',
+    ],
+  );
+  assert.deepEqual(page.problems, []);
+  await page.leave();
+});
+
+test('a policy that forbids WebAssembly is named, with what it must contain', async () => {
+  const page = await openPage(stage, 'blank.html');
+  await page.route('**/strict.html', (route) =>
+    route.fulfill({
+      contentType: 'text/html',
+      headers: { 'Content-Security-Policy': "default-src 'self'; style-src 'self'; img-src data:" },
+      body: `<!doctype html><link rel="icon" href="data:,"><script type="module" src="lucent-viewer.js"></script>${kDome}`,
+    }),
+  );
+  await page.goto(new URL('strict.html', stage.address).href);
+  const message =
+    "lucent-relief.wasm: the page's Content-Security-Policy forbids WebAssembly; its script-src must contain " +
+    "'wasm-unsafe-eval'";
+  await page.waitForFunction(
+    (text) => document.querySelector('lucent-viewer').shadowRoot.querySelector('.status').textContent === text,
+    message,
+  );
+  assert.equal(await page.textContent('lucent-viewer [role=status]'), message);
+  await page.leave();
+});

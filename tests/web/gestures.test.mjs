@@ -1,6 +1,7 @@
 /** Real pointers, wheels, fingers and keys on a viewer, and the page's right to scroll. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
+import { kScenes } from './scenes.mjs';
 import {
   boxOf,
   brightness,
@@ -69,6 +70,85 @@ test('escape gives the wheel back to the page', async () => {
   await page.mouse.wheel(0, 200);
   await page.waitForFunction(() => scrollY === 200);
   assert.deepEqual(await valueOf(page, kLight), before);
+  await page.leave();
+});
+
+test('a wheel over the panel scrolls the panel, without a click, and at its end the page', async () => {
+  const page = await open(kPanelViewer, { width: 790, height: 400 });
+  const widgets = () => page.evaluate(() => document.querySelector('lucent-viewer').stats().panel);
+  const [path, before] = Object.entries(await widgets()).at(-1);
+  await page.mouse.move(600, 100);
+  await page.mouse.move(640, 200);
+  await page.mouse.wheel(0, 40);
+  await page.waitForFunction(
+    ([one, top]) => {
+      const place = document.querySelector('lucent-viewer').stats().panel[one];
+      return place && Math.abs(place[1] - (top - 40)) < 2;
+    },
+    [path, before[1]],
+  );
+  assert.equal(await scrollOf(page), 0);
+  await page.mouse.wheel(0, 5000); // to its end
+  await quiet(page);
+  assert.equal(await scrollOf(page), 0);
+  await page.mouse.wheel(0, 100);
+  await page.waitForFunction(() => scrollY === 100);
+  await page.leave();
+});
+
+test('a lamp outside the picture comes to the hand by its arrow, one behind the camera moves by it', async () => {
+  const page = await open();
+  const lamp = () => page.evaluate(() => document.querySelector('lucent-viewer').stats().lamps[0]);
+  const pull = async (from, to) => {
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move(...to, { steps: 4 });
+    await page.mouse.up();
+    await complete(page);
+  };
+  await page.evaluate((path) => document.querySelector('lucent-viewer').set(path, [5, 0.1, 0.6]), kLight);
+  const { place, outside } = await lamp();
+  assert.equal(outside, true);
+  assert.ok(place[0] > 350 && place[0] < 400, `arrow at ${place}`);
+  await pull(place, [260, 120]);
+  const moved = await lamp();
+  assert.equal(moved.outside, false);
+  assert.ok(Math.hypot(moved.place[0] - 260, moved.place[1] - 120) < 1, `dot at ${moved.place}`);
+  assert.equal((await valueOf(page, kLight))[2], 0.6); // it keeps its height
+  await page.leave();
+});
+
+test('every lamp of a scene without a relief can be moved by its dot or arrow, in front, outside, behind, far away', async () => {
+  const banner = JSON.parse(kScenes['banner.json']);
+  banner.camera = { type: 'perspective', eye: [0, 0, 2], fov: 60 };
+  banner.lights = [
+    { type: 'point', position: [0.4, 0.3, 0] },
+    { type: 'point', position: [-9, 0, 0] },
+    { type: 'spot', position: [0, 4, 5], direction: [0, -1, -1] },
+    { type: 'area', corner: [0.3, -6, 0], edgeU: [0.1, 0, 0], edgeV: [0, 0.1, 0] },
+    { type: 'distant', direction: [0.5, -0.2, -1] },
+  ];
+  const page = await openViewers(stage, '<div id="tail"></div>');
+  await page.route('**/made/lamps.json', (route) => route.fulfill({ body: JSON.stringify(banner) }));
+  await page.evaluate(() => {
+    document.body.insertAdjacentHTML('afterbegin', '<lucent-viewer src="made/lamps.json"></lucent-viewer>');
+    Object.assign(document.querySelector('lucent-viewer').style, { width: '400px', height: '300px' });
+  });
+  await complete(page);
+  const lampsOf = () => page.evaluate(() => document.querySelector('lucent-viewer').stats().lamps);
+  assert.deepEqual((await lampsOf()).map(({ outside }) => outside), [false, true, true, true, false]);
+  const paths = ['position', 'position', 'position', 'corner', 'direction'].map((name, at) => `lights.${at}.${name}`);
+  for (const [index, path] of paths.entries()) {
+    const before = await valueOf(page, path);
+    const { x, y } = await boxOf(page);
+    const [left, top] = (await lampsOf())[index].place;
+    await page.mouse.move(x + left, y + top);
+    await page.mouse.down();
+    await page.mouse.move(x + left + (left > 200 ? -30 : 30), y + top + (top > 150 ? -20 : 20), { steps: 3 });
+    await page.mouse.up();
+    assert.notDeepEqual(await valueOf(page, path), before, path);
+  }
+  assert.deepEqual(await valueOf(page, 'camera.eye'), [0, 0, 2]);
   await page.leave();
 });
 

@@ -1,7 +1,18 @@
 /** Mode paint by real pointers: what changes where, scripts, undo, files, and the twins of its layers and buttons. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { boxOf, brightness, complete, difference, openStage, openViewers, pictureOf, valueOf } from './support.mjs';
+import { kScenes } from './scenes.mjs';
+import {
+  boxOf,
+  brightness,
+  complete,
+  difference,
+  openPage,
+  openStage,
+  openViewers,
+  pictureOf,
+  valueOf,
+} from './support.mjs';
 
 const kSide = 150; // CSS pixels; 0.2 mm each, so that the ball of 20 mm is 100 wide
 
@@ -9,6 +20,7 @@ let stage;
 before(async () => (stage = await openStage()));
 after(() => stage.close());
 
+const kOpaque = 'paint-unpainted="opaque" paint-brush="translucency"';
 const viewerOf = (name, scene, attributes = '') =>
   `<lucent-viewer id="${name}" src="made/${scene}" alt="A ball" ${attributes}></lucent-viewer>`;
 
@@ -21,9 +33,9 @@ async function ready(page, name) {
   await complete(page, `#${name}`);
 }
 
-/** A page with a marble ball, lit from the left, and a brush of 2 mm, 10 pixels. */
-async function open(attributes, options) {
-  const page = await openViewers(stage, viewerOf('hand', 'ball.json', attributes), options);
+/** A page with a marble ball, lit from the left, that becomes opaque, and a brush of 2 mm, 10 pixels. */
+async function open(attributes = '', options) {
+  const page = await openViewers(stage, viewerOf('hand', 'ball.json', `${kOpaque} ${attributes}`), options);
   await ready(page, 'hand');
   await set(page, 'mode', 'paint');
   await set(page, 'paint.radius', 0.002);
@@ -86,6 +98,55 @@ test('a drag paints where it goes, and nowhere else', async () => {
   assert.ok(drag.dabs.length > 15, `${drag.dabs.length} dabs a quarter of the radius apart`);
   for (const [x, y, z] of drag.dabs) assert.ok(Math.abs(Math.hypot(x, y, z) - 0.01) < 1e-4 && z > 0);
   assert.deepEqual(page.problems, []);
+  await page.leave();
+});
+
+test('what becomes of the rest is asked once, and the first stroke is seen', async () => {
+  for (const [answer, strokes] of [['They stay as they are', 1], ['They become opaque', 2]]) {
+    const page = await openViewers(stage, viewerOf('hand', 'ball.json', 'mode="paint"'));
+    await ready(page, 'hand');
+    const question = page.locator('#hand .question');
+    assert.equal(await question.getAttribute('role'), 'dialog');
+    await question.locator(`button:text("${answer}")`).click();
+    await set(page, 'mode', 'subsurface');
+    await set(page, 'mode', 'paint');
+    assert.equal(await question.count(), 0);
+    assert.equal(await valueOf(page, 'paint.radius'), 0.0013); // of a ball of 20 mm
+    const before = await finished(page);
+    await draw(page, [-20, -10], [0, -10]);
+    const after = await finished(page);
+    assert.equal((await strokesOf(page)).length, strokes);
+    assert.ok(differenceAt(before, after, [-10, -10]) > 20, answer);
+    const elsewhere = differenceAt(before, after, [10, 30]); // light that spreads from the stroke
+    assert.ok(strokes === 1 ? elsewhere < 8 : elsewhere > 8, `${answer}: ${elsewhere}`);
+    assert.deepEqual(page.problems, []);
+    await page.leave();
+  }
+});
+
+test('nothing is asked of what is painted, nor where the page has said it', async () => {
+  const painted = JSON.parse(kScenes['ball.json']);
+  painted.objects[0].paint = { strokes: [{ brush: 'glow', value: [1, 0, 0], fill: {} }], side: 64 };
+  const page = await openPage(stage, 'blank.html', {
+    markup: viewerOf('hand', 'painted.json', 'mode="paint"') + viewerOf('said', 'ball.json', `mode="paint" ${kOpaque}`),
+  });
+  await page.route('**/made/painted.json', (route) => route.fulfill({ body: JSON.stringify(painted) }));
+  await page.reload();
+  await ready(page, 'hand');
+  await ready(page, 'said');
+  assert.equal(await valueOf(page, 'mode', '#hand'), 'paint');
+  assert.equal(await page.locator('.question').count(), 0);
+  await page.leave();
+});
+
+test('a card of the gallery for paint opens in that mode', async () => {
+  const entry = { id: 'ball', title: 'A ball', caption: '', kind: 'Paint', scene: 'ball.json' };
+  const page = await openPage(stage, 'blank.html');
+  await page.route('**/gallery/index.json', (route) => route.fulfill({ body: JSON.stringify([entry]) }));
+  await page.goto(new URL('index.html', stage.address).href);
+  await page.waitForFunction(() => document.querySelector('lucent-viewer').loaded);
+  assert.equal(await valueOf(page, 'mode'), 'paint');
+  assert.equal(await page.locator('lucent-viewer .question').isVisible(), true);
   await page.leave();
 });
 
@@ -169,7 +230,7 @@ test('layers, fill and clear have twins in the order of the panel, which the key
   );
   const first = twins.filter(({ group }) => group === twins[0].group);
   assert.deepEqual(first.slice(-7).map(({ path }) => path), [
-    'paint.symmetric', 'paint.layer', 'paint.fill', 'paint.clearTranslucency', 'paint.clearBlur', 'paint.clearGlow',
+    'paint.unpainted', 'paint.layer', 'paint.fill', 'paint.clearTranslucency', 'paint.clearBlur', 'paint.clearGlow',
     'paint.clearOutgoing',
   ]);
   assert.ok(first.every(({ name }) => name));
