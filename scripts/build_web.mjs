@@ -109,8 +109,8 @@ await build({
 });
 for (const name of ['export', 'zip'])
   await build({ ...common, bundle: true, entryPoints: [web(`${name}.js`)], outfile: out(`${name}.js`) });
-const dialogs = ['./open.js', './picture.js', './selfcheck.js']; // fetched when asked for
-for (const name of ['page', 'open', 'picture'])
+const dialogs = ['./open.js', './picture.js', './selfcheck.js', './tour.js']; // fetched when asked for
+for (const name of ['page', 'open', 'picture', 'tour'])
   await build({
     ...common,
     bundle: true,

@@ -98,9 +98,9 @@ function applyChanges(changes) {
 /** Whether the "scene", its "picture" or its "truth" is still being made. */
 const isMaking = ({ making = [] }, what) => making.includes(what);
 
-function showScene({ id, title, scene, poster, truth }, changes = {}) {
+function showScene({ id, title, scene, poster, truth, kind }, changes = {}) {
   current = { scene: id };
-  pending = changes;
+  pending = kind === 'Paint' ? { mode: 'paint', ...changes } : changes;
   tell('');
   if (poster && !viewer.loaded) viewer.poster = 'gallery/' + poster;
   viewer.alt = title;
@@ -394,6 +394,7 @@ find('copy').addEventListener('click', copyLink);
 find('compare').addEventListener('change', ({ target }) => viewer.set('compare', target.value));
 find('time').addEventListener('change', showCost);
 openDialog('check', () => import('./selfcheck.js'), ({ openSelfCheck }) => openSelfCheck(viewer));
+openDialog('tour', () => import('./tour.js'), ({ showTour }) => showTour());
 openWith('open-maps', 'maps-file', 'scene');
 openWith('open-environment', 'environment-file', 'environment');
 openWith('open-mesh', 'mesh-file', 'scene');
@@ -423,6 +424,15 @@ async function openLink(text) {
   followLink();
 }
 
+// True where a page may remember nothing: it would be shown again and again.
+function seenTour() {
+  try {
+    return localStorage.getItem('lucent.tour') !== null;
+  } catch {
+    return true;
+  }
+}
+
 async function start() {
   gallery = await fetchGallery();
   find('gallery').replaceChildren(...galleryCards());
@@ -430,5 +440,6 @@ async function start() {
   addEventListener('popstate', follow);
   await showFirst();
   showMaking();
+  if (!seenTour()) (await import('./tour.js')).showTour();
 }
 start().catch(({ message }) => note(message));

@@ -21,6 +21,7 @@ import {
   valueOf,
 } from './support.mjs';
 
+const kDocs = readdirSync('web/docs').filter((name) => name.endsWith('.html'));
 const kGlow = 'objects.relief.material.forwardScatter';
 
 // Those that leave the page as they found it share one.
@@ -114,6 +115,79 @@ test('a phone sees the whole width and can scroll to the gallery', async () => {
   ]);
   assert.equal(width, 390);
   assert.ok(height > 844, `page height ${height}`);
+  await page.leave();
+});
+
+/** What reaches beyond the window's right side. */
+const wideThings = (page) =>
+  page.evaluate(() => {
+    const isScrolled = (one) => one && (/auto|scroll|hidden/.test(getComputedStyle(one).overflowX) || isScrolled(one.parentElement));
+    return [...document.querySelectorAll('body *')]
+      .filter((one) => one.getBoundingClientRect().right > innerWidth + 0.5 && !isScrolled(one.parentElement))
+      .map((one) => `${one.tagName} ${one.id || one.className}`);
+  });
+
+test('no page scrolls sideways on 390 pixels', async () => {
+  for (const path of ['index.html', 'example.html', 'bench.html', ...kDocs.map((name) => `docs/${name}`)]) {
+    const page = await openPage(stage, path, { viewport: { width: 390, height: 844 }, hasTouch: true });
+    await page.waitForTimeout(300);
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390, path);
+    assert.deepEqual(await wideThings(page), [], path);
+    await page.leave();
+  }
+});
+
+test('dialogs fit into a window of 390 x 640 pixels', async () => {
+  const page = await openPage(stage, 'index.html', { viewport: { width: 390, height: 640 }, visits: 0 });
+  const fits = async (selector) => {
+    const box = await page.locator(selector).boundingBox();
+    assert.ok(box.x >= 0 && box.x + box.width <= 390, `${selector}: x ${box.x}, ${box.width} wide`);
+    assert.ok(box.y >= 0 && box.y + box.height <= 640, `${selector}: y ${box.y}, ${box.height} high`);
+  };
+  await page.waitForSelector('.tour');
+  await fits('.tour');
+  assert.ok(await page.locator('.tour').evaluate((one) => one.scrollHeight <= one.clientHeight + 1), 'it is one screen');
+  await page.click('.tour button');
+  await complete(page);
+  await page.click('#check');
+  await page.waitForSelector('dialog.lucent-check');
+  await fits('dialog.lucent-check');
+  await page.click('dialog.lucent-check [data-do=close]');
+  await page.leave();
+});
+
+test('the tour is shown once, and again when asked for', async () => {
+  const page = await openPage(stage, 'index.html', { visits: 0 });
+  await page.waitForSelector('dialog.tour[open]');
+  assert.equal(await page.locator('.tour li').count(), 4);
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('.tour').count(), 0);
+  await page.reload();
+  await complete(page);
+  assert.equal(await page.locator('.tour').count(), 0);
+  await page.click('#tour');
+  await page.waitForSelector('dialog.tour[open]');
+  await page.click('.tour button');
+  assert.equal(await page.locator('.tour').count(), 0);
+  assert.deepEqual(page.problems, []);
+  assert.deepEqual(await page.violations(), []);
+  await page.leave();
+});
+
+test('a printed page keeps the proportions of its picture', async () => {
+  const page = await openPage(stage, 'index.html', { viewport: { width: 1200, height: 500 } });
+  await complete(page);
+  await page.emulateMedia({ media: 'print' });
+  const { fit, hidden } = await page.evaluate(() => {
+    const root = document.querySelector('lucent-viewer').shadowRoot;
+    const style = (one) => getComputedStyle(one);
+    return {
+      fit: style(root.querySelector('canvas')).objectFit,
+      hidden: ['.toolbar', '#gallery', '.modes'].map((one) => style(document.querySelector(one)).display),
+    };
+  });
+  assert.equal(fit, 'contain');
+  assert.deepEqual(hidden, ['none', 'none', 'none']);
   await page.leave();
 });
 

@@ -71,9 +71,10 @@ function watch() {
 /**
  * Opens a page of the site. `problems` collects console errors and exceptions.
  * @param options  of the browser's context: viewport, deviceScaleFactor, hasTouch, colorScheme; and `init`, a
- *                 function that runs in the page first, `gallery: 'own'` for the site's gallery in place of scenes.mjs
+ *                 function that runs in the page first, `gallery: 'own'` for the site's gallery in place of scenes.mjs,
+ *                 `visits: 0` for somebody who has never been there
  */
-export async function openPage(stage, path = 'index.html', { init, gallery = 'made', markup = '', ...options } = {}) {
+export async function openPage(stage, path = 'index.html', { init, gallery = 'made', markup = '', visits = 1, ...options } = {}) {
   const context = await stage.browser.newContext({ viewport: { width: 800, height: 600 }, ...options });
   const page = await context.newPage();
   const problems = [];
@@ -81,6 +82,7 @@ export async function openPage(stage, path = 'index.html', { init, gallery = 'ma
   page.on('pageerror', (error) => problems.push(String(error)));
   page.setDefaultTimeout(kPatience);
   await page.addInitScript(watch);
+  if (visits) await page.addInitScript(() => self.origin !== 'null' && localStorage.setItem('lucent.tour', 'seen'));
   if (init) await page.addInitScript(init);
   if (gallery === 'made') await page.route('**/gallery/*', fulfilMade);
   await page.route('**/made/*', fulfilMade);
