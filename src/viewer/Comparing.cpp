@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace lucent::viewer {
 
@@ -79,6 +80,7 @@ const Image* Viewer::State::besideImage() {
 std::optional<frame::Beside> Viewer::State::beside() {
     const Image* image = divided() ? besideImage() : nullptr;
     if (!image) return std::nullopt;
+    if (image != std::exchange(besideShown, image)) ++besideNumber;
     const Rect place = besidePlace();
     frame::Beside beside{.image = *image, .number = besideNumber, .isError = image == &error};
     beside.corner = place.low * scale;

@@ -116,6 +116,7 @@ struct Viewer::State {
     std::unique_ptr<frame::Renderer> sides; // draws them
     std::uint64_t sideNumber = 0;           // of what it draws
     Side* drawing = nullptr;
+    const Image* besideShown = nullptr;
     std::uint64_t besideNumber = 0;       // changes when what stands right of the divider does
     std::optional<scene::Scene> asLoaded; // whose truth lies in files
     std::optional<scene::Scene> asked;    // whose truth is being computed

@@ -111,7 +111,7 @@ test('what becomes of the rest is asked once, and the first stroke is seen', asy
     await set(page, 'mode', 'subsurface');
     await set(page, 'mode', 'paint');
     assert.equal(await question.count(), 0);
-    assert.equal(await valueOf(page, 'paint.radius'), 0.0013); // of a ball of 20 mm
+    assert.equal(await valueOf(page, 'paint.radius'), 0.0012); // of a ball of 20 mm
     const before = await finished(page);
     await draw(page, [-20, -10], [0, -10]);
     const after = await finished(page);
