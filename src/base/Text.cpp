@@ -1,6 +1,7 @@
 #include "base/Text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -46,6 +47,15 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 std::string shortest(float value) { return shortestText<float>(value, std::strtof, 9); }
 std::string shortest(double value) { return shortestText<double>(value, std::strtod, 17); }
+
+std::optional<double> numberIn(std::string_view text) {
+    const std::string whole(text); // strtod wants an end
+    char* end = nullptr;
+    const double value = std::strtod(whole.c_str(), &end);
+    const bool isNumber = !whole.empty() && !std::isspace(static_cast<unsigned char>(whole[0])) &&
+                          end == whole.c_str() + whole.size() && std::isfinite(value);
+    return isNumber ? std::optional(value) : std::nullopt;
+}
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
     std::string_view best;

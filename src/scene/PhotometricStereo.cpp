@@ -5,7 +5,6 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -37,16 +36,14 @@ std::string_view lastWord(std::string_view& line) {
     return word;
 }
 
-bool readNumber(std::string_view text, double& value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-}
-
 // "FILE X Y Z"; a name may hold blanks.
 std::optional<LitPhoto> readPhoto(std::string_view line) {
     LitPhoto photo;
-    for (const int axis : {2, 1, 0})
-        if (!readNumber(lastWord(line), photo.light[axis])) return std::nullopt;
+    for (const int axis : {2, 1, 0}) {
+        const std::optional<double> number = numberIn(lastWord(line));
+        if (!number) return std::nullopt;
+        photo.light[axis] = *number;
+    }
     const std::size_t begin = line.find_first_not_of(" \t"), end = line.find_last_not_of(" \t") + 1;
     const double length = glm::length(photo.light);
     if (begin >= end || !(length > 0)) return std::nullopt;
@@ -70,10 +67,9 @@ double spreadOf(std::span<const LitPhoto> photos) {
 
 Result<std::vector<LitPhoto>> parseLightFile(std::span<const std::byte> bytes, const std::string& name) {
     std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    double count = 0;
     const std::string_view first = nextLine(text).value_or("");
-    if (!readNumber(first, count) || count < kLeastPhotos || count > kMostPhotos ||
-        count != std::floor(count))
+    const double count = numberIn(first).value_or(0);
+    if (count < kLeastPhotos || count > kMostPhotos || count != std::floor(count))
         return Error{name + ":1: is " + inQuotes(first.substr(0, 40)) +
                      "; must be the number of photographs, " + std::to_string(kLeastPhotos) + " to " +
                      std::to_string(kMostPhotos)};

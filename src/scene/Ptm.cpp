@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace lucent::scene {
@@ -48,9 +47,7 @@ struct Reader {
     }
     Result<double> number(std::string_view what) {
         const std::string_view text = word();
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && std::isfinite(value)) return value;
+        if (const std::optional<double> value = numberIn(text)) return *value;
         return Error{name + ": " + std::string(what) + " is " + inQuotes(text.substr(0, 40)) +
                      "; must be a number"};
     }

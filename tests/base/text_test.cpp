@@ -27,6 +27,12 @@ TEST(Text, NearestWordNeedsTheFewestEdits) {
     EXPECT_EQ(nearest("x", {}), "");
 }
 
+TEST(Text, ANumberIsAllOfItsText) {
+    EXPECT_EQ(numberIn("-1.5e2"), -150);
+    for (const char* text : {"", " 1", "1 ", "1,5", "0.5m", "inf", "nan"})
+        EXPECT_EQ(numberIn(text), std::nullopt) << text;
+}
+
 TEST(Text, QuotesEscapeWhatJsonDoesNotAllow) {
     EXPECT_EQ(inQuotes("a\"b\\c\nd\x01 \xc3\xa9"), "\"a\\\"b\\\\c\\nd\\u0001 \xc3\xa9\"");
 }

@@ -18,7 +18,7 @@ void put(Bytes& out, std::uint32_t value) {
 void putChunk(Bytes& out, std::string_view type, std::span<const std::uint8_t> data) {
     put(out, std::uint32_t(data.size()));
     const std::size_t begin = out.size();
-    const auto bytes = std::as_bytes(data), name = std::as_bytes(std::span(type));
+    const auto bytes = std::as_bytes(data), name = std::as_bytes(std::span(type.data(), type.size()));
     out.insert(out.end(), name.begin(), name.end());
     out.insert(out.end(), bytes.begin(), bytes.end());
     const auto* covered = reinterpret_cast<const Bytef*>(out.data() + begin);
