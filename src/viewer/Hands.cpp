@@ -11,7 +11,7 @@ namespace {
 
 // Chosen by eye or after what hands are used to.
 constexpr float kDotReach = 24;                         // CSS pixels around a light's dot that grip it
-constexpr float kDotReachOfBrush = 12;                  // the same while a brush is in hand
+constexpr float kDotReachOnUse = 12;                    // the same where a press paints or lets a drop fall
 constexpr float kDividerReach = 10, kDividerTouch = 22; // CSS pixels beside it, of a mouse and of a finger
 constexpr float kKeyFactor = 1.1f;
 constexpr float kKeyTurn = 5.0f / 180; // half turns an arrow key
@@ -60,7 +60,7 @@ Viewer::State::Grip Viewer::State::gripAt(vec2 position, int button, Modifiers m
     if (divided() && std::abs(position.x - dividerPlace()) < (touch ? kDividerTouch : kDividerReach))
         return Grip::Divider;
     const bool isPlain = button == 0 && !modifiers.shift && !modifiers.control;
-    if (isPlain && painting() && scene->view.lightDot && pickLight(position) < kDotReachOfBrush)
+    if (isPlain && painting() && scene->view.lightDot && pickLight(position) < kDotReachOnUse)
         return Grip::Light;
     if (painting() && button == 0 && !modifiers.shift && !modifiers.control && paintPlaceAt(position))
         return Grip::Paint;
@@ -68,14 +68,13 @@ Viewer::State::Grip Viewer::State::gripAt(vec2 position, int button, Modifiers m
     const bool forCamera = modifiers.shift == hasField();
     if (forCamera && modifiers.shift) return Grip::Orbit;
     const float distance = pickLight(position);
-    const bool onDot = scene->view.lightDot && distance < kDotReach;
+    const bool onWater = forCamera && !modifiers.control && waterAt(*scene, lens(), position);
+    const bool onDot =
+        scene->view.lightDot && !modifiers.control && distance < (onWater ? kDotReachOnUse : kDotReach);
     const bool roll = modifiers.alt || button == 2;
     if (mapShines() && !onDot && (roll || !forCamera)) return roll ? Grip::Roll : Grip::Map;
     if (button == 2) return Grip::None;
-    if (forCamera && !onDot) {
-        const bool onWater = !modifiers.control && waterAt(*scene, lens(), position);
-        return onWater ? Grip::Water : Grip::Orbit;
-    }
+    if (forCamera && !onDot) return onWater ? Grip::Water : Grip::Orbit;
     return scene->lights.empty() ? Grip::None : Grip::Light;
 }
 

@@ -191,7 +191,7 @@ TEST_F(Picture, APictureBecomesTheEnvironmentAndNothingElseChanges) {
     load(kLampScene);
     const Image before = window->read();
     EXPECT_FALSE(viewer->openEnvironment("broken.png", Bytes(20, std::byte(7))).ok());
-    EXPECT_EQ(viewer->get("environment.enabled"), "");
+    EXPECT_EQ(viewer->get("environment.enabled"), "false");
     Image sky(4, 2, 3);
     for (float& value : sky.pixels)
         value = 0.5f;

@@ -254,7 +254,7 @@ test('a saved picture decodes to what toBlob drew', async () => {
 
 test('a mistyped attribute is named with the one that was meant, attributes of HTML are not', async () => {
   const attributes =
-    'material-specularty="0.3" lihgt="0 0 1" zzz="1" class="a" id="b" style="" data-x="1" aria-busy="false" ' +
+    'material-specularty="0.3" lihgt="0 0 1" zzz="1" class="a" id="b" lang="en" data-x="1" aria-busy="false" ' +
     'tabindex="0" view-exposure="0.5" truth-noise="0" alt';
   const page = await openPage(stage, 'blank.html', { markup: kDome.replace('src="made/dome.json" alt', attributes) });
   const warnings = [];

@@ -223,7 +223,7 @@ export const drawsOf = (page, selector = 'lucent-viewer') =>
   page.evaluate((one) => document.querySelector(one).stats().frames, selector);
 
 /** Place of a viewer's canvas on the page, CSS pixels. */
-export const boxOf = (page, selector = 'lucent-viewer') => page.locator(`${selector} canvas`).boundingBox();
+export const boxOf = (page, selector = 'lucent-viewer') => page.locator(`${selector} canvas`).first().boundingBox();
 
 /** A parameter of a viewer. */
 export const valueOf = (page, path, selector = 'lucent-viewer') =>
