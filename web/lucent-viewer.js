@@ -147,7 +147,7 @@ export class LucentViewer extends HTMLElement {
       fail: (error) => this.#fail(error),
       changed: () => this.#truth.update(this.comparison()),
     });
-    find('.stage').append(this.#truth.element, this.#photos.element);
+    find('.stage').append(this.#truth.element);
     new Gestures(this.#canvas, {
       pointer: (...event) => this.#pointer(...event),
       wheel: (...event) => this.#apply('viewer_wheel', ...event),
@@ -601,6 +601,7 @@ export class LucentViewer extends HTMLElement {
       ask: (pictures) => askUses(this.#root, pictures),
       solve: (light, photos) => {
         this.#status.textContent = '';
+        this.#root.querySelector('.stage').append(this.#photos.element);
         return this.#photos.solve(light, photos);
       },
     });
@@ -746,6 +747,7 @@ export class LucentViewer extends HTMLElement {
     this.#shown = this.#src;
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#defineProperties();
+    this.#root.querySelector('.question')?.remove();
     for (const control of this.#controls)
       if (control.attribute && this.hasAttribute(control.attribute)) this.#setFromAttribute(control);
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
@@ -760,7 +762,6 @@ export class LucentViewer extends HTMLElement {
     this.#truth.cancel();
     this.#truthFetched = false;
     this.#compareChanged();
-    this.#root.querySelector('.question')?.remove();
     this.#askBeforePaint();
     this.#emit('load', { src: name, ...how });
   }

@@ -121,7 +121,7 @@ std::vector<BoundParam> bindBeside(scene::Scene& right) {
         if (!bound.path.starts_with("technique.") && !bound.path.starts_with("quality.")) continue;
         bound.path.insert(0, kBeside);
         bound.prefix.insert(0, "beside-");
-        bound.place = Group::View;
+        bound.place = Group::Mode; // first, while two methods are compared
         settings.push_back(std::move(bound));
     }
     return settings;

@@ -90,7 +90,7 @@ test('the picture keeps its pixels beside a coarser truth', async () => {
   assert.deepEqual(place, [50, 0, 300, 300]);
   const after = await shownBy(page);
   assert.equal(largest(before, after, [60, 90, 170, 210]), 0); // left of the divider's handle, above the numbers
-  assert.ok(largest(before, after, [230, 90, 340, 210]) > 100);
+  assert.ok(largest(before, after, [230, 90, 340, 210]) > 20); // the dome's unlit side against black
   await page.leave();
 });
 

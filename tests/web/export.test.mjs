@@ -169,9 +169,11 @@ test('a video plays at its size', async () => {
     const blob = await document.querySelector('lucent-viewer').toSequence(options);
     window.blob = blob;
     const bytes = new Uint8Array(await blob.arrayBuffer());
-    // Pixel sizes of the track: elements B0 and BA of Matroska.
-    const after = (mark) => bytes.findIndex((byte, at) => byte === mark && bytes[at + 1] === 0x81);
-    return { width: bytes[after(0xb0) + 2], height: bytes[after(0xba) + 2], type: blob.type, size: blob.size };
+    // Pixel sizes of the track: elements B0 and BA of Matroska beside each other, each with its length in bytes.
+    const numberAt = (at) => bytes.slice(at + 1, at + 1 + (bytes[at] & 15)).reduce((sum, byte) => 256 * sum + byte, 0);
+    const next = (at) => at + 2 + (bytes[at + 1] & 15);
+    const track = bytes.findIndex((byte, at) => byte === 0xb0 && bytes[at + 1] >> 4 === 8 && bytes[next(at)] === 0xba);
+    return { width: numberAt(track + 1), height: numberAt(next(track) + 1), type: blob.type, size: blob.size };
   });
   assert.deepEqual([type, width, height], ['video/webm', 64, 48]);
   assert.ok(size > 500, `${size} bytes`);

@@ -38,6 +38,7 @@ async function open(attributes = '', options) {
   const page = await openViewers(stage, viewerOf('hand', 'ball.json', `${kOpaque} ${attributes}`), options);
   await ready(page, 'hand');
   await set(page, 'mode', 'paint');
+  await set(page, 'view.lightDot', false); // a lamp's dot is gripped, not painted on
   await set(page, 'paint.radius', 0.002);
   await set(page, 'paint.hardness', 1);
   return page;
