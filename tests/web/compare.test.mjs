@@ -134,6 +134,7 @@ test('two methods stand side by side with their errors after four actions', asyn
   assert.match(await page.evaluate(() => location.hash), /compare=methods/);
   const other = await openPage(stage, 'index.html' + (await page.evaluate(() => location.hash)));
   await complete(other);
+  await other.waitForFunction(() => document.querySelector('lucent-viewer').comparison().right);
   assert.equal((await comparison(other)).right.name, 'Method march');
   assert.deepEqual(page.problems, []);
   assert.deepEqual(await page.violations(), []);
