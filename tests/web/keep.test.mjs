@@ -338,6 +338,7 @@ test('a copied link keeps what it can and says what it cannot', async () => {
   await page.waitForFunction(() => window.copied?.includes('#scene=ball&view.exposure=1'));
   assert.equal(await told(page), '');
   await paint(page, 1);
+  await quiet(page, 600); // the stroke is kept by then
   await page.click('#copy');
   await waitTold(page, 'The link keeps all but what you painted');
   await page.reload(); // what came back has the same link
