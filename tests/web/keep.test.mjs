@@ -51,6 +51,7 @@ const waitTitle = (page, title) => page.waitForFunction((one) => document.queryS
 async function paint(page, count, from = 0) {
   await call(page, 'set', 'mode', 'paint');
   await call(page, 'set', 'paint.radius', 0.001);
+  await page.evaluate(() => scrollTo(0, 0)); // a click below has led away from the picture
   const { x, y, width, height } = await boxOf(page);
   for (let at = from; at < from + count; ++at) {
     const place = [x + width * 0.3, y + height * (0.4 + 0.04 * at)];
@@ -328,8 +329,8 @@ test('where the browser keeps nothing the page says so once there is work, and a
   await page.leave();
 });
 
-// Fails: after a stroke the page does not say that the link lacks it. Found last, cause not known.
-test('a copied link keeps what it can and says what it cannot', { todo: 'the link of painted work' }, async () => {
+// Fails in its second half: a link copied after a reload does not come. Cause not known.
+test('a copied link keeps what it can and says what it cannot', { todo: 'a link copied after a reload' }, async () => {
   const init = () => {
     navigator.clipboard.writeText = async (text) => void (window.copied = text);
   };
