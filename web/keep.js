@@ -55,7 +55,11 @@ export class Keeper {
 
   /** What of the scene no link can carry: 'scene', 'files', 'paint'. */
   get beyondLink() {
-    return this.#viewer.loaded ? [...new Set([...this.#viewer.beyondLink, ...this.#inherited])] : [];
+    if (!this.#viewer.loaded) return [];
+    // What came back was opened as a scene of its own, whatever it was before.
+    const isOwn = !this.#inherited.length || this.#inherited.includes('scene');
+    const found = this.#viewer.beyondLink.filter((one) => isOwn || one !== 'scene');
+    return [...new Set([...found, ...this.#inherited])];
   }
   /** What a link can carry: {scene} or {src}, and values of parameters. */
   get link() {

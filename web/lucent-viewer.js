@@ -292,11 +292,10 @@ export class LucentViewer extends HTMLElement {
   /** What is shown and no link can carry, as its changes do: 'scene' or 'files' that the person opened, 'paint'. */
   get beyondLink() {
     if (!this.loaded) return [];
-    if (this.#brought) return ['scene'];
     const files = this.#openedFiles;
     const used = files.size ? namesIn(this.#runtime, 'scene.json', new TextEncoder().encode(this.sceneJson)) : [];
-    const found = used.some((name) => files.has(name)) ? ['files'] : [];
-    return this.#paint() === this.#paintAsLoaded ? found : [...found, 'paint'];
+    const found = { scene: this.#brought, files: used.some((name) => files.has(name)), paint: this.#paint() !== this.#paintAsLoaded };
+    return Object.keys(found).filter((one) => found[one]);
   }
   /** {path: text} of every parameter that differs from the loaded scene: what a link carries. */
   get changes() {

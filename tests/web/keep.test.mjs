@@ -329,8 +329,7 @@ test('where the browser keeps nothing the page says so once there is work, and a
   await page.leave();
 });
 
-// Fails in its second half: a link copied after a reload does not come. Cause not known.
-test('a copied link keeps what it can and says what it cannot', { todo: 'a link copied after a reload' }, async () => {
+test('a copied link keeps what it can and says what it cannot', async () => {
   const init = () => {
     navigator.clipboard.writeText = async (text) => void (window.copied = text);
   };
