@@ -19,7 +19,19 @@ const kFolder = dirname(fileURLToPath(import.meta.url));
 const kDrivers = ['swiftshader', 'llvmpipe'];
 // What hands and attributes do does not hang on who draws: the quicker driver.
 const kOnOneDriver = Object.fromEntries(
-  ['axe', 'controls', 'docs', 'element', 'gestures', 'keep', 'limits', 'modules', 'serve', 'writing'].map((name) => [`${name}.test.mjs`, 'llvmpipe']),
+  [
+    'axe',
+    'bring',
+    'controls',
+    'docs',
+    'element',
+    'gestures',
+    'keep',
+    'limits',
+    'modules',
+    'serve',
+    'writing',
+  ].map((name) => [`${name}.test.mjs`, 'llvmpipe']),
 );
 // Much of a test is waiting, compiling and JavaScript, which take one core.
 const kWorkers = 2;
