@@ -294,8 +294,10 @@ export class LucentViewer extends HTMLElement {
     if (!this.loaded) return [];
     const files = this.#openedFiles;
     const used = files.size ? namesIn(this.#runtime, 'scene.json', new TextEncoder().encode(this.sceneJson)) : [];
-    const found = { scene: this.#brought, files: used.some((name) => files.has(name)), paint: this.#paint() !== this.#paintAsLoaded };
-    return Object.keys(found).filter((one) => found[one]);
+    const found = this.#brought ? ['scene'] : [];
+    if (used.some((name) => files.has(name))) found.push('files');
+    if (this.#paint() !== this.#paintAsLoaded) found.push('paint');
+    return found;
   }
   /** {path: text} of every parameter that differs from the loaded scene: what a link carries. */
   get changes() {

@@ -348,6 +348,12 @@ test('a copied link keeps what it can and says what it cannot', async () => {
   await page.click('#copy');
   await page.waitForFunction(() => window.copied);
   assert.match(await page.evaluate(() => window.copied), /#scene=ball&.*view\.exposure=1/);
+  const name = 'evening.png'; // opened into what came back
+  await eventOf(page, 'load', () =>
+    page.setInputFiles('#environment-file', { name, mimeType: 'image/png', buffer: greyPng(64, 32, () => 60) }),
+  );
+  await page.click('#copy');
+  await waitTold(page, 'The link keeps all but the files that you opened and what you painted');
   await eventOf(page, 'load', async () => {
     await page.setInputFiles('#mesh-file', pane());
     await page.click('dialog[open] button:text("Replace it")');
