@@ -127,6 +127,7 @@ struct Renderer::State {
     std::size_t outlooksLeft = 0;               // cubes that were asked for and are too many
 
     // the picture being made
+    std::unique_ptr<const scene::Scene> pictured; // passes that run later point to its objects
     std::uint64_t revision = 0, scenery = 0;
     std::optional<SceneKey> sceneryFor;
     ivec2 size{0};

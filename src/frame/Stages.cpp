@@ -56,10 +56,12 @@ Status Renderer::State::plan(const scene::Scene& scene) {
 
 // --- stages
 
-void Renderer::State::start(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
+void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision, ivec2 newSize,
                             Effort effort) {
     const bool looked = started && coarse && complete() && revision == newRevision && size == newSize;
     drop();
+    pictured = std::make_unique<const scene::Scene>(asked);
+    const scene::Scene& scene = *pictured;
     started = true;
     revision = newRevision;
     size = newSize;
@@ -406,10 +408,11 @@ Status Renderer::State::takeSample(const scene::Scene& scene) {
     return Done{};
 }
 
-Result<Progress> Renderer::State::advance(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
+Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64_t newRevision, ivec2 newSize,
                                           Effort effort) {
     if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
-        start(scene, newRevision, newSize, effort);
+        start(asked, newRevision, newSize, effort);
+    const scene::Scene& scene = *pictured;
     if (dragged && effort != Effort::Coarse) { // the look was the picture already
         const bool over = complete();
         dragged = false;

@@ -10,6 +10,7 @@
 #include "truth/Glass.h"
 
 #include <algorithm>
+#include <deque>
 
 namespace lucent::frame {
 namespace {
@@ -226,6 +227,25 @@ TEST_F(Composed, TrianglesAreMadeAnewOnlyWhereSomethingMoved) {
         ASSERT_TRUE(kept.ok());
         EXPECT_EQ(kept->pixels, picture().pixels) << time;
     }
+}
+
+// Passes run portion by portion, when whoever gave the scene may have changed it.
+TEST_F(Composed, WhatBecomesOfASceneLaterChangesNoPictureOfIt) {
+    addBall();
+    scene.size = {640, 480};
+    const Image whole = picture();
+    Renderer renderer(*context);
+    std::deque<scene::Scene> given;
+    for (bool complete = false; !complete;) {
+        scene::Scene& one = given.emplace_back(scene);
+        const Result<Progress> progress = renderer.advance(one, 1, one.size);
+        ASSERT_TRUE(progress.ok()) << progress.error().message;
+        complete = progress->complete;
+        one.objects[0].transform.translate.x += 0.5f;
+        ASSERT_LT(given.size(), 10000u);
+    }
+    EXPECT_GT(given.size(), 1u);
+    EXPECT_EQ(renderer.read(scene, scene::Aov::Color)->pixels, whole.pixels);
 }
 
 // Two layers, a spare one, and two ranges for each pair of them.
