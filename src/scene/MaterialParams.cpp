@@ -21,14 +21,13 @@ constexpr double kMostAnisotropy = 0.999;
 
 const ParamTable& colorParams() {
     static const Param params[] = {
-        declare(&Material::base,
-                {.id = "base",
-                 .label = "Base colour",
-                 .min = 0,
-                 .group = Group::Material,
-                 .doc = "Colour that shows without any light; on shapes other than height fields "
-                        "the radiance that the surface gives off.",
-                 .color = true}),
+        declare(&Material::base, {.id = "base",
+                                  .label = "Base colour",
+                                  .min = 0,
+                                  .group = Group::Material,
+                                  .doc = "Colour that shows without any light; on shapes other than height "
+                                         "fields the radiance that the surface gives off, as a flame does.",
+                                  .color = true}),
         declare(&Material::diffuse,
                 {.id = "diffuse",
                  .label = "Diffuse colour",
@@ -58,13 +57,13 @@ const ParamTable& reliefParams() {
                                        .max = 1,
                                        .group = Group::Material,
                                        .doc = "Share of the mirrored highlight in the picture."}),
-        declare(&Relief::forwardScatter,
-                {.id = "forwardScatter",
-                 .label = "Forward scattering",
-                 .min = 0,
-                 .max = 1,
-                 .group = Group::Material,
-                 .doc = "How much the light shows only where it comes from behind."}),
+        declare(&Relief::forwardScatter, {.id = "forwardScatter",
+                                          .label = "Forward scattering",
+                                          .min = 0,
+                                          .max = 1,
+                                          .group = Group::Material,
+                                          .doc = "How much the solid glows against the light, as a leaf "
+                                                 "does: at 1 light shows only where it comes from behind."}),
         declare(&Relief::depth,
                 {.id = "depth",
                  .label = "Depth",
@@ -77,22 +76,20 @@ const ParamTable& reliefParams() {
                  .group = Group::Material,
                  .doc = "How far below the surface the light is looked at; small is hard, large is "
                         "soft."}),
-        declare(&Relief::specularFalloff,
-                {.id = "specularFalloff",
-                 .label = "Specular falloff",
-                 .min = -1,
-                 .max = 1,
-                 .group = Group::Falloff,
-                 .doc = "Cosines at which the highlight begins and is full; equal ends "
-                        "make a sharp edge."}),
-        declare(&Relief::scatterFalloff,
-                {.id = "scatterFalloff",
-                 .label = "Scattering falloff",
-                 .min = -1,
-                 .max = 1,
-                 .group = Group::Falloff,
-                 .doc = "Cosines at which forward scattering begins and is full; equal "
-                        "ends make a sharp edge."}),
+        declare(&Relief::specularFalloff, {.id = "specularFalloff",
+                                           .label = "Specular falloff",
+                                           .min = -1,
+                                           .max = 1,
+                                           .group = Group::Falloff,
+                                           .doc = "Cosines at which the highlight begins and is full: far "
+                                                  "apart it is soft, equal ends make a sharp edge."}),
+        declare(&Relief::scatterFalloff, {.id = "scatterFalloff",
+                                          .label = "Scattering falloff",
+                                          .min = -1,
+                                          .max = 1,
+                                          .group = Group::Falloff,
+                                          .doc = "Cosines at which forward scattering begins and is full: "
+                                                 "far apart it is soft, equal ends make a sharp edge."}),
     };
     static const ParamTable table = tableOf<Relief>("material", params);
     return table;
@@ -103,15 +100,16 @@ namespace {
 // Declared by each kind that has it, in its own range.
 template <class Kind>
 Param iorParam(double min, double max) {
-    return declare(&Kind::ior, {.id = "ior",
-                                .label = "Index of refraction",
-                                .min = min,
-                                .max = max,
-                                .low = 0.5,
-                                .high = 2.5,
-                                .group = Group::Refraction,
-                                .doc = "Of the inside over that of vacuum: water 1.33, glass 1.5, diamond "
-                                       "2.42; below 1 a bubble."});
+    return declare(&Kind::ior,
+                   {.id = "ior",
+                    .label = "Index of refraction",
+                    .min = min,
+                    .max = max,
+                    .low = 0.5,
+                    .high = 2.5,
+                    .group = Group::Refraction,
+                    .doc = "How strongly light bends where it enters: the index of the inside over that of "
+                           "vacuum. Water 1.33, glass 1.5, diamond 2.42; below 1 a bubble."});
 }
 template <class Kind>
 Param absorptionParam() {
@@ -123,9 +121,8 @@ Param absorptionParam() {
                     .max = kFar,
                     .high = 20,
                     .group = Group::Refraction,
-                    .doc =
-                        "Light falls by e^(-absorption * metres), red, green and blue; attenuationColor and "
-                        "attenuationDistance say the same.",
+                    .doc = "How soon light is coloured inside: it falls by e^(-absorption * metres), red, "
+                           "green and blue; attenuationColor and attenuationDistance say the same.",
                     .axes = "rgb"});
 }
 
@@ -153,18 +150,17 @@ Param transmissionParam() {
 }
 template <class Struct>
 Param scatteringParam() {
-    return declare(
-        &Struct::scattering,
-        {.id = "scattering",
-         .label = "Scattering",
-         .unit = "1/m",
-         .min = 0,
-         .max = kFar,
-         .high = 5e3, // marble, milk and skin
-         .group = Group::Material,
-         .doc = "How often light is scattered on a metre of its path inside, red, green and blue; above "
-                "0 the object is translucent.",
-         .axes = "rgb"});
+    return declare(&Struct::scattering,
+                   {.id = "scattering",
+                    .label = "Scattering",
+                    .unit = "1/m",
+                    .min = 0,
+                    .max = kFar,
+                    .high = 5e3, // marble, milk and skin
+                    .group = Group::Material,
+                    .doc = "How often light is scattered on a metre of its path inside, red, green and blue: "
+                           "often is like milk, seldom like cloudy water. Above 0 the object is translucent.",
+                    .axes = "rgb"});
 }
 
 constexpr std::string_view kKindNames[] = {"relief", "matt", "mirror", "clear", "translucent"};
@@ -209,9 +205,8 @@ const ParamTable& clearParams() {
                  .min = 0,
                  .max = 20,
                  .group = Group::Refraction,
-                 .doc =
-                     "20 over the Abbe number: how far the index differs between red and blue; crown glass "
-                     "0.31, flint 0.55."}),
+                 .doc = "How far white light is split into colours, as the index differs between red and "
+                        "blue: 20 over the Abbe number. Crown glass 0.31, flint 0.55."}),
         declare(&Clear::fresnel, {.id = "fresnel",
                                   .label = "Fresnel reflection",
                                   .group = Group::Refraction,
@@ -262,9 +257,9 @@ const ParamTable& translucentParams() {
                  .low = -kMostAnisotropy,
                  .high = kMostAnisotropy,
                  .group = Group::Material,
-                 .doc = "Mean cosine of the angle by which scattered light turns: 0 as often back as forth, "
-                        "towards 1 forwards. Light spreads as if scattering were (1 - anisotropy) times as "
-                        "frequent and even."}),
+                 .doc = "Whether scattered light goes on forwards: the mean cosine of the angle by which it "
+                        "turns. 0 as often back as forth; towards 1 forwards, as in skin. "
+                        "Light spreads as if scattering were (1 - anisotropy) times as frequent and even."}),
         declare(&Translucent::thickness,
                 {.id = "thickness",
                  .label = "Thickness",
@@ -315,7 +310,8 @@ const ParamTable& layerParams() {
                  .max = kFar,
                  .high = 5e3,
                  .group = Group::Material,
-                 .doc = "How often light is scattered on a metre of its path, red, green and blue."}),
+                 .doc = "How often light is scattered on a metre of its path, red, "
+                        "green and blue: often is like milk, seldom like cloudy water."}),
         declare(&MediumLayer::absorption,
                 {.id = "absorption",
                  .label = "Absorption",

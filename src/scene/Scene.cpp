@@ -159,8 +159,8 @@ const ParamTable& qualityParams() {
                  .max = 1,
                  .high = 0.1f,
                  .group = Group::View,
-                 .doc = "Root mean square error that the picture may have, over its mean: the cheapest "
-                        "settings that keep it are chosen. 0: the settings as they are."}),
+                 .doc = "How far the picture may be from the exact one, as root mean square error over its "
+                        "mean: the cheapest settings that keep it are chosen. 0: the settings as they are."}),
     };
     static const ParamTable table = tableOf<Quality>("quality", params);
     return table;

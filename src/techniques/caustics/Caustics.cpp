@@ -201,7 +201,7 @@ const ParamTable& Caustics::params() {
                                   .logarithmic = true,
                                   .group = Group::Caustics,
                                   .doc = "Rays along a side of what a light sees of refractive objects and "
-                                         "mirrors."}),
+                                         "mirrors. More draw finer lines of light."}),
         declare(&Settings::refine,
                 {.id = "refine",
                  .label = "Adaptive refinement",
@@ -219,7 +219,8 @@ const ParamTable& Caustics::params() {
                                      .high = 2048,
                                      .logarithmic = true,
                                      .group = Group::Caustics,
-                                     .doc = "Texels along a side of the image in which light adds up."}),
+                                     .doc = "Texels along a side of the image in which light adds up. More "
+                                            "are sharper, and need more rays."}),
         declare(&Settings::pointMap,
                 {.id = "pointMap",
                  .label = "Map of a point light",
@@ -236,8 +237,8 @@ const ParamTable& Caustics::params() {
                                    .high = 64,
                                    .logarithmic = true,
                                    .group = Group::Caustics,
-                                   .doc = "Looks at the receivers' image, at most, to find where a ray meets "
-                                          "them."}),
+                                   .doc = "How often, at most, the receivers' image is looked up to find "
+                                          "where a ray meets them. Too few put light beside its place."}),
         declare(&Settings::receiverLayers,
                 {.id = "receiverLayers",
                  .label = "Receiver layers",
@@ -257,7 +258,8 @@ const ParamTable& Caustics::params() {
                  .high = 32,
                  .group = Group::Caustics,
                  .doc = "Kinds of light that glass with dispersion bends differently: 3 stand for red, green "
-                        "and blue, more for as many parts of the spectrum."}),
+                        "and blue, more for as many parts of the spectrum, whose colours then run into each "
+                        "other as in a rainbow."}),
         declare(&Settings::directions,
                 {.id = "environmentDirections",
                  .label = "Directions of the environment",

@@ -105,7 +105,7 @@ const ParamTable& Relief::params() {
                  .high = kMostTerms,
                  .group = Group::Environment,
                  .doc = "Coefficients a texel by which transfer keeps how much light each direction brings; "
-                        "rounded up to a multiple of 4."}),
+                        "rounded up to a multiple of 4. More keep shadows sharper."}),
         declare(&Settings::normalise, {.id = "normalise",
                                        .label = "Divide by number of lights",
                                        .group = Group::Light,

@@ -215,14 +215,15 @@ const ParamTable& Subsurface::params() {
                      "in cells of the body itself, which is right behind bodies and in thin parts too; or, "
                      "for comparison, lambert: as if light left where it entered.",
                  .choices = kMethods}),
-        declare(&Settings::profile,
-                {.id = "profile",
-                 .label = "Profile",
-                 .group = Group::Subsurface,
-                 .doc =
-                     "What leaves around the place where light entered: a dipole; a multipole, for slabs of "
-                     "the material's thickness and for its layers; or Burley's normalised diffusion.",
-                 .choices = kProfiles}),
+        declare(
+            &Settings::profile,
+            {.id = "profile",
+             .label = "Profile",
+             .group = Group::Subsurface,
+             .doc =
+                 "How light that entered at one place fades around it: by a dipole; by a multipole, for "
+                 "slabs of the material's thickness and for its layers; or by Burley's normalised diffusion.",
+             .choices = kProfiles}),
         declare(&Settings::dipoleGeometry,
                 {.id = "dipoleGeometry",
                  .label = "Dipole geometry",
@@ -232,17 +233,19 @@ const ParamTable& Subsurface::params() {
                      "distance alone; offset, along the normal where light entered, which leaves less light "
                      "behind a body.",
                  .choices = kGeometries}),
-        declare(&Settings::epsilon,
-                {.id = "epsilon",
-                 .label = "Error",
-                 .min = 1e-4,
-                 .max = 0.5,
-                 .low = 1e-3,
-                 .high = 0.1,
-                 .logarithmic = true,
-                 .group = Group::Subsurface,
-                 .doc = "Of the sum over points, over the integral that it stands for: it "
-                        "decides how far splats reach and how many there are."}),
+        declare(
+            &Settings::epsilon,
+            {.id = "epsilon",
+             .label = "Error",
+             .min = 1e-4,
+             .max = 0.5,
+             .low = 1e-3,
+             .high = 0.1,
+             .logarithmic = true,
+             .group = Group::Subsurface,
+             .doc =
+                 "How far the light that leaves may be from the integral that the sum of splats stands for: "
+                 "it decides how far splats reach and how many there are. Smaller is smoother and slower."}),
         declare(&Settings::splats,
                 {.id = "splats",
                  .label = "Number of splats",
