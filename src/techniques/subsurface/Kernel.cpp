@@ -62,17 +62,16 @@ double scaledBesselI(double x) {
 using Radial = std::function<dvec3(double)>; // a profile of three colours over r
 
 // The same, looked up: dense where profiles are steep.
-Radial sampled(const Radial& profile, double reach) {
-    constexpr int kCount = 4096;
+Radial sampled(const Radial& profile, double reach, int count) {
     auto values = std::make_shared<std::vector<dvec3>>(); // copies of what is returned share them
-    for (int i = 0; i < kCount; ++i) {
-        const double u = std::max(i, 1) / (kCount - 1.0); // the middle may be infinite
+    for (int i = 0; i < count; ++i) {
+        const double u = std::max(i, 1) / (count - 1.0); // the middle may be infinite
         values->push_back(profile(reach * u * u));
     }
-    return [values, reach](double r) {
+    return [values, reach, count](double r) {
         if (r > reach) return dvec3(0);
-        const double u = std::sqrt(r / reach) * (kCount - 1);
-        const int i = std::min(int(u), kCount - 2);
+        const double u = std::sqrt(r / reach) * (count - 1);
+        const int i = std::min(int(u), count - 2);
         return glm::mix((*values)[std::size_t(i)], (*values)[std::size_t(i) + 1], u - i);
     };
 }
@@ -185,7 +184,7 @@ Cut cutOf(const std::array<diffusion::Medium, 3>& media, const KernelWish& wish)
         cut.reach = std::max(cut.reach, diffusion::reach(medium, wish.shape, wish.thickness, beyond, size));
     const diffusion::Table table =
         diffusion::tableOf(media, wish.shape, wish.thickness, cut.reach, kTableError, cut.reach < size);
-    cut.profile = sampled([&](double r) { return dvec3(diffusion::valueAt(table, r)); }, cut.reach);
+    cut.profile = sampled([&](double r) { return dvec3(diffusion::valueAt(table, r)); }, cut.reach, 4096);
     cut.total = Rings(cut.profile, cut.reach).total();
     return cut;
 }
@@ -243,7 +242,8 @@ Kernel kernelOf(const std::array<diffusion::Medium, 3>& media, const KernelWish&
         const dvec3 sum = rings.total();
         for (dvec3& mass : rings.masses)
             mass *= over(cut.total, sum);
-        const Radial soft = sampled(blurred(rings, kernel.blur), wider);
+        // Wider than a few deviations, it has no detail: linear between its values to 1e-4.
+        const Radial soft = sampled(blurred(rings, kernel.blur), wider, 512);
         const dvec3 kept = over(cut.total, Rings(soft, wider).total()); // its tail is cut off again
         cut.profile = [soft, kept](double r) { return kept * soft(r); };
         cut.reach = wider;
