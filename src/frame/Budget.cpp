@@ -25,26 +25,34 @@ constexpr int kSamplePixels = 1600; // 900 told 1.6 times too little of a field 
 constexpr int kFewestCovered = 256; // fewer say too little
 constexpr int kFinerBy = 4;         // a reference than what is held against it
 
-struct Place {
-    const Param* param;
-    void* data;
-};
-
-// Where a parameter lives in a scene.
-Place placeOf(scene::Scene& scene, std::string_view table, std::string_view id) {
-    Settings& settings = scene.technique.at(std::string(table));
+const Param& paramOf(const Settings& settings, std::string_view id) {
     const auto& params = settings.table().params;
     const auto found =
         std::find_if(params.begin(), params.end(), [id](const Param& param) { return param.id == id; });
     assert(found != params.end() && "a knob names no parameter of its table");
-    return {&*found, static_cast<std::byte*>(settings.data()) + found->offset};
+    return *found;
+}
+
+void setValue(Settings& settings, std::string_view id, double value) {
+    const Param& param = paramOf(settings, id);
+    setComponent(param, static_cast<std::byte*>(settings.data()) + param.offset, 0, value);
+}
+
+// As the scene itself has it.
+double numberOf(const scene::Scene& scene, const KnobOf& of) {
+    const Settings& settings = scene.technique.at(std::string(of.table));
+    const Param& param = paramOf(settings, of.knob->id);
+    return getComponent(param, static_cast<const std::byte*>(settings.data()) + param.offset, 0);
+}
+
+// The cheaper of two values of a knob.
+double cheaper(const Knob& knob, double a, double b) {
+    return knob.costsLess ? std::max(a, b) : std::min(a, b);
 }
 
 void store(scene::Scene& scene, const KnobOf& of, double number, int placing) {
-    const auto set = [&](std::string_view id, double value) {
-        const Place place = placeOf(scene, of.table, id);
-        setComponent(*place.param, place.data, 0, value);
-    };
+    Settings& settings = scene.technique.at(std::string(of.table));
+    const auto set = [&](std::string_view id, double value) { setValue(settings, id, value); };
     set(of.knob->id, number);
     if (!of.knob->tied.empty()) set(of.knob->tied, of.knob->factor * number);
     if (!of.knob->placing.empty()) set(of.knob->placing, placing);
@@ -56,6 +64,11 @@ bool isOfEnvironment(const KnobOf& of) {
 }
 
 bool covered(const Image& image, std::size_t pixel) { return image.pixels[4 * pixel + 3] > 0; }
+
+// How many samples a number of them is held against at first.
+double referenceFor(const Knob& knob, float maxError) {
+    return std::clamp(std::floor(6 * kSafety / double(maxError)), knob.most / 32, knob.most);
+}
 
 // About kSamplePixels in the picture's shape; odd numbers keep in step with few patterns.
 ivec2 sampleSizeFor(ivec2 size) {
@@ -91,10 +104,8 @@ float medianAngle(const Image& coarse, const Image& fine, const Image& layers) {
 
 void turnDown(scene::Scene& scene) {
     for (const KnobOf& of : technique::knobs(scene)) {
-        const Place place = placeOf(scene, of.table, of.knob->id);
-        const double own = getComponent(*place.param, place.data, 0), coarse = of.knob->coarse;
-        setComponent(*place.param, place.data, 0,
-                     of.knob->costsLess ? std::max(own, coarse) : std::min(own, coarse));
+        Settings& settings = scene.technique.at(std::string(of.table));
+        setValue(settings, of.knob->id, cheaper(*of.knob, numberOf(scene, of), of.knob->coarse));
     }
 }
 
@@ -111,6 +122,10 @@ std::vector<KnobOf> Budget::knobsOf(const scene::Scene& scene) const {
     std::vector<KnobOf> list = technique::knobs(scene);
     std::erase_if(
         list, [&](const KnobOf& of) { return of.knob->steps.empty() || (isOfEnvironment(of) && !shades); });
+    const auto isFew = [&](const KnobOf& of) { // as many are drawn to choose
+        return of.knob->most > 0 && numberOf(scene, of) <= referenceFor(*of.knob, scene.quality.maxError);
+    };
+    if (frugal_) std::erase_if(list, isFew);
     std::stable_partition(list.begin(), list.end(), [](const KnobOf& of) { return of.knob->most > 0; });
     return list;
 }
@@ -173,6 +188,8 @@ void Budget::beginKnob() {
     if (done()) renderer_.reset();
 }
 
+bool Budget::waits() const { return renderer_ && renderer_->running && !renderer_->flights.empty(); }
+
 // Of the knobs that are chosen.
 float Budget::predicted() const {
     float squares = 0;
@@ -199,7 +216,8 @@ void Budget::put(scene::Scene& scene, const Turned* tried, Value value) const {
     for (const Turned& turned : turned_) {
         if (bakes && isOfEnvironment(turned.of)) continue; // the scene's own are summed beside it
         const Value& it = &turned == tried ? value : turned.value;
-        store(scene, turned.of, it.number, it.placing);
+        const double own = numberOf(scene, turned.of);
+        store(scene, turned.of, frugal_ ? cheaper(*turned.of.knob, it.number, own) : it.number, it.placing);
     }
 }
 
@@ -307,8 +325,7 @@ Budget::Value Budget::finerThan(const Turned& turned, double number) {
     const Knob& knob = *turned.of.knob;
     if (knob.most == 0) return {knob.steps[turned.step + 1]};
     // Its own error is a small part of the wanted one: error falls about as the number rises.
-    if (reference_ == 0)
-        reference_ = std::clamp(std::floor(6 * kSafety / double(maxError_)), knob.most / 32, knob.most);
+    if (reference_ == 0) reference_ = referenceFor(knob, maxError_);
     if (reference_ < kFinerBy * number) reference_ = std::min(knob.most, 2 * kFinerBy * number);
     return {reference_, std::max(0, int(knob.placings.size()) - 1)};
 }
@@ -346,7 +363,9 @@ Status Budget::step(const scene::Scene& scene) {
         turned.value = {number, placing};
     }
     const std::size_t last = knob.steps.size() - (knob.most == 0 ? 2 : 1);
-    if (least > wanted() && turned.step < last) {
+    const double own = numberOf(scene, turned.of);
+    const bool isOwn = frugal_ && cheaper(knob, number, own) == own;
+    if (least > wanted() && turned.step < last && !isOwn) {
         // Samples by so many as are surely needed: error falls no faster than their square.
         const double enough = knob.showsOnFew ? number * std::sqrt(double(least / wanted())) : number;
         ++turned.step;

@@ -41,11 +41,16 @@ public:
     ///
     /// @param dragged  a quick look: there is no time, the last choice serves again
     void start(const scene::Scene& scene, bool dragged);
+    /// Whether nothing may become dearer than the scene's own settings: where it has no more samples than are
+    /// drawn to choose how many, they stay.
+    void beFrugal(bool frugal) { frugal_ = frugal; }
     /// The scene keeps no error: nothing is chosen any more.
     void forget();
     bool done() const { return next_ >= turned_.size(); }
     /// Draws some of a trial.
     Status step(const scene::Scene& scene);
+    /// Whether the GPU is still drawing what it was given of a trial: step() can do nothing now.
+    bool waits() const;
     /// Puts what is chosen into a scene's settings, when it is done().
     void apply(scene::Scene& scene) const;
     /// Whether what a guest has baked keeps the wanted error. If not, or while that is still being found out:
@@ -97,6 +102,7 @@ private:
 
     Renderer::State& of_;
     bool limited_ = false;              ///< an error is to be kept
+    bool frugal_ = false;               ///< and none of the scene's own settings exceeded
     bool dragged_ = false;              ///< there is no time to choose
     technique::Guest* baker_ = nullptr; ///< who can bake the environment's light
     Bake bake_ = Bake::None;

@@ -103,6 +103,34 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
     return Done{};
 }
 
+// As recordDisplay() does, from what keepPreview() kept.
+Status Renderer::State::recordPreview(graph::FrameGraph& graph, const scene::Scene& scene,
+                                      graph::TextureId target) {
+    const gl::Program* program = context.program("frame/display", {"COMPOSED", "SCALED"});
+    DisplayBlock block = displayOf(scene, views::makeEye(scene, float(size.x) / float(size.y)));
+    block.isScalar = 0; // its channels are alike
+    block.texels = vec2(preview.desc().size) / vec2(screen);
+    const graph::TextureId previewId = import(graph, preview);
+    graph.addPass("frame.preview", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("a picture of fewer pixels, until there is a whole one");
+        pass.sample(previewId);
+        pass.write(target);
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program, .block = block, .textures = {{"uSum", resources[previewId]}}});
+        };
+    });
+    graph.keep(target);
+    return Done{};
+}
+
+// The picture that is complete, as linear values.
+Status Renderer::State::keepPreview(const scene::Scene& scene) {
+    const TextureDesc desc{.size = size, .format = Format::RGBA32F};
+    if (!preview || preview.desc() != desc) preview = graph::Texture(context.device(), desc, "frame.preview");
+    return runGraph(
+        [&](graph::FrameGraph& graph) { return recordDisplay(graph, scene, import(graph, preview), true); });
+}
+
 void Renderer::State::takeOther(const Beside& beside) {
     const TextureDesc desc{.size = beside.image.size(), .format = Format::RGBA32F};
     const bool fits = other && other.desc() == desc;
@@ -117,8 +145,7 @@ Status Renderer::State::recordBeside(graph::FrameGraph& graph, const scene::Scen
                                      const Beside& beside) {
     const gl::Program* program = context.program("frame/beside", {});
     const graph::TextureId otherId = import(graph, other);
-    const graph::TextureId target =
-        graph.import(graph::TextureHandle::Screen, {.size = size, .format = Format::RGBA8}, "screen");
+    const graph::TextureId target = importScreen(graph);
     const DisplayBlock shown = displayOf(scene, views::makeEye(scene, float(size.x) / float(size.y)));
     BesideBlock block;
     block.scale = shown.scale;
@@ -126,7 +153,7 @@ Status Renderer::State::recordBeside(graph::FrameGraph& graph, const scene::Scen
     block.encode = shown.encode;
     block.isHeat = shown.isHeat;
     block.corner = {beside.corner.x,
-                    float(size.y) - beside.corner.y - float(beside.image.height) * beside.pixelsPerTexel};
+                    float(screen.y) - beside.corner.y - float(beside.image.height) * beside.pixelsPerTexel};
     block.pixelsPerTexel = beside.pixelsPerTexel;
     block.divider = beside.divider;
     block.full = beside.full;

@@ -11,29 +11,34 @@ using scene::Aov;
 Renderer::Renderer(gl::Context& context) : state_(std::make_unique<State>(context)) {}
 Renderer::~Renderer() = default;
 
-Result<Progress> Renderer::advance(const scene::Scene& scene, std::uint64_t revision, ivec2 size,
-                                   bool coarse) {
-    return state_->advance(scene, revision, size,
+Result<Progress> Renderer::advance(const scene::Scene& scene, std::uint64_t revision, ivec2 size, bool coarse,
+                                   int shrink) {
+    assert(shrink == 1 || (shrink > 1 && coarse));
+    state_->screen = size;
+    return state_->advance(scene, revision, glm::max(size / shrink, ivec2(1)),
                            coarse ? State::Effort::Coarse : State::Effort::Progressive);
 }
 
 Status Renderer::finish(const scene::Scene& scene, std::uint64_t revision, ivec2 size) {
+    state_->screen = size;
     for (;;) {
         Result<Progress> progress = state_->advance(scene, revision, size, State::Effort::Final);
         if (!progress) return progress.error();
         if (progress->complete) return Done{};
     }
 }
-bool Renderer::canPresent() const { return state_->presentable || state_->averaged; }
+void Renderer::setDefaultError(float error) { state_->defaultError = error; }
+
+bool Renderer::canPresent() const { return state_->preview || state_->presentable || state_->averaged; }
 
 Status Renderer::present(const scene::Scene& scene) {
     State& s = *state_;
     assert(s.shown && "present() before the first advance()");
-    s.context.device().setScreenSize(s.size);
+    s.context.device().setScreenSize(s.screen);
     return s.runGraph([&](graph::FrameGraph& graph) {
-        const TextureDesc screen{.size = s.size, .format = Format::RGBA8};
-        return s.recordDisplay(graph, scene, graph.import(graph::TextureHandle::Screen, screen, "screen"),
-                               false);
+        const graph::TextureId screen = s.importScreen(graph);
+        return s.preview ? s.recordPreview(graph, scene, screen)
+                         : s.recordDisplay(graph, scene, screen, false);
     });
 }
 
@@ -59,7 +64,7 @@ Result<Image> Renderer::read(const scene::Scene& scene, Aov aov) {
     scene::Scene other = scene;
     other.view.show = aov;
     s.started = false;
-    if (Status finished = finish(other, s.revision, s.size); !finished) return finished.error();
+    if (Status finished = finish(other, s.revision, s.screen); !finished) return finished.error();
     s.started = false; // what is shown now belongs to the copy
     return s.display(other, true);
 }
@@ -98,9 +103,10 @@ Stats Renderer::stats() const {
 void Renderer::release() {
     State& s = *state_;
     s.drop();
+    s.flights.clear();
     s.budget.forget();
     for (graph::Texture* texture : {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable,
-                                    &s.through, &s.mean, &s.other})
+                                    &s.through, &s.mean, &s.other, &s.preview})
         *texture = graph::Texture();
     s.shownKey.reset();
     s.triangles = {};

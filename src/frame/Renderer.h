@@ -25,6 +25,7 @@ class Budget;
 struct Progress {
     bool complete = false;
     int samples = 0;    ///< of the pixels, whose mean is shown; 0: no more than a look
+    int stage = 0;      ///< grows whenever what is shown becomes better
     float fraction = 0; ///< of the light that the picture will have, [0,1]
 };
 
@@ -69,13 +70,20 @@ public:
     /// @param revision  changes whenever the scene changed; the picture then starts again
     /// @param size      of the picture in pixels, > 0
     /// @param coarse    a first look while something is dragged: few environment samples
+    /// @param shrink    of a coarse one: how many pixels of the picture share one that is drawn, along each
+    ///                  side; >= 1
     /// @return          Error (Fault::Machine) when the GPU cannot, naming the missing capability
     Result<Progress> advance(const scene::Scene& scene, std::uint64_t revision, ivec2 size,
-                             bool coarse = false);
+                             bool coarse = false, int shrink = 1);
+
+    /// Error of pictures whose scene asks for none (quality.maxError), [0,1); 0: in full. They take no more
+    /// samples than the scene has. Counts from the next picture on.
+    void setDefaultError(float error);
 
     /// Whether present() shows a picture: none that is being drawn into.
     bool canPresent() const;
-    /// Draws the picture so far, tone-mapped, into the default framebuffer (premultiplied alpha).
+    /// Draws the picture so far, tone-mapped, into the default framebuffer (premultiplied alpha); one that
+    /// was drawn smaller is smoothed.
     Status present(const scene::Scene& scene);
     /// The same with another picture beside it.
     Status present(const scene::Scene& scene, const Beside& beside);

@@ -9,6 +9,7 @@
 
 #include "frame/Budget.h"
 #include "frame/Renderer.h"
+#include "gl/Fence.h"
 #include "graph/FrameGraph.h"
 #include "light/Occlusion.h"
 #include "technique/Guest.h"
@@ -16,6 +17,7 @@
 #include "views/SurfaceKey.h"
 #include "views/Surroundings.h"
 
+#include <deque>
 #include <functional>
 #include <optional>
 
@@ -26,8 +28,7 @@ namespace lucent::frame {
 // about kSliceMs each; what is shown is the last complete stage, or the mean of the samples that are there.
 struct Renderer::State {
     static constexpr double kSliceMs = 40;
-    static constexpr double kPortionMs = 20; // of one pass
-    static constexpr int kFirstStage = 20;   // directions
+    static constexpr int kFirstStage = 20; // directions
     static constexpr int kStageFactor = 4;
 
     struct Stage {
@@ -58,14 +59,25 @@ struct Renderer::State {
         enum class Work { Slice, Rest, Again } work = Work::Slice;
         Moment moment;
         technique::Picture picture;
-        int end = 0;   // of the light samples that are summed
-        double ms = 0; // that it has taken
+        int end = 0;          // of the light samples that are summed
+        double ms = 0;        // that it has taken
+        bool isGiven = false; // the GPU has all of it
         graph::FrameGraph graph;
     };
-    // What a pixel of a pass took, and how many of them were drawn at once.
+    // What a pixel of a pass takes [ms], and how many of them were drawn at once.
     struct Cost {
         double perPixel;
         int pixels;
+    };
+    // Portions of passes that the GPU was given and has not finished.
+    struct Flight {
+        struct Part {
+            std::string pass;
+            int pixels;
+        };
+        std::vector<Part> parts;
+        double begun, expected; // ms
+        gl::Fence fence;
     };
     // What views from elsewhere share with the camera's.
     struct Supplies {
@@ -100,8 +112,9 @@ struct Renderer::State {
     std::vector<Member> members;
     Budget budget;
     graph::Texture surface, shownSurface, shown, sum, scratch, lightTable, through;
-    graph::Texture mean;  // over the pixels' samples; none where each has one
-    graph::Texture other; // beside the picture
+    graph::Texture mean;    // over the pixels' samples; none where each has one
+    graph::Texture preview; // the last picture that was drawn smaller, until there is one of the whole size
+    graph::Texture other;   // beside the picture
     std::uint64_t otherNumber = 0;
     views::KeptTriangles triangles;          // of refractive objects,
     std::vector<views::ObjectKey> triangled; // as they stood
@@ -130,15 +143,19 @@ struct Renderer::State {
     std::unique_ptr<const scene::Scene> pictured; // passes that run later point to its objects
     std::uint64_t revision = 0, scenery = 0;
     std::optional<SceneKey> sceneryFor;
-    ivec2 size{0};
+    ivec2 size{0};   // in which it is drawn,
+    ivec2 screen{0}; // and in which it is shown
     bool started = false, coarse = false;
     bool dragged = false;
     bool atOnce = false;                             // nobody waits for a look before the picture is complete
+    float defaultError = 0;                          // of scenes that ask for none
     bool planning = false;                           // the settings are still to be chosen
     bool composed = false;                           // the picture stands in `through`
     bool averaged = false;                           // what is shown stands in `mean`
     std::unique_ptr<Running> running;                // of this picture; null: nothing
     std::map<std::string, Cost> costs;               // of passes
+    std::deque<Flight> flights;                      // the oldest first; of a picture before this one too
+    double landed = 0;                               // ms: when the last of them was found to be done
     bool presentable = true;                         // picture() is not being drawn into
     bool whole = false;                              // a sample is complete, and not yet in the mean
     int sample = 0;                                  // of the pixels, that is being drawn
@@ -171,6 +188,8 @@ struct Renderer::State {
                  const std::function<Status(Running&)>& record);
     Status work();
     bool runSome(double until);
+    void give();
+    void land(double until);
     Status follow();
     Status showSum(Moment moment);
     void drop();
@@ -239,10 +258,16 @@ struct Renderer::State {
     Result<Image> display(const scene::Scene& scene, bool linear);
     Status recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target,
                          bool linear);
+    Status recordPreview(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target);
+    Status keepPreview(const scene::Scene& scene);
     Status recordBeside(graph::FrameGraph& graph, const scene::Scene& scene, const Beside& beside);
     void takeOther(const Beside& beside);
     const graph::Texture& picture() const { return composed ? through : shown; }
     const graph::Texture& finished() const { return averaged ? mean : picture(); }
+    graph::TextureId importScreen(graph::FrameGraph& graph) const {
+        return graph.import(graph::TextureHandle::Screen, {.size = screen, .format = graph::Format::RGBA8},
+                            "screen");
+    }
     static graph::TextureId import(graph::FrameGraph& graph, const graph::Texture& texture) {
         return graph.import(texture.handle(), texture.desc(), texture.label());
     }

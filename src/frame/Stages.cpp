@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
+#include <set>
 
 namespace lucent::frame {
 
@@ -13,6 +15,9 @@ using technique::Guest;
 namespace {
 
 using views::hasEnvironment;
+
+constexpr std::size_t kMostFlights = 2; // so that the GPU never waits for us, nor we long for it
+constexpr double kFlightMs = 40;
 
 double now() {
     using namespace std::chrono;
@@ -43,7 +48,7 @@ void Renderer::State::startChoosing(const scene::Scene& scene) {
 // Chooses for one slice of time, and goes on with the settings when they are known.
 Status Renderer::State::plan(const scene::Scene& scene) {
     const double before = now();
-    while (!budget.done() && now() - before < kSliceMs)
+    for (bool waits = false; !budget.done() && !waits && now() - before < kSliceMs; waits = budget.waits())
         if (Status stepped = budget.step(scene); !stepped) return stepped;
     workMs += now() - before;
     planMs += now() - before;
@@ -58,13 +63,18 @@ Status Renderer::State::plan(const scene::Scene& scene) {
 
 void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision, ivec2 newSize,
                             Effort effort) {
-    const bool looked = started && coarse && complete() && revision == newRevision && size == newSize;
+    const bool looked = started && coarse && complete() && revision == newRevision;
     drop();
-    pictured = std::make_unique<const scene::Scene>(asked);
+    auto copy = std::make_unique<scene::Scene>(asked);
+    const bool isFrugal = asked.quality.maxError == 0;
+    if (isFrugal) copy->quality.maxError = defaultError;
+    pictured = std::move(copy);
     const scene::Scene& scene = *pictured;
+    budget.beFrugal(isFrugal);
     started = true;
     revision = newRevision;
     size = newSize;
+    if (!own) screen = size;
     if (SceneKey key = sceneKey(scene); sceneryFor != key) {
         sceneryFor = std::move(key);
         ++scenery;
@@ -167,6 +177,7 @@ void Renderer::State::makeTargets() {
     if (surface && surface.desc() == desc) return;
     gl::Device& device = context.device();
     shownKey.reset();
+    presentable = false;
     surface = graph::Texture(device, desc, "frame.surface");
     shownSurface = graph::Texture(device, desc, "frame.shownSurface");
     shown = graph::Texture(device, desc, "frame.shown");
@@ -191,7 +202,7 @@ Status Renderer::State::runGraph(const std::function<Status(graph::FrameGraph&)>
     if (Status compiled = graph.compile(); !compiled) return compiled;
     graph.execute(pool);
     passes += graph.livePasses();
-    if (std::string error = context.takeError(); !error.empty()) return Error{error, Fault::Machine};
+    if (std::string error = context.takeNoted(); !error.empty()) return Error{error, Fault::Machine};
     return Done{};
 }
 
@@ -259,42 +270,85 @@ Status Renderer::State::begin(std::unique_ptr<Running> made, Running::Work work,
 // What has begun, for one slice of time.
 Status Renderer::State::work() {
     const double until = now() + kSliceMs;
-    // Whoever looks on is not kept waiting for programs either.
-    while (running && (atOnce || (now() < until && !context.isCompiling())))
-        if (runSome(until))
-            if (Status followed = follow(); !followed) return followed;
+    while (running && runSome(until))
+        if (Status followed = follow(); !followed) return followed;
     return Done{};
 }
 
 // @return whether all passes have run
 bool Renderer::State::runSome(double until) {
-    constexpr int kFewest = 1 << 12, kFirst = 1 << 15; // pixels: of any pass, of one that was never drawn
-    constexpr double kCheapMs = 1;                     // not worth waiting for
-    gl::Device& device = context.device();
-    double before = now();
-    const auto most = [&](const std::string& pass) {
-        const auto known = costs.find(pass);
-        if (known == costs.end()) return kFirst;
-        const double affordable = kPortionMs / known->second.perPixel;
-        return std::max(kFewest, int(std::min(2.0 * known->second.pixels, affordable)));
-    };
-    if (atOnce) running->graph.execute(pool);
-    while (const auto portion = atOnce ? std::nullopt : running->graph.step(pool, most)) {
-        const auto known = costs.find(portion->pass);
-        const bool isCheap = known != costs.end() && known->second.perPixel * portion->pixels < kCheapMs;
-        if (!isCheap && portion->target != graph::TextureHandle::None) device.wait(portion->target);
-        const double after = now(), took = std::max(after - before, 1e-3);
-        if (!isCheap)
-            costs[portion->pass] = {took / std::max(portion->pixels, kFewest),
-                                    std::max(portion->pixels, kFirst)};
-        running->ms += took;
-        before = after;
-        if (after > until) return false;
+    if (atOnce) {
+        const double before = now();
+        running->graph.execute(pool);
+        const bool isSlice = running->work == Running::Work::Slice;
+        context.device().wait((!isSlice ? picture() : next > 0 ? scratch : sum).handle());
+        running->ms += now() - before; // waited for, so that what is reported as time is time
+        return true;
     }
-    const bool isSlice = running->work == Running::Work::Slice;
-    device.wait((!isSlice ? picture() : next > 0 ? scratch : sum).handle());
-    running->ms += now() - before; // waited for, so that what is reported as time is time
-    return true;
+    for (;;) {
+        land(until);
+        if (running->isGiven) return flights.empty();
+        if (context.hasUnready()) { // whoever looks on is not kept waiting for programs either
+            if (context.isCompiling() || !flights.empty()) return false;
+            context.makeReady();
+        }
+        if (flights.size() == kMostFlights || now() > until) return false;
+        give();
+    }
+}
+
+// Gives the GPU what takes about kFlightMs, or one portion of a pass that was never drawn.
+void Renderer::State::give() {
+    constexpr int kFewest = 1 << 12, kFirst = 1 << 15; // pixels: of any pass, of one that was never drawn
+    // A GPU draws any pass in no time, until it has shown that it does not.
+    const bool isSlow = context.caps().software;
+    const Cost guess{isSlow ? kFlightMs / kFirst : 1e-6, kFirst};
+    const auto costOf = [&](const std::string& pass) {
+        const auto known = costs.find(pass);
+        return known == costs.end() ? guess : known->second;
+    };
+    const auto most = [&](const std::string& pass) {
+        const Cost cost = costOf(pass);
+        const int step = isSlow ? 2 * cost.pixels : std::numeric_limits<int>::max();
+        return std::max(kFewest, int(std::min(double(step), kFlightMs / cost.perPixel)));
+    };
+    const double begun = now();
+    std::vector<Flight::Part> parts;
+    double expected = 0;
+    while (expected < kFlightMs) {
+        const auto portion = running->graph.step(pool, most);
+        running->isGiven = !portion;
+        if (!portion) break;
+        const int pixels = std::max(portion->pixels, kFewest);
+        parts.push_back({portion->pass, pixels});
+        Cost& cost = costs.try_emplace(portion->pass, guess).first->second;
+        cost.pixels = std::max(pixels, kFirst);
+        expected += cost.perPixel * pixels;
+    }
+    if (!parts.empty()) flights.push_back({std::move(parts), begun, expected, gl::Fence()});
+}
+
+// Takes what the GPU has done, and learns what it took; waits for it where nothing more can be given.
+void Renderer::State::land(double until) {
+    double expected = 0, begun = 0;
+    std::vector<Flight::Part> parts;
+    while (!flights.empty()) {
+        const bool waits =
+            expected == 0 && (running->isGiven || flights.size() == kMostFlights || context.hasUnready());
+        if (!flights.front().fence.passed(waits ? until - now() : 0)) break;
+        Flight& done = flights.front();
+        if (expected == 0) begun = std::max(done.begun, landed);
+        expected += done.expected;
+        parts.insert(parts.end(), done.parts.begin(), done.parts.end());
+        flights.pop_front();
+    }
+    if (expected == 0) return;
+    landed = now();
+    const double took = std::max(landed - begun, 1e-3);
+    running->ms += took;
+    std::set<std::string> passes;
+    for (const Flight::Part& part : parts)
+        if (passes.insert(part.pass).second) costs.at(part.pass).perPixel *= took / expected;
 }
 
 // All passes have run.
@@ -349,6 +403,10 @@ Status Renderer::State::finishStage(const Moment& moment) {
     stats.lights = int(lights.size());
     whole = !stages[stage].coarse;
     if (sample == 0) averaged = false;
+    if (size == screen)
+        preview = graph::Texture();
+    else if (Status kept = keepPreview(moment.scene); !kept)
+        return kept;
     ++stage;
     startStage(moment.scene);
     if (stage < stages.size() && !whole) return Done{};
@@ -438,6 +496,7 @@ Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64
     Progress progress;
     progress.complete = complete() && !running && settled(effort);
     progress.samples = samples;
+    progress.stage = int(stage);
     float total = planning ? float(views::samplingOf(scene).directions) : 0, done = 0;
     for (std::size_t i = 0; i < stages.size(); ++i) {
         total += work(stages[i]);

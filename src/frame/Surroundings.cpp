@@ -121,7 +121,7 @@ Status Renderer::State::survey(const Moment& moment) {
 void Renderer::State::surveyCubes(const Moment& moment, std::vector<views::Outlook> asked) {
     outlooksLeft = asked.size() - std::min(asked.size(), std::size_t(views::kMostCubes));
     asked.resize(asked.size() - outlooksLeft);
-    const int side = faceSize(size, asked.size());
+    const int side = faceSize(screen, asked.size()); // a look has the picture's cubes
     const TextureDesc desc{
         .size = ivec2(side), .format = Format::RGBA16F, .layers = kFaces * int(asked.size())};
     if (asked != surroundings.cubes || (aroundRadiance && aroundRadiance.desc() != desc)) {

@@ -159,15 +159,24 @@ bool Context::isCompiling() const {
                                                 [](const auto& one) { return one.second.isCompiling(); });
 }
 
-bool Context::asksGl() {
-    constexpr int kUnasked = 64; // times
-    return kAnswersAtOnce || ++unasked_ % kUnasked == 0;
+bool Context::hasUnready() const {
+    return std::any_of(programs_.begin(), programs_.end(),
+                       [](const auto& one) { return !one.second.isTaken(); });
 }
 
-std::string Context::takeError() {
+void Context::makeReady() {
+    for (const auto& [key, program] : programs_)
+        (void)program.ready(); // a draw tells what is wrong with it
+}
+
+std::string Context::takeError() { return take(true); }
+
+std::string Context::takeNoted() { return take(kAnswersAtOnce); }
+
+std::string Context::take(bool asksGl) {
     const std::string said = std::exchange(window_->message, {});
     std::string error = device_->takeError();
-    if (const GLenum code = asksGl() ? glGetError() : 0; code && error.empty())
+    if (const GLenum code = asksGl ? glGetError() : 0; code && error.empty())
         error = "gl: error " + std::to_string(code);
     if (said.empty()) return error;
     return (error.empty() ? "gl" : error) + ": " + said;

@@ -32,12 +32,17 @@ public:
     const Program* program(const std::string& stem, const std::vector<std::string>& defines = {});
     /// Whether a draw might have to wait for a program. Where the driver does not tell: false.
     bool isCompiling() const;
+    /// Whether any program has not been taken over since it was compiled. A browser answers what that asks
+    /// when the GPU has done all it was given: makeReady() is for when it has.
+    bool hasUnready() const;
+    void makeReady();
 
     /// What the driver's debug output, GL's error flag and the device's own checks found:
-    /// the first thing that went wrong on the GPU since the last call, "" when nothing did. In a browser the
-    /// error flag is looked at now and then: what goes wrong on targets that were drawn into before is told
-    /// late.
+    /// the first thing that went wrong on the GPU since the last call, "" when nothing did. A browser answers
+    /// when the GPU has done all it was given.
     std::string takeError();
+    /// The same without GL's error flag where to look at it is to wait.
+    std::string takeNoted();
 
     /// GL calls fail from here on until a new Context is made; objects need not be deleted.
     void markLost() { lost_ = true; }
@@ -45,14 +50,13 @@ public:
 
 private:
     Context() = default;
-    bool asksGl();
+    std::string take(bool asksGl);
     struct Window;
     std::unique_ptr<Window> window_;
     Caps caps_;
     std::unique_ptr<Device> device_;
     std::map<std::string, Program> programs_;
     bool lost_ = false;
-    int unasked_ = 0; // calls of takeError()
 };
 
 } // namespace lucent::gl

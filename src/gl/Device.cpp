@@ -54,6 +54,9 @@ GlFormat glFormat(Format format) {
     return {};
 }
 
+// 0 where to ask is to wait: Context::takeError() does later.
+GLenum errorNow() { return kAnswersAtOnce ? glGetError() : GL_NO_ERROR; }
+
 std::string errorName(GLenum error) {
     switch (error) {
     case GL_INVALID_ENUM:
@@ -257,7 +260,7 @@ TextureHandle Device::createTexture(const graph::TextureDesc& desc, std::string_
     glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     const auto handle = TextureHandle(nextHandle_++);
-    if (const GLenum error = glGetError())
+    if (const GLenum error = errorNow())
         fail("texture \"" + texture.label + "\" of " + desc.text() + ": " + errorName(error));
     textureBytes_ += desc.bytes();
     textures_.emplace(handle, std::move(texture));
@@ -309,7 +312,7 @@ IndicesHandle Device::createIndices(std::span<const std::uint32_t> indices, std:
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, made.id);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size_bytes()), indices.data(), GL_STATIC_DRAW);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
-    if (const GLenum error = glGetError())
+    if (const GLenum error = errorNow())
         fail("indices \"" + made.label + "\", " + std::to_string(made.count) + ": " + errorName(error));
     indexBytes_ += indices.size_bytes();
     const auto handle = IndicesHandle(nextHandle_++);
@@ -351,18 +354,18 @@ void Device::attach(unsigned point, const graph::Attachment& attachment) const {
         glFramebufferTexture2D(GL_FRAMEBUFFER, point, GL_TEXTURE_2D, texture.id, attachment.level);
 }
 
-Device::Framebuffer Device::framebufferFor(const graph::PassTarget& target) {
+unsigned Device::framebufferFor(const graph::PassTarget& target) {
     const bool hasDepth = target.depth.texture != TextureHandle::None;
     if (isScreen(target)) {
         assert(target.colors.size() == 1 && !hasDepth && "the screen has no textures beside it");
-        return {0, false};
+        return 0;
     }
     FramebufferKey key;
     for (const graph::Attachment& color : target.colors)
         key.emplace_back(color.texture, color.layer, color.level);
     key.emplace_back(target.depth.texture, target.depth.layer, target.depth.level);
     const auto [found, isNew] = framebuffers_.try_emplace(key, 0u);
-    if (!isNew) return {found->second, false};
+    if (!isNew) return found->second;
     glGenFramebuffers(1, &found->second);
     glBindFramebuffer(GL_FRAMEBUFFER, found->second);
     std::vector<GLenum> buffers;
@@ -373,9 +376,19 @@ Device::Framebuffer Device::framebufferFor(const graph::PassTarget& target) {
     if (hasDepth)
         attach(hasStencil(target) ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, target.depth);
     glDrawBuffers(GLsizei(buffers.size()), buffers.data());
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    if (!isProven(target) && glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         fail("pass \"" + std::string(target.label) + "\": its targets make no complete framebuffer");
-    return {found->second, true};
+    return found->second;
+}
+
+// Targets of formats that made a complete framebuffer before make another one.
+bool Device::isProven(const graph::PassTarget& target) {
+    std::vector<int> formats;
+    for (const graph::Attachment& color : target.colors)
+        formats.push_back(int(record(color.texture).desc.format));
+    const bool hasDepth = target.depth.texture != TextureHandle::None;
+    formats.push_back(hasDepth ? int(record(target.depth.texture).desc.format) : -1);
+    return !proven_.insert(std::move(formats)).second;
 }
 
 void Device::clear(const graph::PassTarget& target) {
@@ -399,8 +412,7 @@ void Device::runPass(const graph::PassTarget& target, const std::function<void(g
     const ivec2 size = sizeOf(target);
     auto* query = static_cast<Query*>(target.query);
     glBindVertexArray(vertexArray_);
-    const Framebuffer framebuffer = framebufferFor(target);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebufferFor(target));
     glDisable(GL_SCISSOR_TEST);
     clear(target);
     PassCommands commands(*this, target, size);
@@ -410,8 +422,7 @@ void Device::runPass(const graph::PassTarget& target, const std::function<void(g
     if (checksTargets_ && !isScreen(target)) findBroken(target, commands.drawn());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glBindVertexArray(0);
-    if (!kAnswersAtOnce && !framebuffer.isNew) return; // Context::takeError() asks now and then
-    if (const GLenum error = glGetError())
+    if (const GLenum error = errorNow())
         fail("pass \"" + std::string(target.label) + "\": " + errorName(error));
 }
 
@@ -454,7 +465,7 @@ std::string Device::takeError() { return std::exchange(error_, {}); }
 
 void Device::readTexels(const graph::Attachment& from, ivec2 size, unsigned format, unsigned type,
                         void* out) {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebufferFor({.label = "read", .colors = {from}}).id);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebufferFor({.label = "read", .colors = {from}}));
     glReadPixels(0, 0, size.x, size.y, format, type, out);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     if (const GLenum error = glGetError())

@@ -6,6 +6,7 @@
 #include "graph/Device.h"
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <tuple>
@@ -56,7 +57,7 @@ public:
     int queryDelay() const { return queryDelay_; }
 
     /// First error of any pass since the last call ("" if none): block layouts, incomplete targets, blending
-    /// that this GPU cannot do, GL errors. In a browser those only of passes on targets that are new.
+    /// that this GPU cannot do, GL errors. In a browser none of GL's own: Context::takeError().
     std::string takeError();
     int drawCount() const { return draws_; }
     std::size_t textureBytes() const { return textureBytes_; }
@@ -77,11 +78,8 @@ private:
     // Texture, layer and level of each colour, then of the depth.
     using FramebufferKey = std::vector<std::tuple<graph::TextureHandle, int, int>>;
     const Record& record(graph::TextureHandle texture) const;
-    struct Framebuffer {
-        unsigned id;
-        bool isNew; // nothing was drawn with these targets before
-    };
-    Framebuffer framebufferFor(const graph::PassTarget& target);
+    unsigned framebufferFor(const graph::PassTarget& target);
+    bool isProven(const graph::PassTarget& target);
     bool hasStencil(const graph::PassTarget& target) const;
     void attach(unsigned point, const graph::Attachment& attachment) const;
     ivec2 sizeOf(const graph::PassTarget& target) const;
@@ -94,6 +92,7 @@ private:
     std::map<graph::TextureHandle, Record> textures_;
     std::map<graph::IndicesHandle, IndexRecord> indices_;
     std::map<FramebufferKey, unsigned> framebuffers_;
+    std::set<std::vector<int>> proven_; // formats, the depth's last
     std::uint32_t nextHandle_ = 1;
     unsigned vertexArray_ = 0, blockBuffer_ = 0;
     ivec2 screenSize_{0};

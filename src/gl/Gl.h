@@ -5,8 +5,8 @@
 
 namespace lucent::gl {
 
-/// Whether glGetError() returns at once. A browser answers when another process has taken all commands
-/// before; an error stays until it is asked for.
+/// Whether glGetError() and other questions are answered at once. A browser answers when another process has
+/// done all commands before; an error stays until it is asked for.
 #ifdef __EMSCRIPTEN__
 inline constexpr bool kAnswersAtOnce = false;
 #else

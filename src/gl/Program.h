@@ -28,6 +28,8 @@ public:
 
     /// Whether ready() would wait; only where there is Caps::parallelCompile.
     bool isCompiling() const;
+    /// Whether ready() has been asked.
+    bool isTaken() const { return status_.has_value(); }
     /// Waits until the program is linked; the members below hold after that.
     ///
     /// @return Error (Fault::Machine): every line of the log as "relief/light.frag:12: message"

@@ -98,6 +98,32 @@ TEST_F(Budget, LeavesPointsAndDirectionsAlone) {
     EXPECT_EQ(renderer.stats().lights, 1);
 }
 
+// What a device keeps by default must not cost more than what the scene itself asks for.
+TEST_F(Budget, KeepsADefaultErrorWithNoMoreThanTheScenesOwnSamples) {
+    auto scene = post(scene::Matt{});
+    light(scene);
+    Renderer renderer(*context);
+    std::uint64_t revision = 0;
+    const auto lightsOf = [&](int directions) {
+        views::samplingOf(scene).directions = directions;
+        EXPECT_TRUE(renderer.finish(scene, ++revision, scene.size));
+        return renderer.stats().lights;
+    };
+    const int few = lightsOf(128), many = lightsOf(2048);
+    const Image exact = *renderer.read(scene, scene::Aov::Color);
+    renderer.setDefaultError(0.03f);
+    EXPECT_EQ(lightsOf(128), few); // as many would be drawn to choose
+    EXPECT_EQ(renderer.stats().settings, "");
+    EXPECT_LT(lightsOf(2048), many / 2);
+    EXPECT_NE(renderer.stats().settings, "");
+    EXPECT_LE(relativeError(*renderer.read(scene, scene::Aov::Color), exact), 0.03);
+    scene.quality.maxError = 0.2f; // its own comes first
+    EXPECT_LT(lightsOf(2048), few);
+    scene.quality.maxError = 0;
+    renderer.setDefaultError(0);
+    EXPECT_EQ(lightsOf(2048), many);
+}
+
 TEST_F(Budget, TakesATransferThatIsThere) {
     auto scene = bumps();
     scene.environment.emplace();
