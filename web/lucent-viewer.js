@@ -15,6 +15,7 @@
  */
 import { bringScene, droppedFiles, kindOfDrop, openPicture } from './bring.js';
 import { Controls } from './controls.js';
+import { DrawingBar } from './drawing.js';
 import {
   encodeExr,
   fetchScene,
@@ -81,6 +82,7 @@ export class LucentViewer extends HTMLElement {
   #hint;
   #divider; // what the keyboard moves the divider with
   #truth; // TruthBar
+  #drawing = new DrawingBar(() => this.stop());
   #photos = new PhotoBar();
   #rmse; // that was said last
   #asked = false; // what becomes of what nobody paints
@@ -147,7 +149,7 @@ export class LucentViewer extends HTMLElement {
       fail: (error) => this.#fail(error),
       changed: () => this.#truth.update(this.comparison()),
     });
-    find('.stage').append(this.#truth.element);
+    find('.stage').append(this.#truth.element, this.#drawing.element);
     new Gestures(this.#canvas, {
       pointer: (...event) => this.#pointer(...event),
       wheel: (...event) => this.#apply('viewer_wheel', ...event),
@@ -349,6 +351,11 @@ export class LucentViewer extends HTMLElement {
     if (!this.paused) this.#set('playing', 'false');
   }
 
+  /** Ends the work on the picture, which stays as it is until something changes. False where none is shown yet. */
+  stop() {
+    return this.#apply('viewer_stop') === 1;
+  }
+
   /**
    * A drop falls into the water that is seen at a place of the element, and time runs.
    * @param x, y  CSS pixels from its top left corner. @return {boolean}  false where there is no water
@@ -399,8 +406,9 @@ export class LucentViewer extends HTMLElement {
   }
 
   /**
-   * Milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its pixels), frames,
-   * modes that the scene has something for, where the panel's controls lie, and notDrawn: lines that say what the scene
+   * Milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its pixels), shown (there
+   * is a picture), shrink (pixels that one which was drawn stands for, along a side), underway (share and secondsLeft,
+   * of work that takes long), frames, modes that the scene has something for, where the panel's controls lie, and notDrawn: lines that say what the scene
    * asks for, the picture lacks, and why; while the caustic map is shown, energy: W of each colour that met glass and
    * mirrors, and what became of them.
    */
@@ -950,12 +958,15 @@ export class LucentViewer extends HTMLElement {
   // ---- drawing ----
 
   #takePicture(drawn) {
-    const { complete, finished } = this.stats();
+    const { complete, finished, shown, underway } = this.stats();
     if (drawn && (complete || !this.#capturing)) this.#runtime.show(this.#display);
     this.#complete = complete;
-    if (complete) {
+    this.#drawing.show(underway);
+    if (drawn && shown) {
       this.#poster.hidden = true;
       this.#status.textContent = '';
+    }
+    if (complete) {
       this.#sayNumbers();
       if (drawn) this.#truth.update(this.comparison()); // in a place of another size
     }

@@ -48,7 +48,7 @@ void Viewer::State::adopt(scene::Scene newScene) {
     loaded.clear();
     offered.clear();
     play = {};
-    mode = {.mode = modeFor(*scene)};
+    mode = {.mode = modeFor(*scene), .accuracy = mode.accuracy};
     began = {};
     history.clear();
     grip = Grip::None;
@@ -56,6 +56,7 @@ void Viewer::State::adopt(scene::Scene newScene) {
     paintDefaults = brushFor(*scene);
     paintSettings.brush.radius = paintDefaults.brush.radius; // of the others a person has chosen
     picking.reset();
+    shrink = context->caps().software ? 4 : 1; // until it is known
     light = 0;
     message.clear();
     asLoaded = right = *scene;
@@ -70,9 +71,10 @@ void Viewer::State::adopt(scene::Scene newScene) {
 // The controls of the scene as it is now.
 void Viewer::State::bind() {
     controls.clear();
-    std::vector<BoundParam> modes = bindMode(mode, *scene);
+    std::vector<BoundParam> modes = bindMode(mode, *scene, automaticError);
     offer(std::move(modes[0]), loaded.emplace("mode", nameOf(mode.mode)).first->second);
     offerOfView(std::move(modes[1]));
+    offerOfView(std::move(modes[2]));
     for (BoundParam& bound : scene::bindParams(*scene)) {
         if (isIdle(*scene, bound.path)) bound.shown = false;
         if (bound.data == &scene->view.time) offerOfView(bindPlaying(play, bound.shown));
@@ -131,7 +133,7 @@ std::vector<BoundParam> Viewer::State::bindView() {
         bound.push_back(std::move(setting));
     for (BoundParam& paint : bindPaint(paintSettings, paintDefaults, true))
         bound.push_back(std::move(paint));
-    for (BoundParam& one : bindMode(mode, *scene))
+    for (BoundParam& one : bindMode(mode, *scene, automaticError))
         bound.push_back(std::move(one));
     if (const Control* playing = find("playing"); playing && playing->bound.shown)
         bound.push_back(playing->bound);
@@ -213,8 +215,8 @@ void Viewer::State::reset(const std::string& path) {
             (void)change(one.bound.path, one.loaded, step);
 }
 
-// What belongs to the view alone is no step to take back, and changes no picture but by `matt` and layers of
-// paint.
+// What belongs to the view alone is no step to take back, and changes no picture but by `matt`,
+// `accuracy` and layers of paint.
 Status Viewer::State::changeView(const BoundParam& bound, const std::string& value) {
     const std::string before = getText(*bound.param, bound.data);
     if (Status set = setText(*bound.param, bound.data, value); !set)
@@ -225,7 +227,8 @@ Status Viewer::State::changeView(const BoundParam& bound, const std::string& val
     if (bound.data == &mode.mode || bound.data == &compare.mode || bound.path.starts_with("paint.") ||
         isBeside)
         bind(); // other controls stand there
-    const bool seen = bound.data == &mode.matt || bound.data == &paintSettings.layer ||
+    const bool seen = bound.data == &mode.matt || bound.data == &mode.accuracy ||
+                      bound.data == &paintSettings.layer ||
                       (bound.data == &mode.mode && paintSettings.layer != scene::PaintLayer::None);
     if (seen) stale = true;
     ++revision;

@@ -12,6 +12,7 @@ using scene::Aov;
 namespace {
 
 constexpr std::string_view kPaint = "paint";
+constexpr std::string_view kAccuracies[] = {"automatic", "full"};
 constexpr Group kPaintFirst[] = {Group::Mode, Group::View, Group::Material};
 
 // Techniques that people work on, from the left.
@@ -80,7 +81,16 @@ std::span<const Param> modeParams() {
                  .doc =
                      "What has subsurface scattering, for comparison as if light left where it entered: as "
                      "much of it, with the same highlights (key M).",
-                 .attribute = "matt"})};
+                 .attribute = "matt"}),
+        declare(&ModeSettings::accuracy,
+                {.id = "accuracy",
+                 .label = "Accuracy",
+                 .group = Group::View,
+                 .doc = "Without a fast graphics card a picture is drawn to an error of 3 %, with no more "
+                        "light samples than that takes; full: with all that the scene asks for. An Error "
+                        "above 0 is kept in both.",
+                 .choices = kAccuracies,
+                 .attribute = "accuracy"})};
     return params;
 }
 
@@ -88,12 +98,13 @@ std::string_view nameOf(Mode mode) { return modeNames()[std::size_t(mode)]; }
 
 Mode paintMode() { return Mode(workedOn().size()); }
 
-std::vector<BoundParam> bindMode(ModeSettings& settings, const scene::Scene& scene) {
+std::vector<BoundParam> bindMode(ModeSettings& settings, const scene::Scene& scene, float error) {
     static const ModeSettings defaults;
-    const Param &mode = modeParams()[0], &matt = modeParams()[1];
+    const Param &mode = modeParams()[0], &matt = modeParams()[1], &accuracy = modeParams()[2];
     const bool hasMatt = std::any_of(scene.objects.begin(), scene.objects.end(), scatters);
     return {{std::string(mode.id), "mode", &mode, &settings.mode, &defaults.mode, modesOf(scene).size() > 1},
-            {std::string(matt.id), "mode", &matt, &settings.matt, &defaults.matt, hasMatt}};
+            {std::string(matt.id), "mode", &matt, &settings.matt, &defaults.matt, hasMatt},
+            {std::string(accuracy.id), "mode", &accuracy, &settings.accuracy, &defaults.accuracy, error > 0}};
 }
 
 void applyMatt(const ModeSettings& settings, scene::Scene& scene) { scene.view.matt = settings.matt; }

@@ -13,20 +13,26 @@ namespace lucent::viewer {
 /// A place in the list of modes: those of the techniques, then the brush.
 enum class Mode : int {};
 
+/// How exact pictures are of a scene that wants no error of its own.
+enum class Accuracy : int { Automatic, Full };
+
 /// Part of the view, not of the scene: no undo step, not in a scene file.
 struct ModeSettings {
     Mode mode{};
+    Accuracy accuracy = Accuracy::Automatic;
     bool matt = false; ///< what has subsurface scattering is drawn as if it did not: Lambert's law and the
                        ///< same highlights
 };
 
-/// "mode" and "matt", which are also their paths and attributes.
+/// "mode", "matt" and "accuracy", which are also their paths and attributes.
 std::span<const Param> modeParams();
 std::string_view nameOf(Mode mode);
 /// The brush.
 Mode paintMode();
-/// Both; each is shown where it has something to choose.
-std::vector<BoundParam> bindMode(ModeSettings& settings, const scene::Scene& scene);
+/// All of them; each is shown where it has something to choose.
+///
+/// @param error  of pictures by Accuracy::Automatic; 0: the device draws them in full
+std::vector<BoundParam> bindMode(ModeSettings& settings, const scene::Scene& scene, float error);
 /// The scene as `matt` wants it drawn.
 void applyMatt(const ModeSettings& settings, scene::Scene& scene);
 

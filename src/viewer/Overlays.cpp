@@ -199,17 +199,20 @@ bool drawHelp(Hand hand, vec2 picture, const Theme& theme) {
     return closed;
 }
 
-void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme) {
-    char cost[128];
-    std::snprintf(cost, sizeof cost, "%.1f ms · %d passes · %d draws · %d %s · %s", stats.milliseconds,
-                  stats.passes, stats.draws, stats.lights, stats.lights == 1 ? "light" : "lights",
-                  bytesText(stats.bytes).c_str());
-    const std::string text = stats.settings.empty() ? cost : stats.settings + " · " + cost;
+void drawLine(const std::string& text, vec2 picture, const Theme& theme) {
     const vec2 size(ImGui::CalcTextSize(text.c_str()).x + 20, 28);
     const ImVec2 low(kMargin, picture.y - kMargin - size.y);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, theme.card, kRound);
     list.AddText({low.x + 10, low.y + (size.y - kText) / 2}, theme.text, text.c_str());
+}
+
+void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme) {
+    char cost[128];
+    std::snprintf(cost, sizeof cost, "%.1f ms · %d passes · %d draws · %d %s · %s", stats.milliseconds,
+                  stats.passes, stats.draws, stats.lights, stats.lights == 1 ? "light" : "lights",
+                  bytesText(stats.bytes).c_str());
+    drawLine(stats.settings.empty() ? cost : stats.settings + " · " + cost, picture, theme);
 }
 
 void drawDivider(float x, Rect picture, const SideNames& names, bool lively, const Theme& theme) {

@@ -22,7 +22,9 @@ enum class Hand { Light, Camera, Brush };
 /// The list of gestures and keys. @return true when it was closed
 bool drawHelp(Hand hand, vec2 picture, const Theme& theme);
 
-/// One line at the bottom: what the last complete picture cost.
+/// One line at the bottom.
+void drawLine(const std::string& text, vec2 picture, const Theme& theme);
+/// The same: what the last complete picture cost.
 void drawStats(const frame::Stats& stats, vec2 picture, const Theme& theme);
 
 /// The line between a picture and what stands right of it, with their names. `lively`: it is being moved.

@@ -2,8 +2,57 @@
 #include "viewer/State.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lucent::viewer {
+
+namespace {
+
+constexpr double kSlowLook = 0.15, kFastLook = 0.04; // s
+constexpr int kMostShrink = 8, kLeastSide = 96;      // pixels that a look has along its shorter side
+constexpr double kLong = 1, kLongLeft = 2;           // s: that are past, and left, before time left is told
+
+} // namespace
+
+// A picture of the scene as it is now.
+void Viewer::State::begin() {
+    picture = *scene;
+    applyMatt(mode, picture);
+    applyLayer(paintSettings, painting(), picture);
+    picture.camera = seenCamera();
+    if (dropTime && picture.view.time < *dropTime) dropTime.reset(); // the water begins anew
+    ++pictureNumber;
+    failure.clear();
+    stale = stopping = false;
+    underway.reset();
+    phase = Phase::Look;
+    shrink = std::min(shrink, mostShrink());
+    phaseBegan = secondsNow();
+}
+
+int Viewer::State::mostShrink() const {
+    return std::clamp(std::min(picturePixels.x, picturePixels.y) / kLeastSide, 1, kMostShrink);
+}
+
+// Looks have fewer pixels until several fit into a second.
+void Viewer::State::learnShrink(double took) {
+    const int before = shrink;
+    if (took > kSlowLook)
+        shrink *= 2;
+    else if (took < kFastLook)
+        shrink /= 2;
+    shrink = std::clamp(shrink, 1, mostShrink());
+    if (shrink != before) settled = false; // it is told
+}
+
+// How long the rest of the picture will take, going by what there is.
+void Viewer::State::estimate(float share) {
+    underway.reset();
+    const double past = secondsNow() - phaseBegan;
+    if (past < kLong || share <= 0 || play.playing) return;
+    const double left = past * (1 - share) / share;
+    if (left + past > kLongLeft) underway = {share, left};
+}
 
 // Works on the picture. A quick look is always finished before the next begins, so that a slow machine shows
 // something while a hand moves. @return true when there is something new to present
@@ -16,35 +65,35 @@ bool Viewer::State::advance() {
         stale = true;
         phase = Phase::Done;
     }
-    if (stale && phase != Phase::Look) {
-        picture = *scene;
-        applyMatt(mode, picture);
-        applyLayer(paintSettings, painting(), picture);
-        picture.camera = seenCamera();
-        if (dropTime && picture.view.time < *dropTime) dropTime.reset(); // the water begins anew
-        ++pictureNumber;
-        failure.clear();
-        stale = false;
-        phase = Phase::Look;
-    }
+    if (stale && phase != Phase::Look) begin();
+    if (stopping && canPresent()) phase = Phase::Done;
     if (phase == Phase::Done || rests()) return false;
     if (!renderer) renderer = std::make_unique<frame::Renderer>(*context);
+    renderer->setDefaultError(errorWithout());
+    const bool looks = phase == Phase::Look;
     const Result<frame::Progress> progress =
-        renderer->advance(picture, pictureNumber, size, phase == Phase::Look);
+        renderer->advance(picture, pictureNumber, size, looks, looks ? shrink : 1);
     if (!progress) {
         phase = Phase::Done;
         message = failure = progress.error().message;
         settled = false;
         return false;
     }
+    if (!looks) estimate(progress->fraction);
     const bool better = phase != Phase::Smooth || progress->samples > samples;
     samples = progress->samples;
-    if (!progress->complete && (phase == Phase::Look || !better)) return false;
-    if (!progress->complete && samples == 0) return true; // light grows
-    if (phase == Phase::Look)
-        phase = samples > 0 ? Phase::Smooth : Phase::Refine; // nothing was coarse
-    else
+    if (!progress->complete && (looks || !better)) return false;
+    if (!progress->complete && samples == 0) // light grows
+        return std::exchange(stage, progress->stage) != progress->stage;
+    if (looks) {
+        const bool whole = samples > 0 && shrink == 1; // nothing was coarse
+        phase = whole ? Phase::Smooth : Phase::Refine;
+        learnShrink(secondsNow() - phaseBegan);
+        phaseBegan = secondsNow();
+        stage = 0;
+    } else {
         phase = progress->complete ? Phase::Done : Phase::Smooth;
+    }
     shown = true;
     if (showStats) settled = false;
     return true;

@@ -98,7 +98,12 @@ std::string statsJson(const StatsInput& input) {
     json.key("milliseconds").value(input.cost.milliseconds).key("passes").value(input.cost.passes);
     json.key("draws").value(input.cost.draws).key("lights").value(input.cost.lights);
     json.key("bytes").value(double(input.cost.bytes)).key("complete").value(input.complete);
-    json.key("finished").value(input.finished);
+    json.key("finished").value(input.finished).key("shown").value(input.shown);
+    json.key("shrink").value(input.shrink);
+    if (input.underway) {
+        json.key("underway").beginObject().key("share").value(input.underway->share);
+        json.key("secondsLeft").value(input.underway->secondsLeft).end();
+    }
     json.key("settings").value(input.cost.settings).key("predicted").value(input.cost.predicted);
     json.key("frames").value(input.frames).key("revision").value(double(input.revision));
     if (input.light < input.lamps.size()) writePlace(json.key("light"), input.lamps[input.light].place);

@@ -89,6 +89,8 @@ void Viewer::copy(const Viewer& other) {
 
 int Viewer::sceneNumber() const { return state_->sceneNumber; }
 
+void Viewer::setAutomaticError(float error) { state_->automaticError = error; }
+
 void Viewer::showMessage(const std::string& message) {
     state_->message = message;
     state_->settled = false;
@@ -140,6 +142,12 @@ bool Viewer::draw(double nowSeconds) {
         ++s.drawCount;
     }
     return s.working() || !s.settled || wait > 0 || s.play.playing;
+}
+
+bool Viewer::stop() {
+    State& s = *state_;
+    if (!s.shown || s.stale || s.phase == State::Phase::Done) return false;
+    return s.stopping = true;
 }
 
 int Viewer::drawCount() const { return state_->drawCount; }
@@ -288,6 +296,9 @@ std::string Viewer::stats() const {
     if (s.renderer) input.cost = s.renderer->stats();
     input.complete = s.complete();
     input.finished = s.complete() && s.phase != State::Phase::Smooth && !s.nextSide();
+    input.shown = s.shown;
+    input.shrink = s.phase == State::Phase::Refine ? s.shrink : 1;
+    if (s.phase != State::Phase::Done) input.underway = s.underway;
     input.frames = s.drawCount;
     input.revision = s.revision;
     if (s.scene) {

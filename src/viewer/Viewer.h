@@ -38,6 +38,9 @@ public:
     void copy(const Viewer& other);
     /// Counts the scenes that were shown: another number is another scene, not one that was changed.
     int sceneNumber() const;
+    /// Error that pictures are drawn to on this device where the scene and its person ask for none, [0,1); 0:
+    /// they are drawn in full.
+    void setAutomaticError(float error);
     /// Shows a message over the picture ("" removes it).
     void showMessage(const std::string& message);
 
@@ -51,6 +54,9 @@ public:
 
     /// Draws if something changed or the picture is not complete. @return true when another call is wanted
     bool draw(double nowSeconds);
+    /// Ends the work on the picture with what there is of it, until something changes. @return whether there
+    /// was any work that has shown something
+    bool stop();
     /// Number of times something was really drawn since the start: an idle page must not raise it.
     int drawCount() const;
 
@@ -93,10 +99,11 @@ public:
     /// twin is made from it.
     std::string controls();
     /// JSON: milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its
-    /// pixels), frames, revision; notDrawn: lines that say what the scene asks for, the picture lacks, and
-    /// why; light: [x, y] of the chosen one's dot or arrow; lamps: place and outside (an arrow at the border
-    /// stands for it) of all; panel: path -> [x, y, width, height] of each control's widget that can
-    /// be seen in full. CSS pixels.
+    /// pixels), shown (there is a picture), shrink (pixels that one which was drawn stands for, along a
+    /// side), underway (share, secondsLeft: of work that takes long), frames, revision; notDrawn: lines that
+    /// say what the scene asks for, the picture lacks, and why; light: [x, y] of the chosen one's dot or
+    /// arrow; lamps: place and outside (an arrow at the border stands for it) of all; panel: path -> [x, y,
+    /// width, height] of each control's widget that can be seen in full. CSS pixels.
     std::string stats() const;
     /// JSON array: of each object that has subsurface scattering owner, profile; reach [mm] and whole (the
     /// share that leaves again) of red, green and blue; distances [mm] and values [1/mm²] of R_d; text, the

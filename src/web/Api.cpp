@@ -14,6 +14,8 @@ using viewer::Viewer;
 
 namespace {
 
+constexpr float kSoftwareError = 0.03f; // of pictures by default where the processor draws them
+
 /// What a page has: one context, one host for its panels, files and viewers.
 struct Page {
     std::unique_ptr<gl::Context> context;
@@ -133,7 +135,9 @@ const char* scene_dependencies(const char* path) {
 
 int viewer_create() {
     Page& p = page();
-    p.viewers.emplace(++p.lastViewer, std::make_unique<Viewer>(*p.context, *p.imgui));
+    auto viewer = std::make_unique<Viewer>(*p.context, *p.imgui);
+    if (p.context->caps().software) viewer->setAutomaticError(kSoftwareError);
+    p.viewers.emplace(++p.lastViewer, std::move(viewer));
     return p.lastViewer;
 }
 
@@ -157,6 +161,7 @@ void viewer_resize(int viewer, int width, int height, float scale) {
 void viewer_panel(int viewer, int visible) { viewerOf(viewer).setPanelVisible(visible != 0); }
 void viewer_dark(int viewer, int dark) { viewerOf(viewer).setDark(dark != 0); }
 int viewer_draw(int viewer, double seconds) { return viewerOf(viewer).draw(seconds); }
+int viewer_stop(int viewer) { return viewerOf(viewer).stop(); }
 int viewer_draw_count(int viewer) { return viewerOf(viewer).drawCount(); }
 
 const char* viewer_failure(int viewer) { return answer(viewerOf(viewer).failure()); }

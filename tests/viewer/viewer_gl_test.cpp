@@ -2,6 +2,8 @@
 #include "technique/Technique.h"
 #include "tests/viewer/Page.h"
 
+#include <chrono>
+
 namespace lucent::viewer {
 namespace {
 
@@ -39,6 +41,54 @@ TEST_F(Picture, SamplesOfThePixelsFollowTheCompletePictureWhileItIsStill) {
     EXPECT_LT(smooth, 20000);
     // A hand on it: no more samples until it rests.
     drag({200, 200}, {260, 180});
+    EXPECT_TRUE(stats()["finished"]);
+}
+
+// Where nothing but the processor draws.
+TEST_F(Picture, AFirstLookHasFewerPixelsAndGivesWayToTheWholePicture) {
+    open({512, 512});
+    viewer->setPanelVisible(false);
+    const Status loaded = viewer->load("scene.json", files(kLampScene));
+    ASSERT_TRUE(loaded.ok());
+    while (!stats()["shown"])
+        ASSERT_TRUE(viewer->draw(time += 0.02));
+    const int shrink = stats()["shrink"];
+    if (!context->caps().software) GTEST_SKIP() << "this GPU draws looks whole";
+    EXPECT_GT(shrink, 1);
+    EXPECT_FALSE(stats()["complete"]);
+    const Image look = window->read();
+    settle();
+    EXPECT_EQ(stats()["shrink"], 1);
+    const Image whole = window->read();
+    EXPECT_GT(differences(look, whole), 1000);
+    // The same field all the same: blurred over a few pixels, whose brightness hardly differs.
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
+        sum += std::abs(double(look.pixels[i]) - double(whole.pixels[i]));
+        all += double(whole.pixels[i]);
+    }
+    EXPECT_LT(sum, 0.03 * all);
+}
+
+TEST_F(Picture, WorkThatTakesLongTellsTheTimeLeftAndCanBeStopped) {
+    load(kLampScene);
+    EXPECT_FALSE(viewer->stop()) << "there is none";
+    ASSERT_TRUE(viewer->set("technique.sampling.pixelSamples", "256").ok());
+    const auto start = std::chrono::steady_clock::now();
+    while (!stats().contains("underway")) {
+        ASSERT_TRUE(viewer->draw(time += 0.02)) << "finished before it was told";
+        ASSERT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+    }
+    EXPECT_GT(stats()["underway"]["share"], 0);
+    EXPECT_LT(stats()["underway"]["share"], 1);
+    EXPECT_GT(stats()["underway"]["secondsLeft"], 0);
+    EXPECT_TRUE(viewer->stop());
+    settle();
+    EXPECT_FALSE(stats().contains("underway"));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+    EXPECT_LT(viewer->drawCount(), 250) << "each sample is shown";
+    ASSERT_TRUE(viewer->set("technique.sampling.pixelSamples", "1").ok()); // a change begins anew
+    settle();
     EXPECT_TRUE(stats()["finished"]);
 }
 

@@ -145,7 +145,36 @@ test('pixels are never finer than two a CSS pixel', async () => {
   await page.leave();
 });
 
-test('the poster is shown until the first finished picture, and the text goes with it', async () => {
+test('work that takes long tells the time left, and stops when asked', async () => {
+  const page = await open(kDome.replace('alt', 'sampling-pixel-samples="1" alt'));
+  assert.equal(await page.locator('lucent-viewer .drawing').isVisible(), false);
+  assert.equal(await page.evaluate(() => document.querySelector('lucent-viewer').stop()), false);
+  await page.evaluate(() => document.querySelector('lucent-viewer').setAttribute('sampling-pixel-samples', '256'));
+  await page.locator('lucent-viewer .drawing').waitFor();
+  assert.match(await page.textContent('lucent-viewer .drawing'), /^\d+ s left/);
+  await page.click('lucent-viewer .drawing button');
+  await page.locator('lucent-viewer .drawing').waitFor({ state: 'hidden' });
+  await complete(page);
+  assert.deepEqual(page.problems, []);
+  await page.leave();
+});
+
+test('where the processor draws, a picture keeps 3 % unless it is to be whole', async () => {
+  const sky = 'environment-source="sky" environment-enabled="true" sampling-pixel-samples="1" sampling-directions="1024"';
+  const settings = async (more) => {
+    const page = await open(kDome.replace('alt', `${sky} ${more} alt`));
+    const { settings, lights } = await page.evaluate(() => document.querySelector('lucent-viewer').stats());
+    assert.deepEqual(page.problems, []);
+    await page.leave();
+    return { settings, lights };
+  };
+  const [automatic, full] = [await settings(''), await settings('accuracy="full"')];
+  assert.match(automatic.settings, /error about [\d.]+ %$/);
+  assert.equal(full.settings, '');
+  assert.ok(automatic.lights < full.lights, `${automatic.lights} lights, ${full.lights} in full`);
+});
+
+test('the poster is shown until the first look, and the text goes with it', async () => {
   const page = await openViewers(stage, kDome.replace('src="made/dome.json"', 'poster="made/small.png"'));
   await resize(page, 400, 300);
   assert.equal(await page.locator('lucent-viewer .poster').isVisible(), true);

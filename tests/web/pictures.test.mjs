@@ -23,7 +23,7 @@ let stage;
 let page;
 before(async () => {
   stage = await openStage();
-  page = await openViewers(stage, '<lucent-viewer view-light-dot="false"></lucent-viewer>', { gallery: 'own' });
+  page = await openViewers(stage, '<lucent-viewer view-light-dot="false" accuracy="full"></lucent-viewer>', { gallery: 'own' });
   await page.evaluate(() => (document.querySelector('lucent-viewer').style.maxHeight = 'none'));
 });
 after(() => stage.close());

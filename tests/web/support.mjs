@@ -104,13 +104,15 @@ function fulfilMade(route) {
 /** Opens an otherwise empty page with viewers of our own; the site's policy holds. */
 export const openViewers = (stage, markup, options) => openPage(stage, 'blank.html', { ...options, markup });
 
-/** Waits until a viewer shows a finished picture at the size it has now, and no further frame is wanted. */
+/** Waits until a viewer shows a finished picture at the size it has now, and no further frame is wanted; of what plays, a
+ * complete one. */
 export async function complete(page, selector = 'lucent-viewer') {
     const isComplete = (one) => {
         const viewer = document.querySelector(one);
         const canvas = viewer?.shadowRoot?.querySelector('canvas');
         const wide = canvas ? canvas.clientWidth * Math.min(devicePixelRatio, 2) : 0;
-        return viewer?.stats?.().complete && Math.abs(canvas.width - wide) <= 1;
+        const { complete, finished } = viewer?.stats?.() ?? {};
+        return complete && (finished || !viewer.paused) && Math.abs(canvas.width - wide) <= 1;
     };
     await page.waitForFunction(isComplete, selector, { polling: 50 });
     await quiet(page);
