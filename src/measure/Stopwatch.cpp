@@ -19,13 +19,6 @@ Stopwatch::Stopwatch(const gl::Context& context, Work work, Work without, Repeat
     : timer_(context), work_(std::move(work)), without_(std::move(without)), repeats_(repeats),
       usesTimer_(hasTimer(context)) {}
 
-void Stopwatch::restart() {
-    started_ = std::chrono::steady_clock::now();
-    if (!usesTimer_) return;
-    timer_.end();
-    timer_.begin();
-}
-
 Result<bool> Stopwatch::step() {
     if (asked_ == 0) return run();
     if (const auto answer = timer_.milliseconds()) {

@@ -41,9 +41,6 @@ public:
     /// @return true when everything is known; the work's error
     Result<bool> step();
 
-    /// For the work to call: what it did up to here does not count.
-    void restart();
-
     /// What is known so far; valid after the first true of step(). Differences below the clocks' step of 1 µs
     /// count as 1 µs.
     Spread spread() const { return spreadOf(times_); }

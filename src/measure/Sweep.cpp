@@ -33,25 +33,8 @@ public:
         timed.without(without_);
     }
 
-    // Work that an earlier, coarser look at the same picture took does not count.
-    Status with(Stopwatch* stopwatch) {
-        const std::uint64_t revision = ++revision_;
-        int lights = renderer_.stats().lights;
-        for (;;) {
-            const Result<frame::Progress> progress = renderer_.advance(with_, revision, with_.size);
-            if (!progress) return progress.error();
-            if (progress->complete) break;
-            if (stopwatch && renderer_.stats().lights != lights) stopwatch->restart();
-            lights = renderer_.stats().lights;
-        }
-        renderer_.wait();
-        return Done{};
-    }
-    Status without() {
-        if (Status done = renderer_.finish(without_, ++revision_, without_.size); !done) return done;
-        renderer_.wait();
-        return Done{};
-    }
+    Status with() { return draw(with_); }
+    Status without() { return draw(without_); }
     // Nothing that was made for the light of one picture may be used for the next: an eighth of a turn of a
     // map, next to nothing of a sun's way; nor layers of glass: next to nothing of the eye's.
     void turnLight() {
@@ -66,7 +49,7 @@ public:
     }
     // What the scene shows; stats() is then what the timed picture cost.
     Result<Image> picture() {
-        if (Status done = with(nullptr); !done) return done.error();
+        if (Status done = with(); !done) return done.error();
         stats_ = renderer_.stats();
         if (with_.view.show != scene_.view.show)
             if (Status done = renderer_.finish(scene_, ++revision_, scene_.size); !done) return done.error();
@@ -87,6 +70,13 @@ public:
     const scene::Scene& scene() const { return scene_; }
 
 private:
+    // At once: in a browser, what runs portion by portion takes several tasks.
+    Status draw(const scene::Scene& scene) {
+        if (Status done = renderer_.finish(scene, ++revision_, scene.size); !done) return done;
+        renderer_.wait();
+        return Done{};
+    }
+
     frame::Renderer renderer_;
     scene::Scene scene_, with_, without_;
     frame::Stats stats_;
@@ -94,13 +84,12 @@ private:
     std::uint64_t revision_ = 0;
 };
 
-std::unique_ptr<Stopwatch> stopwatchFor(gl::Context& context, Drawing& drawing, Repeats repeats,
-                                        std::unique_ptr<Stopwatch>& self) {
+std::unique_ptr<Stopwatch> stopwatchFor(gl::Context& context, Drawing& drawing, Repeats repeats) {
     return std::make_unique<Stopwatch>(
         context,
-        [&drawing, &self] {
+        [&drawing] {
             drawing.turnLight();
-            return drawing.with(self.get());
+            return drawing.with();
         },
         [&drawing] { return drawing.without(); }, repeats);
 }
@@ -269,7 +258,7 @@ private:
         result_.lights = stats.lights;
         if (setting_.bakes)
             if (Status baked = timeBake(); !baked) return baked;
-        stopwatch_ = stopwatchFor(sweep.context_, *drawing_, sweep.plan_.repeats, stopwatch_);
+        stopwatch_ = stopwatchFor(sweep.context_, *drawing_, sweep.plan_.repeats);
         return Done{};
     }
     Status judge(const Image& image) {
@@ -311,10 +300,10 @@ private:
     Status timeBake() {
         Status done = Done{};
         drawing_->renderer().release();
-        const double first = milliseconds([&] { return drawing_->with(nullptr); }, done);
+        const double first = milliseconds([&] { return drawing_->with(); }, done);
         if (!done) return done;
         drawing_->turnLight();
-        result_.bakeMs = first - milliseconds([&] { return drawing_->with(nullptr); }, done);
+        result_.bakeMs = first - milliseconds([&] { return drawing_->with(); }, done);
         return done;
     }
     void finish(Sweep& sweep) {
@@ -347,7 +336,7 @@ public:
             if (Status set = series_.setting.putInto(*scene, series_.technique); !set)
                 return leaveOut(sweep, set.error());
             drawing_ = std::make_unique<Drawing>(sweep.context_, std::move(*scene), series_.timed);
-            stopwatch_ = stopwatchFor(sweep.context_, *drawing_, sweep.plan_.repeats, stopwatch_);
+            stopwatch_ = stopwatchFor(sweep.context_, *drawing_, sweep.plan_.repeats);
             return false;
         }
         const Result<bool> done = stopwatch_->step();

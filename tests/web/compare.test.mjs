@@ -149,12 +149,12 @@ test('the work shows its progress and ends when it is cancelled', async () => {
   await page.waitForFunction(() =>
     /\d+ s left/.test(document.querySelector('lucent-viewer').shadowRoot.querySelector('.truth').textContent),
   );
-  assert.ok((await page.locator('lucent-viewer progress').evaluate((one) => one.value)) > 0);
+  assert.ok((await page.locator('lucent-viewer .truth progress').evaluate((one) => one.value)) > 0);
   assert.equal(page.workers().length, 1);
   const ended = new Promise((done) => page.workers()[0].on('close', done));
   await page.click('lucent-viewer .truth button:text("Cancel")');
   await ended;
-  assert.equal(await page.locator('lucent-viewer progress').isVisible(), false);
+  assert.equal(await page.locator('lucent-viewer .truth progress').isVisible(), false);
   assert.equal((await comparison(page)).truth, 'none');
   assert.deepEqual(page.problems, []);
   await page.leave();

@@ -45,6 +45,7 @@ test('the page shows its first scene without an error or a breach of its policy'
 
 test('an idle page draws nothing and asks for no frame', async () => {
   const counts = async () => [await drawsOf(shared), await shared.evaluate(() => window.seen.frames)];
+  await quiet(shared); // what saved its picture has shown the panel again
   const earlier = await counts();
   await shared.waitForTimeout(1000);
   assert.deepEqual(await counts(), earlier);
