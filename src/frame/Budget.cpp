@@ -122,10 +122,10 @@ std::vector<KnobOf> Budget::knobsOf(const scene::Scene& scene) const {
     std::vector<KnobOf> list = technique::knobs(scene);
     std::erase_if(
         list, [&](const KnobOf& of) { return of.knob->steps.empty() || (isOfEnvironment(of) && !shades); });
-    const auto isFew = [&](const KnobOf& of) { // as many are drawn to choose
-        return of.knob->most > 0 && numberOf(scene, of) <= referenceFor(*of.knob, scene.quality.maxError);
+    const auto isDear = [&](const KnobOf& of) { // to choose, beside what may be saved
+        return !of.knob->showsOnFew || numberOf(scene, of) <= referenceFor(*of.knob, scene.quality.maxError);
     };
-    if (frugal_) std::erase_if(list, isFew);
+    if (frugal_) std::erase_if(list, isDear);
     std::stable_partition(list.begin(), list.end(), [](const KnobOf& of) { return of.knob->most > 0; });
     return list;
 }

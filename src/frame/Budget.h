@@ -41,8 +41,8 @@ public:
     ///
     /// @param dragged  a quick look: there is no time, the last choice serves again
     void start(const scene::Scene& scene, bool dragged);
-    /// Whether nothing may become dearer than the scene's own settings: where it has no more samples than are
-    /// drawn to choose how many, they stay.
+    /// Whether nothing may become dearer than the scene's own settings, nor the choice dearer than what it
+    /// saves: only light samples are chosen, where the scene has more of them than are drawn to choose.
     void beFrugal(bool frugal) { frugal_ = frugal; }
     /// The scene keeps no error: nothing is chosen any more.
     void forget();

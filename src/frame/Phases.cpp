@@ -23,7 +23,7 @@ using views::hasEnvironment;
 Renderer::State::State(gl::Context& gl, Supplies* of)
     : context(gl), pool(gl.device()), own(of ? nullptr : std::make_unique<Supplies>(gl, pool)),
       supplies(of ? *of : *own), images(supplies.images), waters(supplies.waters), shadows(supplies.shadows),
-      budget(*this) {
+      costs(supplies.costs), budget(*this) {
     for (const technique::Technique* technique : technique::all())
         members.push_back({technique, technique->make({context, pool, images})});
 }

@@ -64,11 +64,6 @@ struct Renderer::State {
         bool isGiven = false; // the GPU has all of it
         graph::FrameGraph graph;
     };
-    // What a pixel of a pass takes [ms], and how many of them were drawn at once.
-    struct Cost {
-        double perPixel;
-        int pixels;
-    };
     // Portions of passes that the GPU was given and has not finished.
     struct Flight {
         struct Part {
@@ -79,12 +74,18 @@ struct Renderer::State {
         double begun, expected; // ms
         gl::Fence fence;
     };
+    // What a pixel of a pass takes [ms], and how many of them were drawn at once.
+    struct Cost {
+        double perPixel;
+        int pixels;
+    };
     // What views from elsewhere share with the camera's.
     struct Supplies {
         Supplies(gl::Context& gl, graph::TexturePool& pool) : images(gl), waters(gl), shadows(pool) {}
         views::ImageCache images;
         views::Waters waters;
         views::KeptShadows shadows;
+        std::map<std::string, Cost> costs; // by pass
     };
     // All but the camera that a picture depends on.
     struct SceneKey {
@@ -109,6 +110,7 @@ struct Renderer::State {
     views::ImageCache& images;
     views::Waters& waters;
     views::KeptShadows& shadows;
+    std::map<std::string, Cost>& costs;
     std::vector<Member> members;
     Budget budget;
     graph::Texture surface, shownSurface, shown, sum, scratch, lightTable, through;
@@ -153,7 +155,6 @@ struct Renderer::State {
     bool composed = false;                           // the picture stands in `through`
     bool averaged = false;                           // what is shown stands in `mean`
     std::unique_ptr<Running> running;                // of this picture; null: nothing
-    std::map<std::string, Cost> costs;               // of passes
     std::deque<Flight> flights;                      // the oldest first; of a picture before this one too
     double landed = 0;                               // ms: when the last of them was found to be done
     bool presentable = true;                         // picture() is not being drawn into

@@ -16,8 +16,8 @@ namespace {
 
 using views::hasEnvironment;
 
-constexpr std::size_t kMostFlights = 2; // so that the GPU never waits for us, nor we long for it
-constexpr double kFlightMs = 40;
+constexpr std::size_t kMostFlights = 2;           // so that the GPU never waits for us, nor we long for it
+constexpr double kFlightMs = 80, kDraggedMs = 40; // until a hand that comes down is followed
 
 double now() {
     using namespace std::chrono;
@@ -297,12 +297,13 @@ bool Renderer::State::runSome(double until) {
     }
 }
 
-// Gives the GPU what takes about kFlightMs, or one portion of a pass that was never drawn.
+// Gives the GPU what takes as long as a flight may, or one portion of a pass that was never drawn.
 void Renderer::State::give() {
     constexpr int kFewest = 1 << 12, kFirst = 1 << 15; // pixels: of any pass, of one that was never drawn
+    const double longest = dragged ? kDraggedMs : kFlightMs;
     // A GPU draws any pass in no time, until it has shown that it does not.
     const bool isSlow = context.caps().software;
-    const Cost guess{isSlow ? kFlightMs / kFirst : 1e-6, kFirst};
+    const Cost guess{isSlow ? kDraggedMs / kFirst : 1e-6, kFirst};
     const auto costOf = [&](const std::string& pass) {
         const auto known = costs.find(pass);
         return known == costs.end() ? guess : known->second;
@@ -310,12 +311,12 @@ void Renderer::State::give() {
     const auto most = [&](const std::string& pass) {
         const Cost cost = costOf(pass);
         const int step = isSlow ? 2 * cost.pixels : std::numeric_limits<int>::max();
-        return std::max(kFewest, int(std::min(double(step), kFlightMs / cost.perPixel)));
+        return std::max(kFewest, int(std::min(double(step), longest / cost.perPixel)));
     };
     const double begun = now();
     std::vector<Flight::Part> parts;
     double expected = 0;
-    while (expected < kFlightMs) {
+    while (expected < longest) {
         const auto portion = running->graph.step(pool, most);
         running->isGiven = !portion;
         if (!portion) break;
