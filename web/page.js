@@ -48,9 +48,11 @@ function linkOfPage() {
 }
 
 function writeLink() {
-  // A person has just gone to another scene: that link is to be followed, not written over.
+  // A person has just gone to another scene: that link is to be followed, not written over, and nothing is known of its
+  // scene before it is there.
   const { scene = current.scene, src } = readLink();
-  if (!shownByLink() || scene !== current.scene || src !== current.src) return;
+  const isOfScene = (link) => link.scene === current.scene && link.src === current.src;
+  if (!shownByLink() || !isOfScene({ scene, src }) || !isOfScene(keeper.link)) return;
   history.replaceState(history.state, '', linkOfPage());
 }
 const shownByLink = () => Boolean(current.scene || current.src);

@@ -160,7 +160,7 @@ test('work that takes long tells the time left, and stops when asked', async () 
 });
 
 test('where the processor draws, a picture keeps 3 % unless it is to be whole', async () => {
-  const sky = kDome.replace('dome.json', 'sky.json').replace('alt', 'sampling-directions="1024" alt');
+  const sky = kDome.replace('dome.json', 'sky.json').replace('alt', 'sampling-directions="300" alt');
   const settings = async (more) => {
     const page = await open(sky.replace('alt', `${more} alt`));
     const { settings, lights } = await page.evaluate(() => document.querySelector('lucent-viewer').stats());
