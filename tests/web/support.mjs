@@ -111,10 +111,15 @@ export async function complete(page, selector = 'lucent-viewer') {
         const viewer = document.querySelector(one);
         const canvas = viewer?.shadowRoot?.querySelector('canvas');
         const wide = canvas ? canvas.clientWidth * Math.min(devicePixelRatio, 2) : 0;
-        const { complete, finished } = viewer?.stats?.() ?? {};
-        return complete && (finished || !viewer.paused) && Math.abs(canvas.width - wide) <= 1;
+        return viewer?.stats?.().complete && Math.abs(canvas.width - wide) <= 1;
     };
     await page.waitForFunction(isComplete, selector, { polling: 50 });
+    // All samples of its pixels may take a software driver longer than its patience for a picture.
+    await page.evaluate(async (one) => {
+      const viewer = document.querySelector(one);
+      const isDone = () => !viewer?.isConnected || viewer.stats().finished || !viewer.paused;
+      while (!isDone()) await new Promise((done) => setTimeout(done, 50));
+    }, selector);
     await quiet(page);
 }
 
