@@ -1,5 +1,5 @@
 /**
- * How long the page does not answer: for each scene of the gallery when its first look and its finished picture are
+ * How long the page does not answer: for each scene of the gallery when its first preview and its finished picture are
  * there, the longest tasks (ms) while it loads and while its light or camera is dragged for four seconds, and how many
  * pictures a second are shown then. In Chromium, as the tests run it.
  *
@@ -32,7 +32,7 @@ function noteTasks() {
   );
 }
 
-// Runs in the page. @return ms from the request to the first look and to the finished picture
+// Runs in the page. @return ms from the request to the first preview and to the finished picture
 async function load([source, [width, height], patience]) {
   const viewer = document.querySelector('lucent-viewer');
   Object.assign(viewer.style, { width: `${width}px`, height: `${height}px` });

@@ -407,10 +407,10 @@ export class LucentViewer extends HTMLElement {
 
   /**
    * Milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its pixels), shown (there
-   * is a picture), shrink (pixels that one which was drawn stands for, along a side), underway (share and secondsLeft,
-   * of work that takes long), frames, modes that the scene has something for, where the panel's controls lie, and notDrawn: lines that say what the scene
-   * asks for, the picture lacks, and why; while the caustic map is shown, energy: W of each colour that met glass and
-   * mirrors, and what became of them.
+   * is a picture), downscale (pixels that one which was drawn stands for, along a side), progress (share and secondsLeft,
+   * of work that takes long), frames, modes that the scene has something for, where the panel's controls lie, and
+   * notDrawn: lines that say what the scene asks for, the picture lacks, and why; while the caustic map is shown, energy:
+   * W of each colour that met glass and mirrors, and what became of them.
    */
   stats() {
     return JSON.parse(this.#ask('viewer_stats') || '{}');
@@ -958,10 +958,10 @@ export class LucentViewer extends HTMLElement {
   // ---- drawing ----
 
   #takePicture(drawn) {
-    const { complete, finished, shown, underway } = this.stats();
+    const { complete, finished, shown, progress } = this.stats();
     if (drawn && (complete || !this.#capturing)) this.#runtime.show(this.#display);
     this.#complete = complete;
-    this.#drawing.show(underway);
+    this.#drawing.show(progress);
     if (drawn && shown) {
       this.#poster.hidden = true;
       this.#status.textContent = '';

@@ -188,7 +188,7 @@ void Budget::beginKnob() {
     if (done()) renderer_.reset();
 }
 
-bool Budget::waits() const { return renderer_ && renderer_->running && !renderer_->flights.empty(); }
+bool Budget::waits() const { return renderer_ && renderer_->running && !renderer_->submitted.empty(); }
 
 // Of the knobs that are chosen.
 float Budget::predicted() const {

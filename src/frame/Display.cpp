@@ -75,9 +75,11 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
 
 Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene,
                                       graph::TextureId target, bool linear) {
+    const bool scaled = preview && !linear;
     std::vector<std::string> defines;
     if (linear) defines.push_back("LINEAR");
-    if (composed || averaged) defines.push_back("COMPOSED");
+    if (composed || averaged || scaled) defines.push_back("COMPOSED");
+    if (scaled) defines.push_back("SCALED");
     const gl::Program* program = context.program("frame/display", defines);
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
     DisplayBlock block = displayOf(scene, eye);
@@ -86,8 +88,12 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
         block.shift = vec4(0);
         block.isHeat = 0;
     }
+    if (scaled) {
+        block.texels = vec2(preview.desc().size) / vec2(screen);
+        block.isScalar = 0; // its channels are alike
+    }
     const graph::TextureId surfaceId = import(graph, shownSurface);
-    const graph::TextureId shownId = import(graph, finished());
+    const graph::TextureId shownId = import(graph, scaled ? preview : finished());
     graph.addPass("frame.display", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(linear ? "linear values for a file" : "exposure, clamp and sRGB curve for the display");
         pass.sample(surfaceId);
@@ -97,26 +103,6 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
             commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uSurface", resources[surfaceId]}, {"uSum", resources[shownId]}}});
-        };
-    });
-    graph.keep(target);
-    return Done{};
-}
-
-// As recordDisplay() does, from what keepPreview() kept.
-Status Renderer::State::recordPreview(graph::FrameGraph& graph, const scene::Scene& scene,
-                                      graph::TextureId target) {
-    const gl::Program* program = context.program("frame/display", {"COMPOSED", "SCALED"});
-    DisplayBlock block = displayOf(scene, views::makeEye(scene, float(size.x) / float(size.y)));
-    block.isScalar = 0; // its channels are alike
-    block.texels = vec2(preview.desc().size) / vec2(screen);
-    const graph::TextureId previewId = import(graph, preview);
-    graph.addPass("frame.preview", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("a picture of fewer pixels, until there is a whole one");
-        pass.sample(previewId);
-        pass.write(target);
-        return [=](const graph::Resources& resources, graph::Commands& commands) {
-            commands.draw({.program = program, .block = block, .textures = {{"uSum", resources[previewId]}}});
         };
     });
     graph.keep(target);

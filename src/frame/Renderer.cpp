@@ -12,10 +12,10 @@ Renderer::Renderer(gl::Context& context) : state_(std::make_unique<State>(contex
 Renderer::~Renderer() = default;
 
 Result<Progress> Renderer::advance(const scene::Scene& scene, std::uint64_t revision, ivec2 size, bool coarse,
-                                   int shrink) {
-    assert(shrink == 1 || (shrink > 1 && coarse));
+                                   int downscale) {
+    assert(downscale == 1 || (downscale > 1 && coarse));
     state_->screen = size;
-    return state_->advance(scene, revision, glm::max(size / shrink, ivec2(1)),
+    return state_->advance(scene, revision, glm::max(size / downscale, ivec2(1)),
                            coarse ? State::Effort::Coarse : State::Effort::Progressive);
 }
 
@@ -36,9 +36,7 @@ Status Renderer::present(const scene::Scene& scene) {
     assert(s.shown && "present() before the first advance()");
     s.context.device().setScreenSize(s.screen);
     return s.runGraph([&](graph::FrameGraph& graph) {
-        const graph::TextureId screen = s.importScreen(graph);
-        return s.preview ? s.recordPreview(graph, scene, screen)
-                         : s.recordDisplay(graph, scene, screen, false);
+        return s.recordDisplay(graph, scene, s.importScreen(graph), false);
     });
 }
 
@@ -103,7 +101,7 @@ Stats Renderer::stats() const {
 void Renderer::release() {
     State& s = *state_;
     s.drop();
-    s.flights.clear();
+    s.submitted.clear();
     s.budget.forget();
     for (graph::Texture* texture : {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable,
                                     &s.through, &s.mean, &s.other, &s.preview})

@@ -70,11 +70,12 @@ public:
     /// @param revision  changes whenever the scene changed; the picture then starts again
     /// @param size      of the picture in pixels, > 0
     /// @param coarse    a first look while something is dragged: few environment samples
-    /// @param shrink    of a coarse one: how many pixels of the picture share one that is drawn, along each
+    /// @param downscale    of a coarse one: how many pixels of the picture share one that is drawn, along
+    /// each
     ///                  side; >= 1
     /// @return          Error (Fault::Machine) when the GPU cannot, naming the missing capability
     Result<Progress> advance(const scene::Scene& scene, std::uint64_t revision, ivec2 size,
-                             bool coarse = false, int shrink = 1);
+                             bool coarse = false, int downscale = 1);
 
     /// Error of pictures whose scene asks for none (quality.maxError), [0,1); 0: in full. They take no more
     /// samples than the scene has. Counts from the next picture on.

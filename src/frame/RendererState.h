@@ -59,13 +59,13 @@ struct Renderer::State {
         enum class Work { Slice, Rest, Again } work = Work::Slice;
         Moment moment;
         technique::Picture picture;
-        int end = 0;          // of the light samples that are summed
-        double ms = 0;        // that it has taken
-        bool isGiven = false; // the GPU has all of it
+        int end = 0;              // of the light samples that are summed
+        double ms = 0;            // that it has taken
+        bool isSubmitted = false; // the GPU has all of it
         graph::FrameGraph graph;
     };
     // Portions of passes that the GPU was given and has not finished.
-    struct Flight {
+    struct Batch {
         struct Part {
             std::string pass;
             int pixels;
@@ -155,8 +155,8 @@ struct Renderer::State {
     bool composed = false;                           // the picture stands in `through`
     bool averaged = false;                           // what is shown stands in `mean`
     std::unique_ptr<Running> running;                // of this picture; null: nothing
-    std::deque<Flight> flights;                      // the oldest first; of a picture before this one too
-    double landed = 0;                               // ms: when the last of them was found to be done
+    std::deque<Batch> submitted;                     // the oldest first; of a picture before this one too
+    double retired = 0;                              // ms: when the last of them was found to be done
     bool presentable = true;                         // picture() is not being drawn into
     bool whole = false;                              // a sample is complete, and not yet in the mean
     int sample = 0;                                  // of the pixels, that is being drawn
@@ -189,8 +189,8 @@ struct Renderer::State {
                  const std::function<Status(Running&)>& record);
     Status work();
     bool runSome(double until);
-    void give();
-    void land(double until);
+    void submit();
+    void retire(double until);
     Status follow();
     Status showSum(Moment moment);
     void drop();
@@ -259,7 +259,6 @@ struct Renderer::State {
     Result<Image> display(const scene::Scene& scene, bool linear);
     Status recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target,
                          bool linear);
-    Status recordPreview(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target);
     Status keepPreview(const scene::Scene& scene);
     Status recordBeside(graph::FrameGraph& graph, const scene::Scene& scene, const Beside& beside);
     void takeOther(const Beside& beside);

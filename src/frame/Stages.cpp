@@ -16,8 +16,8 @@ namespace {
 
 using views::hasEnvironment;
 
-constexpr std::size_t kMostFlights = 2;           // so that the GPU never waits for us, nor we long for it
-constexpr double kFlightMs = 80, kDraggedMs = 40; // until a hand that comes down is followed
+constexpr std::size_t kMostInFlight = 2;         // so that the GPU never waits for us, nor we long for it
+constexpr double kBatchMs = 80, kDraggedMs = 40; // until a hand that comes down is followed
 
 double now() {
     using namespace std::chrono;
@@ -286,21 +286,21 @@ bool Renderer::State::runSome(double until) {
         return true;
     }
     for (;;) {
-        land(until);
-        if (running->isGiven) return flights.empty();
+        retire(until);
+        if (running->isSubmitted) return submitted.empty();
         if (context.hasUnready()) { // whoever looks on is not kept waiting for programs either
-            if (context.isCompiling() || !flights.empty()) return false;
+            if (context.isCompiling() || !submitted.empty()) return false;
             context.makeReady();
         }
-        if (flights.size() == kMostFlights || now() > until) return false;
-        give();
+        if (submitted.size() == kMostInFlight || now() > until) return false;
+        submit();
     }
 }
 
-// Gives the GPU what takes as long as a flight may, or one portion of a pass that was never drawn.
-void Renderer::State::give() {
+// Gives the GPU what takes as long as a batch may, or one portion of a pass that was never drawn.
+void Renderer::State::submit() {
     constexpr int kFewest = 1 << 12, kFirst = 1 << 15; // pixels: of any pass, of one that was never drawn
-    const double longest = dragged ? kDraggedMs : kFlightMs;
+    const double longest = dragged ? kDraggedMs : kBatchMs;
     // A GPU draws any pass in no time, until it has shown that it does not.
     const bool isSlow = context.caps().software;
     const Cost guess{isSlow ? kDraggedMs / kFirst : 1e-6, kFirst};
@@ -314,11 +314,11 @@ void Renderer::State::give() {
         return std::max(kFewest, int(std::min(double(step), longest / cost.perPixel)));
     };
     const double begun = now();
-    std::vector<Flight::Part> parts;
+    std::vector<Batch::Part> parts;
     double expected = 0;
     while (expected < longest) {
         const auto portion = running->graph.step(pool, most);
-        running->isGiven = !portion;
+        running->isSubmitted = !portion;
         if (!portion) break;
         const int pixels = std::max(portion->pixels, kFewest);
         parts.push_back({portion->pass, pixels});
@@ -326,29 +326,29 @@ void Renderer::State::give() {
         cost.pixels = std::max(pixels, kFirst);
         expected += cost.perPixel * pixels;
     }
-    if (!parts.empty()) flights.push_back({std::move(parts), begun, expected, gl::Fence()});
+    if (!parts.empty()) submitted.push_back({std::move(parts), begun, expected, gl::Fence()});
 }
 
 // Takes what the GPU has done, and learns what it took; waits for it where nothing more can be given.
-void Renderer::State::land(double until) {
+void Renderer::State::retire(double until) {
     double expected = 0, begun = 0;
-    std::vector<Flight::Part> parts;
-    while (!flights.empty()) {
-        const bool waits =
-            expected == 0 && (running->isGiven || flights.size() == kMostFlights || context.hasUnready());
-        if (!flights.front().fence.passed(waits ? until - now() : 0)) break;
-        Flight& done = flights.front();
-        if (expected == 0) begun = std::max(done.begun, landed);
+    std::vector<Batch::Part> parts;
+    while (!submitted.empty()) {
+        const bool waits = expected == 0 && (running->isSubmitted || submitted.size() == kMostInFlight ||
+                                             context.hasUnready());
+        if (!submitted.front().fence.passed(waits ? until - now() : 0)) break;
+        Batch& done = submitted.front();
+        if (expected == 0) begun = std::max(done.begun, retired);
         expected += done.expected;
         parts.insert(parts.end(), done.parts.begin(), done.parts.end());
-        flights.pop_front();
+        submitted.pop_front();
     }
     if (expected == 0) return;
-    landed = now();
-    const double took = std::max(landed - begun, 1e-3);
+    retired = now();
+    const double took = std::max(retired - begun, 1e-3);
     running->ms += took;
     std::set<std::string> passes;
-    for (const Flight::Part& part : parts)
+    for (const Batch::Part& part : parts)
         if (passes.insert(part.pass).second) costs.at(part.pass).perPixel *= took / expected;
 }
 

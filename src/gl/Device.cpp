@@ -376,19 +376,23 @@ unsigned Device::framebufferFor(const graph::PassTarget& target) {
     if (hasDepth)
         attach(hasStencil(target) ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, target.depth);
     glDrawBuffers(GLsizei(buffers.size()), buffers.data());
-    if (!isProven(target) && glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        fail("pass \"" + std::string(target.label) + "\": its targets make no complete framebuffer");
+    // Targets of formats that made a complete framebuffer before make another one.
+    if (const std::vector<int> formats = formatsOf(target); !complete_.contains(formats)) {
+        if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE)
+            complete_.insert(formats);
+        else
+            fail("pass \"" + std::string(target.label) + "\": its targets make no complete framebuffer");
+    }
     return found->second;
 }
 
-// Targets of formats that made a complete framebuffer before make another one.
-bool Device::isProven(const graph::PassTarget& target) {
+std::vector<int> Device::formatsOf(const graph::PassTarget& target) const {
     std::vector<int> formats;
     for (const graph::Attachment& color : target.colors)
         formats.push_back(int(record(color.texture).desc.format));
     const bool hasDepth = target.depth.texture != TextureHandle::None;
     formats.push_back(hasDepth ? int(record(target.depth.texture).desc.format) : -1);
-    return !proven_.insert(std::move(formats)).second;
+    return formats;
 }
 
 void Device::clear(const graph::PassTarget& target) {

@@ -79,7 +79,7 @@ private:
     using FramebufferKey = std::vector<std::tuple<graph::TextureHandle, int, int>>;
     const Record& record(graph::TextureHandle texture) const;
     unsigned framebufferFor(const graph::PassTarget& target);
-    bool isProven(const graph::PassTarget& target);
+    std::vector<int> formatsOf(const graph::PassTarget& target) const;
     bool hasStencil(const graph::PassTarget& target) const;
     void attach(unsigned point, const graph::Attachment& attachment) const;
     ivec2 sizeOf(const graph::PassTarget& target) const;
@@ -92,7 +92,7 @@ private:
     std::map<graph::TextureHandle, Record> textures_;
     std::map<graph::IndicesHandle, IndexRecord> indices_;
     std::map<FramebufferKey, unsigned> framebuffers_;
-    std::set<std::vector<int>> proven_; // formats, the depth's last
+    std::set<std::vector<int>> complete_; // formats of framebuffers, the depth's last
     std::uint32_t nextHandle_ = 1;
     unsigned vertexArray_ = 0, blockBuffer_ = 0;
     ivec2 screenSize_{0};

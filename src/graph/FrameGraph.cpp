@@ -337,12 +337,11 @@ std::optional<FrameGraph::Portion> FrameGraph::step(TexturePool& pool,
     else
         row_ = 0;
     draws_->erase(draws_->begin(), draws_->begin() + std::ptrdiff_t(drawn));
-    const TextureHandle color = target.colors.empty() ? TextureHandle::None : target.colors.front().texture;
     if (draws_->empty()) {
         draws_.reset();
         release(int(next_++), pool);
     }
-    return Portion{pass.name, rows * size.x, color};
+    return Portion{pass.name, rows * size.x};
 }
 
 void FrameGraph::abandon(TexturePool& pool) {

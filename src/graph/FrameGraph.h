@@ -112,8 +112,7 @@ public:
     /// What step() has run.
     struct Portion {
         const std::string& pass;
-        int pixels;           ///< rows of the target times its width
-        TextureHandle target; ///< None: depths alone
+        int pixels; ///< rows of the target times its width
     };
     /// execute() by portions: a draw, or some rows of one that fills its target; a pass with a question
     /// whole.

@@ -56,7 +56,7 @@ void Viewer::State::adopt(scene::Scene newScene) {
     paintDefaults = brushFor(*scene);
     paintSettings.brush.radius = paintDefaults.brush.radius; // of the others a person has chosen
     picking.reset();
-    shrink = context->caps().software ? 4 : 1; // until it is known
+    downscale = context->caps().software ? 4 : 1; // until it is known
     light = 0;
     message.clear();
     asLoaded = right = *scene;

@@ -117,8 +117,8 @@ void Viewer::State::overlays() {
     paintOverlay();
     if (showStats && renderer && compare.mode == CompareMode::Off) // whose card holds the cost as well
         drawStats(renderer->stats(), openSize(), theme(dark));
-    else if (play.playing && shown && shrink > 1)
-        drawLine("1/" + std::to_string(shrink) + " resolution while it moves", openSize(), theme(dark));
+    else if (play.playing && shown && downscale > 1)
+        drawLine("1/" + std::to_string(downscale) + " resolution while it moves", openSize(), theme(dark));
     const Hand hand = painting() ? Hand::Brush : scene && !hasField() ? Hand::Camera : Hand::Light;
     if (help && drawHelp(hand, size, theme(dark))) help = false;
     if (!message.empty() && drawMessage(message, size, theme(dark))) message.clear();

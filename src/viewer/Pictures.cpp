@@ -9,7 +9,7 @@ namespace lucent::viewer {
 namespace {
 
 constexpr double kSlowLook = 0.15, kFastLook = 0.04; // s
-constexpr int kMostShrink = 8, kLeastSide = 96;      // pixels that a look has along its shorter side
+constexpr int kMostDownscale = 8, kLeastSide = 96;   // pixels that a look has along its shorter side
 constexpr double kLong = 1, kLongLeft = 2;           // s: that are past, and left, before time left is told
 
 } // namespace
@@ -24,34 +24,34 @@ void Viewer::State::begin() {
     ++pictureNumber;
     failure.clear();
     stale = stopping = false;
-    underway.reset();
+    drawingProgress.reset();
     phase = Phase::Look;
-    shrink = std::min(shrink, mostShrink());
+    downscale = std::min(downscale, mostDownscale());
     phaseBegan = secondsNow();
 }
 
-int Viewer::State::mostShrink() const {
-    return std::clamp(std::min(picturePixels.x, picturePixels.y) / kLeastSide, 1, kMostShrink);
+int Viewer::State::mostDownscale() const {
+    return std::clamp(std::min(picturePixels.x, picturePixels.y) / kLeastSide, 1, kMostDownscale);
 }
 
 // Looks have fewer pixels until several fit into a second.
-void Viewer::State::learnShrink(double took) {
-    const int before = shrink;
+void Viewer::State::learnDownscale(double took) {
+    const int before = downscale;
     if (took > kSlowLook)
-        shrink *= 2;
+        downscale *= 2;
     else if (took < kFastLook)
-        shrink /= 2;
-    shrink = std::clamp(shrink, 1, mostShrink());
-    if (shrink != before) settled = false; // it is told
+        downscale /= 2;
+    downscale = std::clamp(downscale, 1, mostDownscale());
+    if (downscale != before) settled = false; // it is told
 }
 
 // How long the rest of the picture will take, going by what there is.
 void Viewer::State::estimate(float share) {
-    underway.reset();
+    drawingProgress.reset();
     const double past = secondsNow() - phaseBegan;
     if (past < kLong || share <= 0 || play.playing) return;
     const double left = past * (1 - share) / share;
-    if (left + past > kLongLeft) underway = {share, left};
+    if (left + past > kLongLeft) drawingProgress = {share, left};
 }
 
 // Works on the picture. A quick look is always finished before the next begins, so that a slow machine shows
@@ -69,10 +69,10 @@ bool Viewer::State::advance() {
     if (stopping && canPresent()) phase = Phase::Done;
     if (phase == Phase::Done || rests()) return false;
     if (!renderer) renderer = std::make_unique<frame::Renderer>(*context);
-    renderer->setDefaultError(errorWithout());
+    renderer->setDefaultError(defaultError());
     const bool looks = phase == Phase::Look;
     const Result<frame::Progress> progress =
-        renderer->advance(picture, pictureNumber, size, looks, looks ? shrink : 1);
+        renderer->advance(picture, pictureNumber, size, looks, looks ? downscale : 1);
     if (!progress) {
         phase = Phase::Done;
         message = failure = progress.error().message;
@@ -86,9 +86,9 @@ bool Viewer::State::advance() {
     if (!progress->complete && samples == 0) // light grows
         return std::exchange(stage, progress->stage) != progress->stage;
     if (looks) {
-        const bool whole = samples > 0 && shrink == 1; // nothing was coarse
+        const bool whole = samples > 0 && downscale == 1; // nothing was coarse
         phase = whole ? Phase::Smooth : Phase::Refine;
-        learnShrink(secondsNow() - phaseBegan);
+        learnDownscale(secondsNow() - phaseBegan);
         phaseBegan = secondsNow();
         stage = 0;
     } else {

@@ -99,10 +99,10 @@ std::string statsJson(const StatsInput& input) {
     json.key("draws").value(input.cost.draws).key("lights").value(input.cost.lights);
     json.key("bytes").value(double(input.cost.bytes)).key("complete").value(input.complete);
     json.key("finished").value(input.finished).key("shown").value(input.shown);
-    json.key("shrink").value(input.shrink);
-    if (input.underway) {
-        json.key("underway").beginObject().key("share").value(input.underway->share);
-        json.key("secondsLeft").value(input.underway->secondsLeft).end();
+    json.key("downscale").value(input.downscale);
+    if (input.progress) {
+        json.key("progress").beginObject().key("share").value(input.progress->share);
+        json.key("secondsLeft").value(input.progress->secondsLeft).end();
     }
     json.key("settings").value(input.cost.settings).key("predicted").value(input.cost.predicted);
     json.key("frames").value(input.frames).key("revision").value(double(input.revision));

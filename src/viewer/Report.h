@@ -20,7 +20,7 @@ std::string controlsJson(std::span<const Control> controls, std::span<const Acti
 std::string changesJson(std::span<const Control> controls, const void* leftOut);
 
 /// Work that takes long.
-struct Underway {
+struct DrawingProgress {
     float share = 0; ///< that is done, [0,1]
     double secondsLeft = 0;
 };
@@ -29,8 +29,8 @@ struct StatsInput {
     frame::Stats cost;
     bool complete = false, finished = false; ///< the picture is, and has all samples of its pixels
     bool shown = false;                      ///< there is a picture, be it a look
-    int shrink = 1;                          ///< of what is shown: pixels to one that was drawn, along a side
-    std::optional<Underway> underway;
+    int downscale = 1;                       ///< of what is shown: pixels to one that was drawn, along a side
+    std::optional<DrawingProgress> progress;
     int frames = 0;
     std::uint64_t revision = 0;
     std::vector<LightHandle> lamps;      ///< CSS pixels of their dots and arrows

@@ -30,7 +30,7 @@ void Viewer::State::drawSides() {
     if (!sides) sides = std::make_unique<frame::Renderer>(*context);
     if (drawing != next) ++sideNumber;
     drawing = next;
-    sides->setDefaultError(errorWithout());
+    sides->setDefaultError(defaultError());
     const scene::Scene drawn = sceneOf(*next);
     const ivec2 size = next == &other ? picturePixels : truth->image.size();
     const Result<frame::Progress> progress = sides->advance(drawn, sideNumber, size);

@@ -73,13 +73,13 @@ struct Viewer::State {
     std::uint64_t pictureNumber = 0;
     ivec2 picturePixels{0};
     Phase phase = Phase::Done;
-    int samples = 0;                   // of each pixel of what is shown
-    int stage = 0;                     // frame::Progress::stage of what is shown
-    int shrink = 1;                    // of looks, see frame::Renderer::advance()
-    double phaseBegan = 0;             // s: of a look, and then of what follows it
-    bool stopping = false;             // no more work on this picture
-    std::optional<Underway> underway;  // of work that takes long
-    bool stale = false, shown = false; // the scene changed since; there is a picture to present
+    int samples = 0;                                // of each pixel of what is shown
+    int stage = 0;                                  // frame::Progress::stage of what is shown
+    int downscale = 1;                              // of looks, see frame::Renderer::advance()
+    double phaseBegan = 0;                          // s: of a look, and then of what follows it
+    bool stopping = false;                          // no more work on this picture
+    std::optional<DrawingProgress> drawingProgress; // of work that takes long
+    bool stale = false, shown = false;              // the scene changed since; there is a picture to present
     std::vector<Figure> figures;
     std::uint64_t figuresAt = 0; // revision whose they are
     bool settled = true;         // ImGui has nothing new to say
@@ -262,8 +262,8 @@ struct Viewer::State {
     // --- drawing
     bool advance();
     void begin();
-    int mostShrink() const;
-    void learnShrink(double took);
+    int mostDownscale() const;
+    void learnDownscale(double took);
     void estimate(float share);
     Status paint();
     // While time runs, a picture is as good as the next moment lets it be.
@@ -271,7 +271,7 @@ struct Viewer::State {
         const bool seen = play.playing && phase == Phase::Refine && shown;
         return scene && !stale && (phase == Phase::Smooth || phase == Phase::Done || seen);
     }
-    float errorWithout() const { return mode.accuracy == Accuracy::Automatic ? automaticError : 0; }
+    float defaultError() const { return mode.accuracy == Accuracy::Automatic ? automaticError : 0; }
     bool canPresent() const { return !renderer || renderer->canPresent(); }
     // A hand is on a picture that a look shows.
     bool rests() const { return (phase == Phase::Refine || phase == Phase::Smooth) && held && canPresent(); }

@@ -297,8 +297,8 @@ std::string Viewer::stats() const {
     input.complete = s.complete();
     input.finished = s.complete() && s.phase != State::Phase::Smooth && !s.nextSide();
     input.shown = s.shown;
-    input.shrink = s.phase == State::Phase::Refine ? s.shrink : 1;
-    if (s.phase != State::Phase::Done) input.underway = s.underway;
+    input.downscale = s.phase == State::Phase::Refine ? s.downscale : 1;
+    if (s.phase != State::Phase::Done) input.progress = s.drawingProgress;
     input.frames = s.drawCount;
     input.revision = s.revision;
     if (s.scene) {

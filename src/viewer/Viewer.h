@@ -99,8 +99,8 @@ public:
     /// twin is made from it.
     std::string controls();
     /// JSON: milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its
-    /// pixels), shown (there is a picture), shrink (pixels that one which was drawn stands for, along a
-    /// side), underway (share, secondsLeft: of work that takes long), frames, revision; notDrawn: lines that
+    /// pixels), shown (there is a picture), downscale (pixels that one which was drawn stands for, along a
+    /// side), progress (share, secondsLeft: of work that takes long), frames, revision; notDrawn: lines that
     /// say what the scene asks for, the picture lacks, and why; light: [x, y] of the chosen one's dot or
     /// arrow; lamps: place and outside (an arrow at the border stands for it) of all; panel: path -> [x, y,
     /// width, height] of each control's widget that can be seen in full. CSS pixels.

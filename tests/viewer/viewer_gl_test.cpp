@@ -52,13 +52,13 @@ TEST_F(Picture, AFirstLookHasFewerPixelsAndGivesWayToTheWholePicture) {
     ASSERT_TRUE(loaded.ok());
     while (!stats()["shown"])
         ASSERT_TRUE(viewer->draw(time += 0.02));
-    const int shrink = stats()["shrink"];
+    const int downscale = stats()["downscale"];
     if (!context->caps().software) GTEST_SKIP() << "this GPU draws looks whole";
-    EXPECT_GT(shrink, 1);
+    EXPECT_GT(downscale, 1);
     EXPECT_FALSE(stats()["complete"]);
     const Image look = window->read();
     settle();
-    EXPECT_EQ(stats()["shrink"], 1);
+    EXPECT_EQ(stats()["downscale"], 1);
     const Image whole = window->read();
     EXPECT_GT(differences(look, whole), 1000);
     // The same field all the same: blurred over a few pixels, whose brightness hardly differs.
@@ -75,16 +75,16 @@ TEST_F(Picture, WorkThatTakesLongTellsTheTimeLeftAndCanBeStopped) {
     EXPECT_FALSE(viewer->stop()) << "there is none";
     ASSERT_TRUE(viewer->set("technique.sampling.pixelSamples", "256").ok());
     const auto start = std::chrono::steady_clock::now();
-    while (!stats().contains("underway")) {
+    while (!stats().contains("progress")) {
         ASSERT_TRUE(viewer->draw(time += 0.02)) << "finished before it was told";
         ASSERT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
     }
-    EXPECT_GT(stats()["underway"]["share"], 0);
-    EXPECT_LT(stats()["underway"]["share"], 1);
-    EXPECT_GT(stats()["underway"]["secondsLeft"], 0);
+    EXPECT_GT(stats()["progress"]["share"], 0);
+    EXPECT_LT(stats()["progress"]["share"], 1);
+    EXPECT_GT(stats()["progress"]["secondsLeft"], 0);
     EXPECT_TRUE(viewer->stop());
     settle();
-    EXPECT_FALSE(stats().contains("underway"));
+    EXPECT_FALSE(stats().contains("progress"));
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
     EXPECT_LT(viewer->drawCount(), 250) << "each sample is shown";
     ASSERT_TRUE(viewer->set("technique.sampling.pixelSamples", "1").ok()); // a change begins anew

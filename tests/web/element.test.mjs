@@ -174,7 +174,7 @@ test('where the processor draws, a picture keeps 3 % unless it is to be whole', 
   assert.ok(automatic.lights < full.lights, `${automatic.lights} lights, ${full.lights} in full`);
 });
 
-test('the poster is shown until the first look, and the text goes with it', async () => {
+test('the poster is shown until the first preview, and the text goes with it', async () => {
   const page = await openViewers(stage, kDome.replace('src="made/dome.json"', 'poster="made/small.png"'));
   await resize(page, 400, 300);
   assert.equal(await page.locator('lucent-viewer .poster').isVisible(), true);
