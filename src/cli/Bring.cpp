@@ -33,6 +33,8 @@ Result<scene::Brought> sceneOf(const std::vector<Output>& files) {
             if (files.size() > 1) return Error{file.path + ": is a mesh beside other files; must come alone"};
             return scene::sceneOfMesh(file.path, file.bytes);
         }
+    if (files.size() == 1 && fs::path(files[0].path).extension() == ".binary")
+        return scene::sceneOfTable(files[0].path, files[0].bytes);
     if (files.size() == 1 && scene::isPtm(files[0].bytes)) {
         const auto maps = scene::decodePtm(files[0].bytes, files[0].path);
         if (!maps) return maps.error();

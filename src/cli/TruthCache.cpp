@@ -81,8 +81,7 @@ std::string truthPath(const std::string& folder, const scene::Scene& scene, int 
                 hash.add(map.get());
         if (const auto* shape = std::get_if<scene::MeshShape>(&object.shape))
             hash.add(encodeMesh(*shape->mesh));
-        const scene::Material& material = object.material;
-        for (const auto& map : {material.baseMap, material.diffuseMap, material.specularMap})
+        for (const auto& map : object.material.maps())
             hash.add(map.get());
     }
     return (std::filesystem::path(folder) / (hash.text() + ".pfm")).string();

@@ -84,8 +84,7 @@ Renderer::State::SceneKey Renderer::State::sceneKey(const scene::Scene& scene) c
     SceneKey key{scene::toJson(still) + (scene.view.matt ? " matt" : ""), {}, {}, waters.changes()};
     for (const scene::Object& object : scene.objects) {
         key.objects.push_back(views::objectKey(object, scene.view.time));
-        for (const auto& map :
-             {object.material.baseMap, object.material.diffuseMap, object.material.specularMap})
+        for (const auto& map : object.material.maps())
             key.maps.push_back(map);
         key.maps.push_back(object.painting);
     }

@@ -7,10 +7,12 @@
 #include "scene/HeightSource.h"
 #include "scene/ImageUse.h"
 #include "scene/Mesh.h"
+#include "scene/ReflectanceTable.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace lucent::scene {
@@ -253,8 +255,9 @@ void writeGround(JsonWriter& json, const Bounds& bounds) {
     json.end().end();
 }
 
-std::string modelText(const std::string& title, const std::string& file, const Mesh& mesh,
-                      const Bounds& bounds) {
+// `writeThing` writes shape and material of what is shown.
+std::string modelText(const std::string& title, float brightest, const Bounds& bounds,
+                      const std::function<void(JsonWriter&)>& writeThing) {
     const ModelView view = viewOf(bounds);
     JsonWriter json;
     json.beginObject().key("lucent").value(1).key("title").value(title);
@@ -263,7 +266,7 @@ std::string modelText(const std::string& title, const std::string& file, const M
     writeVector(json, "eye", view.eye);
     writeVector(json, "target", bounds.center());
     json.end();
-    writeExposure(json, brightestOf(mesh));
+    writeExposure(json, brightest);
     json.key("environment").beginObject().key("source").value("sky").key("intensity").value(kSky).end();
     json.key("lights").beginArray().beginObject().key("type").value("point");
     writeVector(json, "position", bounds.center() + bounds.radius() * kLamp);
@@ -274,7 +277,8 @@ std::string modelText(const std::string& title, const std::string& file, const M
 
     json.key("objects").beginArray().beginObject();
     json.key("name").value(title == "ground" ? "model" : title);
-    json.key("shape").beginObject().key("type").value("mesh").key("source").value(file).end().end();
+    writeThing(json);
+    json.end();
     writeGround(json, bounds);
     json.end().end();
     return json.text();
@@ -320,7 +324,22 @@ Result<Brought> sceneOfMesh(const std::string& name, std::span<const std::byte> 
     const Bounds bounds = boundsOf(posed(*mesh, poseAt(mesh->rig, 0)));
     if (!(bounds.radius() > 0)) return Error{name + ": is a single point; must have some extent"};
     const std::string title = titleOf(name), file = title + ".mesh";
-    return Brought{{title + ".json", toBytes(modelText(title, file, *mesh, bounds))},
+    const auto writeMesh = [&](JsonWriter& json) {
+        json.key("shape").beginObject().key("type").value("mesh").key("source").value(file).end();
+    };
+    return Brought{{title + ".json", toBytes(modelText(title, brightestOf(*mesh), bounds, writeMesh))},
+                   {file, Bytes(bytes.begin(), bytes.end())}};
+}
+
+Result<Brought> sceneOfTable(const std::string& name, std::span<const std::byte> bytes) {
+    const auto table = decodeTable(bytes, name, TableForm::Merl, 0);
+    if (!table) return table.error();
+    const std::string title = titleOf(name), file = title + ".binary";
+    const auto writeBall = [&](JsonWriter& json) {
+        json.key("shape").beginObject().key("type").value("sphere").key("radius").value(1).end();
+        json.key("material").beginObject().key("kind").value("measured").key("table").value(file).end();
+    };
+    return Brought{{title + ".json", toBytes(modelText(title, 1, {vec3(-1), vec3(1)}, writeBall))},
                    {file, Bytes(bytes.begin(), bytes.end())}};
 }
 

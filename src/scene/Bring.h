@@ -47,4 +47,10 @@ Result<Brought> sceneOfMaps(std::span<const MapFile> maps);
 /// @return       Error "NAME: ..." for what is no mesh, or has no extent
 Result<Brought> sceneOfMesh(const std::string& name, std::span<const std::byte> bytes);
 
+/// A ball of a measured material on a ground, under the same light.
+///
+/// @param bytes  of a file in the format of the MERL database
+/// @return       Error "NAME: ..." for what is none
+Result<Brought> sceneOfTable(const std::string& name, std::span<const std::byte> bytes);
+
 } // namespace lucent::scene

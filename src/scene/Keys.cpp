@@ -80,9 +80,11 @@ constexpr Key kMaterial[] = {
     {"baseMap", KeyType::File, "Picture that multiplies the base colour of a height field's relief."},
     {"diffuseMap", KeyType::File, "Picture that multiplies its diffuse colour."},
     {"specularMap", KeyType::File, "Picture that multiplies its specular colour."},
+    {"table", KeyType::File, "Measured BRDF: a file of the MERL database, or a picture of its values."},
 };
 constexpr std::span<const Key> kOfTranslucent = std::span(kMaterial).first(2),
-                               kMaps = std::span(kMaterial).subspan(2);
+                               kMaps = std::span(kMaterial).subspan(2, 3),
+                               kOfMeasured = std::span(kMaterial).subspan(5);
 constexpr Key kLayer[] = {
     {"preset", KeyType::Preset,
      "A measured material, for scattering, absorption and ior; keys beside it replace its values."},
@@ -185,6 +187,12 @@ std::span<const TypeKeys> materialKindsAndPainted() {
         {"mirror", {{&mirrorParams()}, {}}},
         {"clear", {{&clearParams(), &attenuationParams()}, {}}},
         {"translucent", {{&translucentParams(), &attenuationParams()}, kOfTranslucent}},
+        {"glossy", {{&colorParams(), &glossyParams()}, {}}},
+        {"phong", {{&colorParams(), &phongParams()}, {}}},
+        {"blinn", {{&colorParams(), &blinnParams()}, {}}},
+        {"cook-torrance", {{&colorParams(), &cookTorranceParams()}, {}}},
+        {"oren-nayar", {{&colorParams(), &orenNayarParams()}, {}}},
+        {"measured", {{&measuredParams()}, kOfMeasured}},
         {"painted translucent",
          {{&translucentParams(), &attenuationParams(), &colorParams()}, kOfTranslucent}},
     };
@@ -210,7 +218,8 @@ std::span<const TypeKeys> materialKinds() {
 
 const KeySet& materialKeys() {
     static const KeySet keys{{&choiceParams(), &colorParams(), &reliefParams(), &clearParams(),
-                              &attenuationParams(), &translucentParams()},
+                              &attenuationParams(), &translucentParams(), &glossyParams(), &phongParams(),
+                              &blinnParams(), &cookTorranceParams(), &orenNayarParams(), &measuredParams()},
                              kMaterial};
     return keys;
 }
@@ -241,7 +250,8 @@ std::string whyIdle(const Object& object, std::string_view key) {
     for (const TypeKeys& kind : materialKindsAndPainted())
         if (holds(kind.keys, key) || holdsWords(kind, key)) others.push_back(kind.type);
     if (others.empty()) return {}; // no key of any
-    if (others.size() > 1 && others[others.size() - 2] == "translucent") others.pop_back();
+    if (std::find(others.begin(), others.end(), "translucent") != others.end())
+        std::erase(others, "painted translucent");
     std::string list;
     for (std::size_t i = 0; i < others.size(); ++i)
         (list += i == 0 ? "" : i + 1 == others.size() ? " or " : ", ") += others[i];

@@ -75,7 +75,19 @@ const KeySet& materialKeysOf(const Object& object);
 void* structOf(Material& material, const ParamTable& table);
 const void* structOf(const Material& material, const ParamTable& table);
 
-enum class MaterialKind : int { Relief, Matt, Mirror, Clear, Translucent };
+enum class MaterialKind : int {
+    Relief,
+    Matt,
+    Mirror,
+    Clear,
+    Translucent,
+    Glossy,
+    Phong,
+    Blinn,
+    CookTorrance,
+    OrenNayar,
+    Measured
+};
 /// What a material is by its keys. Each of the numbers makes it the kind that has it; 0 of other kinds.
 struct KindChoice {
     MaterialKind kind = MaterialKind::Matt;

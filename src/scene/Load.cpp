@@ -11,6 +11,7 @@
 #include "scene/Memory.h"
 #include "scene/Mesh.h"
 #include "scene/Painting.h"
+#include "scene/ReflectanceTable.h"
 #include "scene/Strokes.h"
 
 #include <algorithm>
@@ -260,11 +261,21 @@ private:
         if (!expect(place, Json::Type::Object, "an object")) return false;
         Material& material = object.material;
         return chooseKind(place, object) && refuseOtherKinds(place, object) && readKind(place, object) &&
-               readPreset(place, material) && keepStatus(place, check(material)) &&
-               spendBody(place, object) &&
+               readPreset(place, material) && readTable(place, material) &&
+               keepStatus(place, check(material)) && spendBody(place, object) &&
                readMap(place, "baseMap", material.baseMapFile, material.baseMap, decodeColors) &&
                readMap(place, "diffuseMap", material.diffuseMapFile, material.diffuseMap, decodeColors) &&
                readMap(place, "specularMap", material.specularMapFile, material.specularMap, decodeColors);
+    }
+    bool readTable(const Place& place, Material& material) {
+        auto* measured = std::get_if<MeasuredBrdf>(&material.kind);
+        if (!measured) return true;
+        const auto decode = [&](std::span<const std::byte> bytes, const std::string& name) {
+            return decodeTable(bytes, name, measured->form, measured->blocks);
+        };
+        return place.json.find("table")
+                   ? readMap(place, "table", measured->tableFile, measured->table, decode)
+                   : missing(place, "table", "the name of a file");
     }
     // A height field that is no relief is drawn as triangles.
     bool spendBody(const Place& place, const Object& object) {

@@ -163,7 +163,57 @@ Param scatteringParam() {
                     .axes = "rgb"});
 }
 
-constexpr std::string_view kKindNames[] = {"relief", "matt", "mirror", "clear", "translucent"};
+template <class Kind>
+Param roughnessParam(std::string_view doc) {
+    return declare(
+        &Kind::roughness,
+        {.id = "roughness", .label = "Roughness", .min = 0, .max = 1, .group = Group::Material, .doc = doc});
+}
+template <class Kind>
+Param specularParam(std::string_view doc) {
+    return declare(&Kind::specular, {.id = "specular",
+                                     .label = "Specular colour",
+                                     .min = 0,
+                                     .max = 1,
+                                     .group = Group::Material,
+                                     .doc = doc,
+                                     .color = true});
+}
+template <class Kind>
+Param exponentParam() {
+    return declare(&Kind::exponent, {.id = "exponent",
+                                     .label = "Exponent",
+                                     .min = 0,
+                                     .max = 1e5,
+                                     .low = 1,
+                                     .high = 1000,
+                                     .logarithmic = true,
+                                     .group = Group::Material,
+                                     .doc = "How small the highlight is: large is small and sharp."});
+}
+template <class Kind>
+Param asPrintedParam(std::string_view doc) {
+    return declare(&Kind::asPrinted,
+                   {.id = "asPrinted", .label = "As printed", .group = Group::Material, .doc = doc});
+}
+// Of what mirrors by Fresnel's equations: seen from a thinner medium.
+template <class Kind>
+Param mirroringIorParam() {
+    return declare(&Kind::ior, {.id = "ior",
+                                .label = "Index of refraction",
+                                .min = 1,
+                                .max = 100,
+                                .low = 1,
+                                .high = 2.5,
+                                .group = Group::Material,
+                                .doc = "How much the surface mirrors of light from straight above: 4 % at "
+                                       "1.5 as plastic and varnish do, 17 % at 2.42 as diamond."});
+}
+
+constexpr std::string_view kKindNames[] = {"relief",        "matt",       "mirror",  "clear",
+                                           "translucent",   "glossy",     "phong",   "blinn",
+                                           "cook-torrance", "oren-nayar", "measured"};
+constexpr std::string_view kTableForms[] = {"merl", "projected", "equal-area"};
 static_assert(std::size(kKindNames) == std::variant_size_v<MaterialKinds>);
 
 } // namespace
@@ -176,8 +226,12 @@ const ParamTable& choiceParams() {
              .label = "Kind",
              .group = Group::Material,
              .doc =
-                 "What the surface does with light: relief (the model of height fields), matt, mirror, clear "
-                 "or translucent. Left out it follows from reflectance, transmission, scattering or preset; "
+                 "What the surface does with light: relief (the model of height fields), matt, mirror, "
+                 "clear, "
+                 "translucent, glossy (metal, plastic and varnish as glTF has them), or one of the classical "
+                 "models phong, blinn, cook-torrance and oren-nayar, or measured, from a table. Left out it "
+                 "follows from reflectance, "
+                 "transmission, scattering or preset; "
                  "without those height fields are reliefs and other shapes matt.",
              .choices = kKindNames}),
         reflectanceParam<KindChoice>(),
@@ -280,6 +334,89 @@ const ParamTable& translucentParams() {
                  .doc = "Of the surface that mirrors lamps: 0 as sharp points, 1 spread wide."}),
     };
     static const ParamTable table = tableOf<Translucent>("material", params);
+    return table;
+}
+
+const ParamTable& glossyParams() {
+    static const Param params[] = {
+        declare(&Glossy::metallic, {.id = "metallic",
+                                    .label = "Metallic",
+                                    .min = 0,
+                                    .max = 1,
+                                    .group = Group::Material,
+                                    .doc = "1 for metals, which mirror light in their diffuse colour and "
+                                           "scatter none; 0 for all else."}),
+        roughnessParam<Glossy>("Of the surface: 0 mirrors sharply, 1 spreads highlights wide."),
+        mirroringIorParam<Glossy>(),
+        specularParam<Glossy>("Factor of the light that mirrors of what is no metal."),
+    };
+    static const ParamTable table = tableOf<Glossy>("material", params);
+    return table;
+}
+
+namespace {
+
+constexpr std::string_view kHighlight = "Colour of the highlight.";
+constexpr std::string_view kWithoutFactor = "The formula as the dissertation prints it, which gives off more "
+                                            "light than it gets; off: with the factor "
+                                            "that keeps it in bounds.";
+
+// Phong and Blinn have the same parameters.
+template <class Kind>
+const ParamTable& exponentialParams() {
+    static const Param params[] = {
+        specularParam<Kind>(kHighlight),
+        exponentParam<Kind>(),
+        asPrintedParam<Kind>(kWithoutFactor),
+    };
+    static const ParamTable table = tableOf<Kind>("material", params);
+    return table;
+}
+
+} // namespace
+
+const ParamTable& phongParams() { return exponentialParams<Phong>(); }
+const ParamTable& blinnParams() { return exponentialParams<Blinn>(); }
+
+const ParamTable& cookTorranceParams() {
+    static const Param params[] = {
+        specularParam<CookTorrance>(kHighlight),
+        roughnessParam<CookTorrance>("Of the surface: the root of the slope m of its facets."),
+        mirroringIorParam<CookTorrance>(),
+        asPrintedParam<CookTorrance>("The formula as the dissertation prints it, four times as bright; off: "
+                                     "normalised, so that facets mirror what falls on them."),
+    };
+    static const ParamTable table = tableOf<CookTorrance>("material", params);
+    return table;
+}
+
+const ParamTable& orenNayarParams() {
+    static const Param params[] = {
+        roughnessParam<OrenNayar>("Spread of the slopes of its facets in radians: 0 is matt, 1 is as flat to "
+                                  "the eye as the full moon."),
+    };
+    static const ParamTable table = tableOf<OrenNayar>("material", params);
+    return table;
+}
+
+const ParamTable& measuredParams() {
+    static const Param params[] = {
+        declare(&MeasuredBrdf::form,
+                {.id = "form",
+                 .label = "Form of the table",
+                 .doc = "How the table is laid out: as the files of the MERL database, or in blocks, one for "
+                        "each direction of light with a texel for each of view, spread by their projection "
+                        "on the surface or evenly by solid angle.",
+                 .choices = kTableForms}),
+        declare(&MeasuredBrdf::blocks,
+                {.id = "blocks",
+                 .label = "Blocks",
+                 .min = 0,
+                 .max = 4096,
+                 .doc = "Of a table in blocks, along a side; 0: as many as a block has "
+                        "texels. Does nothing to a table of MERL's form."}),
+    };
+    static const ParamTable table = tableOf<MeasuredBrdf>("material", params);
     return table;
 }
 

@@ -98,6 +98,27 @@ template <class File>
 void kindFields(File&, const Relief&) {}
 template <class File>
 void kindFields(File&, const Matt&) {}
+// The classical models stand in no file.
+template <class File>
+void kindFields(File&, const Phong&) {}
+template <class File>
+void kindFields(File&, const Blinn&) {}
+template <class File>
+void kindFields(File&, const CookTorrance&) {}
+template <class File>
+void kindFields(File&, const OrenNayar&) {}
+template <class File>
+void kindFields(File&, const MeasuredBrdf&) {}
+template <class File>
+void kindFields(File& file, auto& m) requires requires {
+    m.metallic;
+}
+{
+    file.value(m.metallic, "materials");
+    file.value(m.roughness, "materials");
+    file.value(m.ior, "materials");
+    file.value(m.specular, "materials");
+}
 template <class File>
 void kindFields(File& file, auto& m) requires requires {
     m.reflectance;
@@ -126,6 +147,9 @@ void kindFields(File& file, auto& m) requires requires {
     file.value(m.roughness, "materials");
     file.value(m.attenuationDistance, "materials");
 }
+// Measured ones would need their table.
+constexpr auto kMostKind = std::size_t(MaterialKind::OrenNayar);
+
 template <class File, class AnyMaterial>
 void materialFields(File& file, AnyMaterial& m) {
     file.value(m.base, "materials");
@@ -133,8 +157,7 @@ void materialFields(File& file, AnyMaterial& m) {
     auto kind = std::uint8_t(m.kind.index());
     file.value(kind, "materials");
     if constexpr (!std::is_const_v<AnyMaterial>)
-        m.kind =
-            alternative<MaterialKinds>(std::min<std::size_t>(kind, std::variant_size_v<MaterialKinds> - 1));
+        m.kind = alternative<MaterialKinds>(std::min<std::size_t>(kind, kMostKind));
     std::visit([&](auto& of) { kindFields(file, of); }, m.kind);
 }
 
@@ -189,6 +212,8 @@ bool isSound(const Material& m) {
         return isFinite(c.transmission) && isFinite(c.ior) && c.ior > 0 && isFinite(c.absorption) &&
                isFinite(c.dispersion) && isFinite(c.attenuationDistance);
     }
+    if (const auto* g = std::get_if<Glossy>(&m.kind))
+        return isFinite(g->metallic) && isFinite(g->roughness) && isFinite(g->ior) && isFinite(g->specular);
     if (!m.isScattering()) return true;
     const Translucent& t = m.translucent();
     return isFinite(t.scattering) && isFinite(t.ior) && t.ior > 0 && isFinite(t.absorption) &&

@@ -1,4 +1,5 @@
 #include "scene/Scene.h"
+#include "scene/ReflectanceTable.h"
 
 #include "base/Text.h"
 #include "scene/Keys.h"
@@ -390,7 +391,12 @@ Status check(const Shape& shape) {
 Status check(const Material& material) {
     if (material.isScattering() && material.translucent().scattering == vec3(0))
         return Error{"scattering is 0 0 0; must be above 0 in a colour of a translucent material"};
-    return Done{};
+    const auto* measured = std::get_if<MeasuredBrdf>(&material.kind);
+    if (!measured) return Done{};
+    if (!measured->table)
+        return Error{"kind is measured without a table; must be in a scene file that names one"};
+    const Status table = checkTable(*measured->table, measured->form, measured->blocks);
+    return table ? table : Error{"table " + table.error().message};
 }
 
 Status check(const Wave& wave) { return checkDirection(wave.direction); }

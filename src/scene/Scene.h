@@ -181,10 +181,69 @@ struct Translucent {
     float surfaceIor() const;
 };
 
-using MaterialKinds = std::variant<Relief, Matt, Mirror, Clear, Translucent>;
+/// Metallic-roughness as glTF 2.0 has it (appendix B): mirror facets spread by GGX, over what is matt of what
+/// is no metal. `diffuse` is the base colour. Of what is no metal and white it gives back up to a quarter
+/// more light than it gets where the view grazes.
+struct Glossy {
+    float metallic = 0;     ///< [0,1]
+    float roughness = 0.5f; ///< [0,1], the root of GGX's alpha
+    float ior = 1.5f; ///< of what is no metal, >= 1: mirrors ((ior - 1) / (ior + 1))² of light from above
+    vec3 specular{1}; ///< factor of that, [0,1]
+};
+
+/// diffuse / pi + specular cos^exponent of the angle between view and mirrored light (image-space
+/// dissertation 2007, eq. 2.27).
+struct Phong {
+    vec3 specular{0.3f};
+    float exponent = 32; ///< >= 0
+    /// Without the factor (exponent + 2) / (2 pi), and the diffuse part not over pi: gives more light than it
+    /// gets.
+    bool asPrinted = false;
+};
+
+/// The same of the angle between the normal and the direction halfway between light and view (eq. 2.28). Its
+/// factor is (n + 2) (n + 4) / (8 pi (2^(-n/2) + n)).
+struct Blinn {
+    vec3 specular{0.3f};
+    float exponent = 128;
+    bool asPrinted = false;
+};
+
+/// diffuse / pi + specular F D G / (4 cos cos), with Beckmann's D and grooves like a V (eq. 2.31).
+struct CookTorrance {
+    vec3 specular{1};
+    float roughness = 0.5f; ///< [0,1], the root of the facets' slope m
+    float ior = 1.5f;       ///< >= 1
+    bool asPrinted = false; ///< four times as much, D without 1 / pi
+};
+
+/// Matt facets, in grooves like a V (Oren, Nayar 1994, qualitative model).
+struct OrenNayar {
+    float roughness = 0.5f; ///< [0,1], standard deviation of the facets' slopes, radians
+};
+
+/// How a table of a BRDF is laid out: ReflectanceTable.h.
+enum class TableForm : int { Merl, Projected, EqualArea };
+
+/// Measured in many directions, and looked up in a table. Colours do nothing to it.
+struct MeasuredBrdf {
+    TableForm form = TableForm::Merl;
+    int blocks = 0;          ///< a side, of a form that has them; 0: the root of the table's side
+    std::string tableFile{}; ///< as the scene file names it
+    std::shared_ptr<const Image> table{}; ///< 3 channels, 1/sr; never null once loaded
+};
+
+using MaterialKinds = std::variant<Relief, Matt, Mirror, Clear, Translucent, Glossy, Phong, Blinn,
+                                   CookTorrance, OrenNayar, MeasuredBrdf>;
+
+/// Of facets, as Glossy has it: up to this a surface shows the objects around in what it mirrors; in rougher
+/// ones they only stand in the light's way.
+inline constexpr float kMostMirroringRoughness = 0.5f;
+inline constexpr std::size_t kFirstGlossy = 5;
+static_assert(std::is_same_v<std::variant_alternative_t<kFirstGlossy, MaterialKinds>, Glossy>);
 
 /// What the surface does with light: one of a few kinds, and the colours that those of them share which send
-/// it back themselves (Relief, Matt, and what is painted on Translucent).
+/// it back themselves (Relief, Matt, glossy ones, and what is painted on Translucent).
 struct Material {
     vec3 base{0};       ///< cB, shown without light; W/(m² sr)
     vec3 diffuse{0.8f}; ///< cD, albedo
@@ -195,9 +254,16 @@ struct Material {
     std::string baseMapFile{}, diffuseMapFile{}, specularMapFile{}; ///< as the scene file names them
 
     bool isRelief() const { return std::holds_alternative<Relief>(kind); }
+    /// All pictures that it refers to; null where there is none.
+    std::vector<std::shared_ptr<const Image>> maps() const {
+        const auto* measured = std::get_if<MeasuredBrdf>(&kind);
+        return {baseMap, diffuseMap, specularMap, measured ? measured->table : nullptr};
+    }
     bool isMirror() const { return std::holds_alternative<Mirror>(kind); }
     bool isRefractive() const { return std::holds_alternative<Clear>(kind); }
     bool isScattering() const { return std::holds_alternative<Translucent>(kind); }
+    /// Whether it sends light back itself, and not as the same in all directions.
+    bool isGlossy() const { return kind.index() >= kFirstGlossy; }
 
     /// The kind, which it must be of.
     Relief& relief() { return *std::get_if<Relief>(&kind); }
@@ -378,6 +444,12 @@ const ParamTable& reliefParams();
 const ParamTable& mirrorParams();
 const ParamTable& clearParams();
 const ParamTable& translucentParams();
+const ParamTable& glossyParams();
+const ParamTable& phongParams();
+const ParamTable& blinnParams();
+const ParamTable& cookTorranceParams();
+const ParamTable& orenNayarParams();
+const ParamTable& measuredParams();
 const ParamTable& layerParams(); ///< a layer of what is translucent
 const ParamTable& transformParams();
 const ParamTable& pointLightParams();

@@ -105,6 +105,8 @@ void writeMaterial(JsonWriter& json, const Object& object) {
         writeText(json, "diffuseMap", material.diffuseMapFile);
         writeText(json, "specularMap", material.specularMapFile);
     }
+    if (const auto* measured = std::get_if<MeasuredBrdf>(&material.kind))
+        writeText(json, "table", measured->tableFile);
     json.end();
 }
 

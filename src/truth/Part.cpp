@@ -206,9 +206,8 @@ std::string fingerprint(const scene::Scene& scene) {
     const std::string json = scene::toJson(scene);
     hash.add(std::as_bytes(std::span(json)));
     for (const scene::Object& object : scene.objects) {
-        const scene::Material& material = object.material;
         hash.add(object.shape);
-        for (const auto& map : {material.baseMap, material.diffuseMap, material.specularMap})
+        for (const auto& map : object.material.maps())
             hash.add(map);
     }
     if (scene.environment) hash.add(scene.environment->map);

@@ -25,9 +25,8 @@ std::vector<const void*> contentOf(const scene::Scene& scene) {
             content.insert(content.end(), {field->heights.get(), field->alpha.get()});
         if (const auto* shape = std::get_if<scene::MeshShape>(&object.shape))
             content.push_back(shape->mesh.get());
-        const scene::Material& material = object.material;
-        content.insert(content.end(),
-                       {material.baseMap.get(), material.diffuseMap.get(), material.specularMap.get()});
+        for (const auto& map : object.material.maps())
+            content.push_back(map.get());
         if (const scene::Painting* painting = object.painting.get())
             content.insert(content.end(), {painting->entering.get(), painting->leaving.get()});
     }
@@ -203,6 +202,8 @@ std::vector<std::pair<std::string, Bytes>> packScene(scene::Scene scene) {
         packImage(files, material.baseMap, material.baseMapFile);
         packImage(files, material.diffuseMap, material.diffuseMapFile);
         packImage(files, material.specularMap, material.specularMapFile);
+        if (auto* measured = std::get_if<scene::MeasuredBrdf>(&material.kind))
+            packImage(files, measured->table, measured->tableFile);
         packPainting(files, object.painting);
     }
     const std::string text = scene::toJson(scene);

@@ -3,6 +3,7 @@
 #include "scene/Bring.h"
 #include "scene/Load.h"
 #include "scene/Mesh.h"
+#include "scene/ReflectanceTable.h"
 
 #include <gtest/gtest.h>
 
@@ -255,6 +256,23 @@ TEST(BroughtModel, TheBoxAroundItJustFitsTheFrameAtAnySize) {
         EXPECT_LT(nearest, 0.95f) << scale;
         EXPECT_GT(nearest, 0.9f) << scale;
     }
+}
+
+TEST(BroughtModel, AMeasuredMaterialIsShownOnABall) {
+    const auto brdf = [](const dvec3& toLight, const dvec3& toEye) {
+        return vec3(0.2f, 0.1f, float(0.05 * toLight.z * toEye.z));
+    };
+    const Result<Brought> files =
+        sceneOfTable("gold paint.binary", encodeMerl(tabulate(brdf, TableForm::Merl, 0, 0)));
+    ASSERT_TRUE(files) << files.error().message;
+    const Result<Scene> scene = loaded(*files);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->title, "gold paint");
+    const auto* measured = std::get_if<MeasuredBrdf>(&scene->objects[0].material.kind);
+    ASSERT_TRUE(measured);
+    EXPECT_NEAR(lookUp(*measured->table, measured->form, 0, {0, 0.6, 0.8}, {0.6, 0, 0.8}).y, 0.1, 1e-6);
+    EXPECT_EQ(scene->objects[1].name, "ground");
+    EXPECT_EQ(sceneOfTable("a.binary", Bytes(9)).error().message.substr(0, 10), "a.binary: ");
 }
 
 TEST(BroughtModel, WhatIsNoMeshOrHasNoExtentIsRefused) {

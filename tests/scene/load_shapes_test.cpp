@@ -132,7 +132,8 @@ TEST(LoadShapes, KeysOfAnotherKindOfMaterialAreRefused) {
         EXPECT_EQ(messageOf(scene), "scenes/a.json:3: objects.ball.material." + what);
     };
     refused(objectOf(field, R"("material": { "ior": 1 })"),
-            "ior is no key of a relief material; must stand in a clear or translucent one");
+            "ior is no key of a relief material; must stand in a clear, translucent, glossy or cook-torrance "
+            "one");
     refused(objectOf(field, R"("material": { "reflectance": [1, 1, 1], "depth": 3 })"),
             "depth is no key of a mirror material; must stand in a relief one");
     for (const std::string key : {"depth", "specularity", "forwardScatter"})
@@ -148,14 +149,18 @@ TEST(LoadShapes, KeysOfAnotherKindOfMaterialAreRefused) {
             "dispersion is no key of a translucent material; must stand in a clear one");
     refused(
         sphereWith(R"("material": { "diffuse": [1, 0, 0], "preset": "marble" })"),
-        "diffuse is no key of a translucent material; must stand in a relief, matt or painted translucent "
-        "one");
+        "diffuse is no key of a translucent material; must stand in a relief, matt, glossy, phong, blinn, "
+        "cook-torrance, oren-nayar or painted translucent one");
     refused(sphereWith(R"("material": { "preset": "marble", "kind": "clear" })"),
             "preset makes another kind of material than kind; must stand without it");
     refused(sphereWith(R"("material": { "transmission": 1, "reflectance": [0, 0, 1] })"),
             "reflectance makes another kind of material than transmission; must stand without it");
+    refused(sphereWith(R"("material": { "kind": "phong", "roughness": 0.2 })"),
+            "roughness is no key of a phong material; must stand in a translucent, glossy, cook-torrance or "
+            "oren-nayar one");
     refused(sphereWith(R"("material": { "kind": "glass" })"),
-            "kind is \"glass\"; must be relief, matt, mirror, clear or translucent");
+            "kind is \"glass\"; must be relief, matt, mirror, clear, translucent, glossy, phong, blinn, "
+            "cook-torrance, oren-nayar or measured");
 }
 
 TEST(LoadShapes, TheKindFollowsFromTheKeysAndTheShape) {

@@ -75,9 +75,10 @@ TEST(Material, ANumberOfAnotherKindMakesItThat) {
     set("kind", "matt");
     set("transmission", "0"); // of what is not clear: nothing
     EXPECT_TRUE(std::holds_alternative<Matt>(ball.material.kind));
-    EXPECT_EQ(
-        setParam(scene, "objects.ball.material.ior", "1.3").error().message,
-        "objects.ball.material.ior is no key of a matt material; must stand in a clear or translucent one");
+    EXPECT_EQ(setParam(scene, "objects.ball.material.ior", "1.3").error().message,
+              "objects.ball.material.ior is no key of a matt material; must stand in a clear, translucent, "
+              "glossy or "
+              "cook-torrance one");
 }
 
 TEST(Material, AbsorptionMayBeSetAsAColourAtADistance) {

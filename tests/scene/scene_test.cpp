@@ -206,13 +206,13 @@ TEST(Scene, AnythingCanBeMadeOfGlassByPath) {
     EXPECT_EQ(set("objects.coin.material.transmission", "1"), "1");
     EXPECT_EQ(set("objects.0.material.transmission", "1"), "set"); // objects by number as well
     EXPECT_EQ(set("objects.block.material.ior", "1.3"),
-              "objects.block.material.ior is no key of a matt material; must stand in a clear or translucent "
-              "one");
+              "objects.block.material.ior is no key of a matt material; must stand in a clear, translucent, "
+              "glossy or cook-torrance one");
     EXPECT_EQ(set("objects.ball.material.ior", "1.3"), "1.3");
     EXPECT_EQ(set("objects.ball.material.ior", "0"), "objects.ball.material.ior is 0; must be in (0, 100]");
     EXPECT_EQ(set("objects.ball.material.diffuse", "1 0 0"),
-              "objects.ball.material.diffuse is no key of a clear material; must stand in a relief, matt or "
-              "painted translucent one");
+              "objects.ball.material.diffuse is no key of a clear material; must stand in a relief, matt, "
+              "glossy, phong, blinn, cook-torrance, oren-nayar or painted translucent one");
     EXPECT_EQ(set("objects.ball.material.attenuationColor", "1 0 0"),
               "objects.ball.material.attenuationColor is 1 0 0; must be in [1e-06, 1]");
     EXPECT_EQ(set("objects.floor.material.depth", "1"),
