@@ -1,6 +1,7 @@
 #include "truth/Lamps.h"
 
 #include "truth/ColorMap.h"
+#include "truth/Gloss.h"
 #include "truth/Interface.h"
 #include "truth/LightPath.h"
 
@@ -67,6 +68,9 @@ Emission emitFromAfar(const dvec3& back, const dvec3& irradiance, std::span<cons
     density /= double(targets.size());
     return {origin, -back, -kInfinity, density > 0 ? irradiance / density : dvec3(0)};
 }
+
+bool isAny(double share) { return share > 0; }
+bool isAny(const dvec3& share) { return share.x > 0 || share.y > 0 || share.z > 0; }
 
 /// What a smooth boundary lets in of light from a direction, with its cosine.
 struct Entering {
@@ -196,9 +200,39 @@ dvec3 Illumination::irradiance(const Hit& hit, const dvec3& viewer, Random& rand
 }
 
 dvec3 Illumination::radiance(const Hit& hit, const dvec3& viewer, double away, Random& random) const {
+    return radiance(hit, viewer, away, random, true);
+}
+
+/// `around`: whether glossy surfaces show objects too.
+dvec3 Illumination::radiance(const Hit& hit, const dvec3& viewer, double away, Random& random,
+                             bool around) const {
     if (const auto* block = std::get_if<FieldBlock>(&optics_->rays().shape(hit.shape)))
         return ofRelief(*block, hit, viewer, away, random);
-    return shownBy(*optics_, hit, irradiance(hit, viewer, random));
+    const scene::Material& material = optics_->object(hit.shape).material;
+    if (!material.isGlossy()) return shownBy(*optics_, hit, irradiance(hit, viewer, random));
+    const dvec3 normal = normalTowards(hit, viewer);
+    const Gloss all(material, normal, viewer);
+    const dvec3 sum = dvec3(material.base) + ofLamps(hit, all, random);
+    if (!around || !showsObjects(material)) return sum + ofSky(hit, all, random);
+    return sum + ofSky(hit, Gloss(material, normal, viewer, Gloss::Part::Matt), random) +
+           ofAround(hit, Gloss(material, normal, viewer, Gloss::Part::Mirrored), random);
+}
+
+/// One direction by the lobe: the object that lies there, or the environment.
+dvec3 Illumination::ofAround(const Hit& hit, const Gloss& lobe, Random& random) const {
+    const dvec3 direction = lobe.choose(random.nextPair());
+    const dvec3 share = lobe.share(direction);
+    if (share == dvec3(0)) return dvec3(0);
+    const Beam beam{.origin = hit.position,
+                    .direction = direction,
+                    .media = optics_->bendsNothing() ? Media() : optics_->mediaAt(hit.position, true),
+                    .begin = optics_->rays().gap()};
+    const Arrival arrival = follow(*optics_, beam, 1, Branching::Chain, {}, random);
+    dvec3 light(0);
+    if (arrival.at == Arrival::At::Sky && around_) light = around_->sky.radiance(arrival.direction);
+    if (arrival.at == Arrival::At::Opaque)
+        light = radiance(arrival.hit, -arrival.direction, kInfinity, random, false);
+    return arrival.weight * light * share / lobe.density(direction);
 }
 
 dvec3 Illumination::ofRelief(const FieldBlock& block, const Hit& hit, const dvec3& viewer, double away,
@@ -249,8 +283,8 @@ dvec3 Illumination::ofLamps(const Hit& hit, const auto& lobe, Random& random) co
     for (const Lamp& lamp : lamps_) {
         const auto [way, irradiance] =
             lamp.light(hit.position, lamp.isSampled() ? random.nextPair() : dvec2(0));
-        const double share = lobe.share(way.direction);
-        if (share > 0 && irradiance != dvec3(0)) sum += share * irradiance * passed(hit, way);
+        const auto share = lobe.share(way.direction);
+        if (isAny(share) && irradiance != dvec3(0)) sum += share * irradiance * passed(hit, way);
     }
     return sum;
 }
@@ -262,8 +296,8 @@ dvec3 Illumination::ofSky(const Hit& hit, const auto& lobe, Random& random) cons
     dvec3 sum{0};
     const dvec3 byLobe = lobe.choose(random.nextPair());
     for (const dvec3& direction : {around_->directions.choose(random.nextPair()).place, byLobe}) {
-        const double share = lobe.share(direction);
-        if (!(share > 0)) continue;
+        const auto share = lobe.share(direction);
+        if (!isAny(share)) continue;
         const dvec3 light = passed(hit, {direction, kInfinity});
         if (light == dvec3(0)) continue;
         const double density = around_->directions.density(direction) + lobe.density(direction);
@@ -282,6 +316,10 @@ dvec3 shownBy(const Optics& optics, const Hit& hit, const dvec3& irradiance) {
         diffuse *= sampleMap(material.diffuseMap.get(), place);
     }
     if (material.isRelief()) matt = 1 - double(material.relief().specularity);
+    // Where light comes from and goes to is not known here: straight from above, and back.
+    if (material.isGlossy())
+        diffuse =
+            std::numbers::pi * Gloss(material, hit.normal, hit.normal, Gloss::Part::Matt).share(hit.normal);
     return matt * (base + diffuse * irradiance / std::numbers::pi);
 }
 

@@ -17,6 +17,8 @@
 
 namespace lucent::truth {
 
+class Gloss;
+
 /// Light from one point of a lamp to a place.
 struct LampLight {
     LightPath way;    ///< from the place to the lamp
@@ -91,7 +93,8 @@ public:
     /// @param ior     only what a smooth boundary to a medium of this index lets through counts; 1: all
     dvec3 irradiance(const Hit& hit, const dvec3& viewer, Random& random, double ior = 1) const;
     /// Radiance of an opaque surface, W/(m² sr), by as many: of a height field by the thesis's model
-    /// (truth/Relief.h), behind everything else that stands in the light's way; of all else base + diffuse E
+    /// (truth/Relief.h), behind everything else that stands in the light's way; of a glossy one by its BRDF
+    /// (Gloss.h), with what lies around in what it mirrors where showsObjects(); of all else base + diffuse E
     /// / pi.
     ///
     /// @param away  m to where it is seen from, along a straight way; infinite
@@ -112,6 +115,8 @@ private:
         EnvironmentSampler directions;
     };
     dvec3 passed(const Hit& hit, const LightPath& way) const;
+    dvec3 radiance(const Hit& hit, const dvec3& viewer, double away, Random& random, bool around) const;
+    dvec3 ofAround(const Hit& hit, const Gloss& lobe, Random& random) const;
     dvec3 ofRelief(const FieldBlock& block, const Hit& hit, const dvec3& viewer, double away,
                    Random& random) const;
     dvec3 ofLamps(const Hit& hit, const auto& lobe, Random& random) const;
@@ -124,6 +129,7 @@ private:
 };
 
 /// Radiance of an opaque surface that receives an irradiance as a matt one does; maps colour height fields.
+/// Of glossy ones the matt part alone.
 dvec3 shownBy(const Optics& optics, const Hit& hit, const dvec3& irradiance);
 
 /// The normal of a surface on the side of a viewer: the smooth one, or where that faces away the geometric.
