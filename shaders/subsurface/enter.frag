@@ -9,7 +9,7 @@
 // out   oEntered.rgb [W/m²]
 //       oOther.rgb   OF_LAYER: the directions that it came from, times its sum over the colours; else what the surface
 //                    mirrors of lamps [W/(m² sr)]
-// model share F_t(cos) V E cos; mirror facets (subsurface/ggx.glsl) with unpolarised Fresnel; roughness 0 shows no lamp,
+// model share F_t(cos) V E cos; mirror facets (lib/ggx.glsl) with unpolarised Fresnel; roughness 0 shows no lamp,
 //       whose points are of no size
 #pragma variants - OF_LAYER
 #pragma variants - USE_OCCLUSION
@@ -28,7 +28,7 @@ layout(std140) uniform EnterBlock {
 } enter;
 #include "lib/octahedral.glsl"
 #include "lib/fresnel.glsl"
-#include "subsurface/ggx.glsl"
+#include "lib/ggx.glsl"
 #include "views/surface_pixel.glsl"
 #include "light/sample.glsl"
 #include "light/occlusion.glsl"

@@ -17,7 +17,7 @@
 #include "views/view.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/fresnel.glsl"
-#include "subsurface/ggx.glsl"
+#include "lib/ggx.glsl"
 #include "views/surface_pixel.glsl"
 layout(std140) uniform SubsurfaceShadeBlock {
     View view;
@@ -53,9 +53,7 @@ vec3 mirroredSky(vec3 normal, vec3 toEye) {
     vec3 eye = toEye * worldFromSurface;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < kFacets; ++i) {
-        // rank-1 lattice of the golden ratio
-        vec2 u = vec2((float(i) + 0.5) / float(kFacets), fract((float(i) + 0.5) * 0.61803399));
-        vec3 facet = seenFacet(eye, alpha, u);
+        vec3 facet = seenFacet(eye, alpha, latticePoint(i, kFacets));
         vec3 out_ = reflect(-eye, facet);
         if (out_.z <= 0.0) continue;
         float share = fresnelReflectance(clamp(dot(eye, facet), 0.0, 1.0), 1.0 / shade.ior) *

@@ -59,6 +59,8 @@ struct Mode {
     std::span<const Group> first; ///< groups of sliders that stand first
     /// Whether a scene begins with it, before all that stand left of it.
     bool (*leads)(const scene::Scene&) = nullptr;
+    /// Whether a scene has it; null: wherever the technique is needed.
+    bool (*has)(const scene::Scene&) = nullptr;
 };
 
 /// What can be said of a technique without a GPU: all that an exact solution asks.

@@ -56,6 +56,10 @@ const technique::Technique* ownerOf(Aov aov) {
     return nullptr;
 }
 
+bool isOffered(const technique::Technique& one, const scene::Scene& scene) {
+    return one.mode->has ? one.mode->has(scene) : one.need(scene).has_value();
+}
+
 bool scatters(const scene::Object& object) {
     return object.visible && !object.isField() && object.material.isScattering();
 }
@@ -70,8 +74,8 @@ std::span<const Param> modeParams() {
              .label = "Mode",
              .group = Group::Mode,
              .doc = "Which sliders stand first, and which views Show offers: those of the light on a relief, "
-                    "of what is seen through glass and water, of the light that these throw, or of light "
-                    "inside things; or the brush that paints on these.",
+                    "of what is seen through glass and water, of the light that these throw, of light "
+                    "inside things, or of how surfaces reflect it (brdf); or the brush that paints on these.",
              .choices = modeNames(),
              .attribute = "mode"}),
         declare(&ModeSettings::matt,
@@ -112,7 +116,7 @@ void applyMatt(const ModeSettings& settings, scene::Scene& scene) { scene.view.m
 std::vector<Mode> modesOf(const scene::Scene& scene) {
     std::vector<Mode> modes;
     for (std::size_t i = 0; i < workedOn().size(); ++i)
-        if (workedOn()[i]->need(scene)) modes.push_back(Mode(i));
+        if (isOffered(*workedOn()[i], scene)) modes.push_back(Mode(i));
     if (std::any_of(scene.objects.begin(), scene.objects.end(), isPaintable)) modes.push_back(paintMode());
     if (modes.empty()) modes.push_back(Mode{});
     return modes;

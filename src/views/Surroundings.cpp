@@ -53,7 +53,7 @@ Outlook outlookFrom(const scene::Scene& scene, int object) {
     const scene::Object& one = scene.objects[std::size_t(object)];
     return {.name = one.name,
             .place = boundsOf(one).center(),
-            .object = one.material.isMirror() ? object : -1,
+            .object = one.material.isMirror() || one.material.isGlossy() ? object : -1,
             .reflectance = one.material.isMirror() ? one.material.mirror().reflectance : vec3(0),
             .hidden = {object}};
 }

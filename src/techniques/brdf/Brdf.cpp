@@ -1,7 +1,11 @@
 #include "techniques/brdf/Brdf.h"
 
+#include "scene/ReflectanceTable.h"
 #include "shaders/brdf/Blocks.h"
+#include "techniques/brdf/Reflector.h"
 #include "views/Paint.h"
+
+#include <algorithm>
 
 namespace lucent::brdf {
 
@@ -13,15 +17,46 @@ MattBlock mattBlock(const Inputs& in, int first) {
     block.first = first;
     block.firstLight = in.first;
     block.endLight = in.end;
+    block.placed = in.placed;
     block.columns = in.occlusion.columns;
     for (const auto& solid : in.solids) {
         const int place = solid->index - first;
         if (place < 0 || place >= kMostMatter) continue;
         const scene::Material& material = solid->object->material;
         const float matt = material.isRelief() ? 1 - material.relief().specularity : 1;
-        block.matter[std::size_t(place)] = {vec4(matt * material.base, 0), vec4(matt * material.diffuse, 1)};
+        const ReflectorValues values = reflectorOf(material);
+        if (std::holds_alternative<scene::MeasuredBrdf>(material.kind)) continue;
+        block.matter[std::size_t(place)] = {vec4(matt * material.base, showsObjects(material) ? 1 : 0),
+                                            vec4(matt * material.diffuse, 1), values.specular, values.lobe};
     }
     return block;
+}
+
+// Of one measured object alone.
+MattBlock measuredBlock(const Inputs& in, const views::Drawable& solid) {
+    MattBlock block = mattBlock(in, solid.index);
+    block.matter = {};
+    const scene::Material& material = solid.object->material;
+    const auto& measured = std::get<scene::MeasuredBrdf>(material.kind);
+    block.matter[0] = {vec4(material.base, 0), vec4(1), vec4(0), vec4(0)};
+    block.form = int(measured.form);
+    block.blocks = std::max(1, scene::blocksOf(*measured.table, measured.blocks));
+    return block;
+}
+
+void setSky(auto& block, const auto& in) {
+    if (in.environment == graph::TextureHandle::None) return;
+    block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.scene.environment->rotation)));
+    block.intensity = in.scene.environment->intensity;
+}
+
+// The cube view from an object; -1: none.
+int cubeOf(const views::Surroundings* surroundings, int object) {
+    if (!surroundings) return -1;
+    const auto& cubes = surroundings->cubes;
+    const auto found = std::find_if(cubes.begin(), cubes.end(),
+                                    [&](const views::Outlook& cube) { return cube.object == object; });
+    return found == cubes.end() ? -1 : int(found - cubes.begin());
 }
 
 MirrorBlock mirrorBlock(const MirrorInputs& in, const views::Drawable& mirror) {
@@ -29,19 +64,34 @@ MirrorBlock mirrorBlock(const MirrorInputs& in, const views::Drawable& mirror) {
                       .around = views::aroundBlock(in.surroundings),
                       .reflectance = vec4(mirror.object->material.mirror().reflectance, 0),
                       .object = mirror.index,
-                      .cube = -1};
+                      .cube = cubeOf(in.surroundings, mirror.index)};
     if (in.surroundings) {
-        const auto& cubes = in.surroundings->cubes;
-        for (std::size_t i = 0; i < cubes.size(); ++i)
-            if (cubes[i].object == block.object) block.cube = int(i);
         const auto& flat = in.surroundings->flat;
         for (std::size_t i = 0; i < flat.size(); ++i)
             if (flat[i].object == block.object)
                 block.flats[std::size_t(block.flatCount++)] = vec4(flat[i].normal, i);
     }
-    if (in.environment == graph::TextureHandle::None) return block;
-    block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.scene.environment->rotation)));
-    block.intensity = in.scene.environment->intensity;
+    setSky(block, in);
+    return block;
+}
+
+// By the offset of the pixel's sample: each sample of a pixel takes other directions.
+vec2 turnOf(const views::Eye& eye, ivec2 size) { return glm::fract(0.5f * eye.shift * vec2(size)); }
+
+LobeBlock lobeBlock(const Inputs& in, const views::Drawable& glossy) {
+    const scene::Material& material = glossy.object->material;
+    const ReflectorValues values = reflectorOf(material);
+    LobeBlock block{.view = views::viewBlock(in.eye, in.size),
+                    .around = views::aroundBlock(in.surroundings),
+                    .diffuse = values.diffuse,
+                    .specular = values.specular,
+                    .lobe = values.lobe,
+                    .turn = turnOf(in.eye, in.size),
+                    .alpha = facetAlphaOf(material),
+                    .directions = in.lobeDirections,
+                    .object = glossy.index,
+                    .cube = cubeOf(in.surroundings, glossy.index)};
+    setSky(block, in);
     return block;
 }
 
@@ -81,14 +131,54 @@ std::optional<std::string> Brdf::need(const scene::Scene& scene) {
         if (!object.visible || !shades(object)) continue;
         return "object \"" + object.name + "\" is " +
                (object.material.isMirror()       ? "a mirror"
+                : object.material.isGlossy()     ? "a glossy surface"
                 : object.material.isScattering() ? "painted, and matt where it is not translucent"
                                                  : "an opaque surface");
     }
     return std::nullopt;
 }
 
+// What narrow lobes mirror of what is around; none where there is nothing.
+graph::TextureId Brdf::recordLobes(graph::FrameGraph& graph, const Inputs& in) const {
+    const bool hasSky = in.environment != graph::TextureHandle::None;
+    const bool hasCubes = in.surroundings && in.surroundings->hasCubes();
+    std::vector<graph::Block> blocks;
+    for (const auto& solid : in.solids)
+        if (showsObjects(solid->object->material)) blocks.push_back(lobeBlock(in, *solid));
+    if (blocks.empty() || (!hasSky && !hasCubes)) return {};
+    std::vector<std::string> defines;
+    if (hasSky) defines.push_back("USE_SKY");
+    if (hasCubes) defines.push_back("USE_AROUND");
+    const gl::Program* program = context_.program("brdf/lobe", defines);
+    std::vector<graph::Binding> kept;
+    if (hasSky) kept.push_back({"uEnvironment", in.environment});
+    if (hasCubes) {
+        kept.push_back({"uAround", in.surroundings->radiance});
+        kept.push_back({"uAroundSolid", in.surroundings->solid});
+    }
+    graph::TextureId mirrored;
+    graph.addPass("brdf.lobe", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what " + std::to_string(blocks.size()) + " glossy object(s) mirror of what is around, " +
+                    std::to_string(in.lobeDirections) + " directions a pixel");
+        pass.sample(in.surface);
+        mirrored = pass.createColor("brdf.lobe", {.size = in.size, .format = graph::Format::RGBA32F});
+        pass.clear(mirrored, vec4(0));
+        return [=, surface = in.surface](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures = kept;
+            textures.push_back({"uSurface", resources[surface]});
+            for (const graph::Block& block : blocks)
+                commands.draw({.program = program, .block = block, .textures = textures});
+        };
+    });
+    return mirrored;
+}
+
 Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
     if (in.solids.empty()) return Done{};
+    const bool isGlossy = in.show == scene::Aov::Color &&
+                          std::any_of(in.solids.begin(), in.solids.end(),
+                                      [](const auto& one) { return one->object->material.isGlossy(); });
+    const graph::TextureId mirrored = isGlossy && in.first == 0 ? recordLobes(graph, in) : graph::TextureId{};
     const graph::TextureId surface = in.surface, table = in.lightTable, target = in.target;
     const graph::TextureId occlusion = in.occlusion.texture;
     const graph::TextureId flux = in.first == 0 ? in.flux : graph::TextureId{};
@@ -97,16 +187,39 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
     if (occlusion) defines.push_back("USE_OCCLUSION");
     if (flux) defines.push_back("USE_FLUX");
     if (in.show == scene::Aov::Irradiance) defines.push_back("SHOW_IRRADIANCE");
+    if (isGlossy) defines.push_back("GLOSSY");
+    if (mirrored) defines.push_back("USE_MIRRORED");
     const gl::Program* program = context_.program("brdf/light", defines);
     std::vector<graph::Block> blocks;
     for (int first = 0; first < int(in.scene.objects.size()); first += kMostMatter)
         blocks.push_back(mattBlock(in, first));
+    struct Measured {
+        graph::Block block;
+        graph::TextureHandle table;
+    };
+    std::vector<Measured> measured;
+    const bool hasTable = in.show != scene::Aov::Irradiance;
+    for (const auto& solid : in.solids) {
+        const auto* kind = std::get_if<scene::MeasuredBrdf>(&solid->object->material.kind);
+        if (!kind) continue;
+        Result<graph::TextureHandle> table = in.table(kind->table);
+        if (!table) return table.error();
+        measured.push_back({measuredBlock(in, *solid), *table});
+    }
+    const gl::Program* lookup = nullptr;
+    if (!measured.empty()) {
+        std::erase(defines, "GLOSSY");
+        std::erase(defines, "USE_MIRRORED");
+        if (hasTable) defines.push_back("MEASURED");
+        lookup = context_.program("brdf/light", defines);
+    }
     graph.addPass("brdf.light", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("light samples " + std::to_string(in.first) + " to " + std::to_string(in.end - 1) +
-                    " on " + std::to_string(in.solids.size()) + " matt object(s)");
+                    " on " + std::to_string(in.solids.size()) + " matt" + (isGlossy ? " or glossy" : "") +
+                    " object(s)");
         pass.sample(surface);
         pass.sample(table);
-        for (const graph::TextureId id : {occlusion, flux, sum})
+        for (const graph::TextureId id : {occlusion, flux, sum, mirrored})
             if (id) pass.sample(id);
         pass.write(target);
         if (in.clears) pass.clear(target, vec4(0));
@@ -116,16 +229,35 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
             if (occlusion) textures.push_back({"uOcclusion", resources[occlusion]});
             if (flux) textures.push_back({"uFlux", resources[flux]});
             if (sum) textures.push_back({"uSum", resources[sum]});
+            if (mirrored) textures.push_back({"uMirrored", resources[mirrored]});
             for (const graph::Block& block : blocks)
                 commands.draw({.program = program, .block = block, .textures = textures});
+            if (mirrored) textures.pop_back();
+            for (const Measured& one : measured) {
+                std::vector<graph::Binding> own = textures;
+                if (hasTable) own.push_back({"uTable", one.table});
+                commands.draw({.program = lookup, .block = one.block, .textures = own});
+            }
         };
     });
     return Done{};
 }
 
 const ParamTable& params() {
-    static const Param list[] = {declare(&Settings::surroundings, views::aroundText())};
-    static const ParamTable table = tableOf<Settings>("brdf", list, "Mirrors");
+    static const Param list[] = {
+        declare(&Settings::surroundings, views::aroundText()),
+        declare(&Settings::lobeDirections,
+                {.id = "lobeDirections",
+                 .label = "Directions of a lobe",
+                 .min = 1,
+                 .max = 1024,
+                 .low = 1,
+                 .high = 64,
+                 .group = Group::Environment,
+                 .doc = "In how many directions a glossy surface looks around, in each sample of a pixel: "
+                        "more make what it mirrors smoother and take longer."}),
+    };
+    static const ParamTable table = tableOf<Settings>("brdf", list, "Mirrors and gloss");
     return table;
 }
 

@@ -2,6 +2,7 @@
 
 #include "technique/Guest.h"
 #include "techniques/brdf/Brdf.h"
+#include "techniques/brdf/Reflector.h"
 #include "views/Surface.h"
 
 #include <algorithm>
@@ -13,10 +14,11 @@ namespace {
 
 using scene::Aov;
 
+// Matt or glossy: light samples light it.
 bool isMatt(const scene::Object& object) {
     const scene::Material& material = object.material;
     if (!object.visible || object.isField()) return false;
-    return material.isRelief() || std::holds_alternative<scene::Matt>(material.kind) ||
+    return material.isRelief() || material.isGlossy() || std::holds_alternative<scene::Matt>(material.kind) ||
            views::isPainted(object);
 }
 
@@ -28,6 +30,8 @@ bool looks(const scene::Object& object) {
     return !object.isField() && (object.material.isMirror() || object.material.isRefractive());
 }
 bool isAnything(const scene::Object&) { return true; }
+bool isGlossy(const scene::Object& object) { return object.visible && object.material.isGlossy(); }
+bool showsAround(const scene::Object& object) { return object.visible && showsObjects(object.material); }
 
 template <class Is>
 int countVisible(const scene::Scene& scene, Is is) {
@@ -35,15 +39,16 @@ int countVisible(const scene::Scene& scene, Is is) {
                              [&](const scene::Object& object) { return object.visible && is(object); }));
 }
 
-views::Around aroundOf(const scene::Scene& scene) {
+Settings settingsOf(const scene::Scene& scene) {
     const auto settings = scene.technique.find("brdf");
-    return settings == scene.technique.end() ? Settings{}.surroundings
-                                             : settings->second.as<Settings>().surroundings;
+    return settings == scene.technique.end() ? Settings{} : settings->second.as<Settings>();
 }
+views::Around aroundOf(const scene::Scene& scene) { return settingsOf(scene).surroundings; }
 
 class BrdfGuest : public technique::Guest {
 public:
-    explicit BrdfGuest(const technique::Store& store) : context_(store.context), brdf_(store.context) {}
+    explicit BrdfGuest(const technique::Store& store)
+        : context_(store.context), images_(store.images), brdf_(store.context) {}
 
     bool shades(const scene::Scene& scene) const override {
         const Aov show = scene.view.show;
@@ -61,12 +66,17 @@ public:
                                            .lightTable = slice.table,
                                            .first = slice.first,
                                            .end = slice.end,
+                                           .placed = slice.placed,
                                            .occlusion = slice.occlusion,
                                            .flux = slice.flux,
                                            .sum = slice.sum,
                                            .target = slice.target,
                                            .show = picture.scene.view.show,
-                                           .clears = slice.clears});
+                                           .clears = slice.clears,
+                                           .environment = picture.environment,
+                                           .surroundings = picture.surroundings,
+                                           .lobeDirections = settingsOf(picture.scene).lobeDirections,
+                                           .table = [this](const auto& map) { return images_.image(map); }});
     }
     Status scatter(const technique::Passes& passes, graph::TextureId shown) override {
         const technique::Picture& picture = passes.picture;
@@ -99,17 +109,22 @@ public:
         const bool isSeenByOthers = countVisible(scene, looks) > 1;
         for (int i = 0; i < int(scene.objects.size()); ++i) {
             const scene::Object& object = scene.objects[std::size_t(i)];
+            if (showsAround(object)) addCubes(scene, i, asked);
             if (!isShownMirror(object)) continue;
             const std::vector<views::FlatMirror> sides = views::flatSides(scene, i, picture.eye);
             asked.flat.insert(asked.flat.end(), sides.begin(), sides.end());
             if (isSeenByOthers || !views::isFlat(object) || sides.size() > std::size_t(views::kMostFlat))
-                for (views::Outlook& outlook : views::outlooksFromMirror(scene, i))
-                    asked.cubes.push_back(std::move(outlook));
+                addCubes(scene, i, asked);
         }
     }
 
 private:
+    static void addCubes(const scene::Scene& scene, int object, views::Outlooks& asked) {
+        for (views::Outlook& outlook : views::outlooksFromMirror(scene, object))
+            asked.cubes.push_back(std::move(outlook));
+    }
     gl::Context& context_;
+    views::ImageCache& images_;
     Brdf brdf_;
 };
 
@@ -120,11 +135,24 @@ bool isShinyMesh(const scene::Scene& scene) {
         return relief.specularity > 0 || relief.forwardScatter > 0;
     });
 }
-bool hasMirror(const scene::Scene& scene) { return countVisible(scene, isShownMirror) > 0; }
+bool hasMirror(const scene::Scene& scene) {
+    return countVisible(scene, isShownMirror) + countVisible(scene, showsAround) > 0;
+}
 bool isAlone(const scene::Scene& scene) { return countVisible(scene, isAnything) < 2; }
 bool shows(const scene::Scene& scene, views::Around around) {
     return hasMirror(scene) && !isAlone(scene) && aroundOf(scene) == around;
 }
+constexpr Group kFirst[] = {Group::Mode, Group::Material, Group::Light, Group::Environment, Group::View};
+bool hasGloss(const scene::Scene& scene) { return countVisible(scene, isGlossy) > 0; }
+constexpr double kDirections[] = {4, 8, 16, 32, 64};
+constexpr technique::Knob kKnobs[] = {
+    {.id = "lobeDirections",
+     .coarse = 4,
+     .steps = kDirections,
+     .most = 64,
+     .words = "directions of a lobe",
+     .acts = [](const scene::Scene& scene) { return countVisible(scene, showsAround) > 0; }},
+};
 const technique::NotDrawn kLimits[] = {
     {"objects in mirrors",
      "technique.brdf.surroundings is environment",
@@ -149,6 +177,28 @@ const technique::NotDrawn kLimits[] = {
          };
          return shows(scene, views::Around::Surroundings) && countVisible(scene, isCurved) > 0;
      }},
+    {"objects in glossy surfaces",
+     "technique.brdf.surroundings is view, which only mirrors know",
+     [](const scene::Scene& scene) {
+         return shows(scene, views::Around::View) && countVisible(scene, showsAround) > 0;
+     },
+     {},
+     "surroundings",
+     "surroundings"},
+    {"objects in what rough surfaces mirror",
+     "above a roughness of 0.5 they only stand in the way of the light",
+     [](const scene::Scene& scene) {
+         const auto isRough = [](const scene::Object& object) {
+             return hasLobe(object.material) && !showsObjects(object.material);
+         };
+         return !isAlone(scene) && countVisible(scene, isRough) > 0;
+     }},
+    {"highlights of caustics", "their light comes from directions that are not known",
+     [](const scene::Scene& scene) {
+         const auto throws = [](const scene::Object& object) { return looks(object); };
+         return countVisible(scene, isGlossy) > 0 &&
+                std::any_of(scene.objects.begin(), scene.objects.end(), throws);
+     }},
     {"highlight and forward scattering of a relief material on other shapes than height fields",
      "without heights of its own a surface is drawn as the model's matt part", isShinyMesh},
 };
@@ -160,7 +210,9 @@ const technique::Technique kTechnique{
     .name = "brdf",
     .need = Brdf::need,
     .shades = Brdf::shades,
+    .knobs = kKnobs,
     .limits = kLimits,
+    .mode = technique::Mode{.name = "brdf", .place = 4, .first = kFirst, .has = hasGloss},
     .make = [](const technique::Store& store) -> std::unique_ptr<technique::Guest> {
         return std::make_unique<BrdfGuest>(store);
     },

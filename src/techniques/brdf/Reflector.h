@@ -1,0 +1,36 @@
+#pragma once
+/// How glossy materials send light back, by the very lines that the shaders run (shaders/brdf/models.glsl).
+
+#include "scene/Scene.h"
+
+namespace lucent::brdf {
+
+/// What models.glsl calls a Reflector, as blocks of shaders hold it.
+struct ReflectorValues {
+    vec4 diffuse; ///< a: 1
+    vec4 specular;
+    vec4 lobe; ///< alpha, exponent, asPrinted, model
+};
+ReflectorValues reflectorOf(const scene::Material& material);
+
+/// Alpha of the GGX facets by which directions of a glossy lobe are chosen.
+float facetAlphaOf(const scene::Material& material);
+/// Whether a surface mirrors in a lobe at all: Oren and Nayar's does not.
+bool hasLobe(const scene::Material& material);
+/// Whether it shows the objects around in what it mirrors (scene::kMostMirroringRoughness).
+bool showsObjects(const scene::Material& material);
+
+/// BRDF times the light's cosine, 1/sr of each colour.
+///
+/// @param normal, toLight, toEye  unit
+vec3 shareOf(const scene::Material& material, vec3 normal, vec3 toLight, vec3 toEye);
+
+/// Share of even light from all around that is seen from a cosine to the normal, of each colour: the white
+/// furnace's number, which no more than 1 of conserves energy. To 0.5 %.
+vec3 directionalAlbedo(const scene::Material& material, float cosine);
+
+/// The largest difference of the BRDF between two directions and the same two exchanged, over its larger
+/// value, of some hundred pairs: rounding alone, for models that are reciprocal.
+float reciprocityError(const scene::Material& material);
+
+} // namespace lucent::brdf
