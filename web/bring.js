@@ -66,6 +66,8 @@ export async function bringScene(files, { ask, solve }) {
     const plain = await plainFile(mesh, files);
     return askReaders([plain], takeScene, 'reader_bring_mesh', plain.name);
   }
+  const table = files.find(({ name }) => /\.binary$/i.test(name));
+  if (table) return askReaders([{ name: table.name, bytes: await bytesOf(table) }], takeScene, 'reader_bring_table', table.name);
   const ptm = files.find(({ name }) => /\.ptm$/i.test(name));
   if (ptm) return askReaders([{ name: ptm.name, bytes: await bytesOf(ptm) }], takeScene, 'reader_bring_ptm', ptm.name);
   const plain = await Promise.all(files.map((file) => plainFile(file, files)));

@@ -22,6 +22,7 @@ Command addExplain(CLI::App& program);
 Command addList(CLI::App& program);
 Command addConvert(CLI::App& program);
 Command addPaint(CLI::App& program);
+Command addTabulate(CLI::App& program);
 Command addSchema(CLI::App& program);
 Command addBench(CLI::App& program);
 Command addReport(CLI::App& program);

@@ -130,7 +130,7 @@ Command addConvert(CLI::App& program) {
             "Mesh (.gltf, .glb, .obj, .mesh) or image (.png, .jpg, .hdr, .exr, .pfm); for a folder also "
             "several images that belong together, by what their names end in (_height, _normal, _albedo, "
             "_alpha, _specular), a light file of photographs (.lp: normals and colours by photometric "
-            "stereo), or a .ptm")
+            "stereo), a .ptm, or a .binary of the MERL database")
         ->required();
     addOutput(
         *parser, options->output,

@@ -203,6 +203,13 @@ const char* reader_bring_mesh(const char* name) {
     return answer(scene::sceneOfMesh(name, mesh));
 }
 
+/// The same of a table of a BRDF that was put.
+const char* reader_bring_table(const char* name) {
+    const Bytes table = std::move(converter().files[name]);
+    converter().files.clear();
+    return answer(scene::sceneOfTable(name, table));
+}
+
 /// The same of a PTM file that was put.
 const char* reader_bring_ptm(const char* name) {
     const Bytes file = std::move(converter().files[name]);
