@@ -78,7 +78,7 @@ public:
         }
         if (indirectly_)
             for (const SeenPlace& place : indirectly_->all())
-                worth[place.pixel] += place.weight * radianceBy(place.hit, dvec3(1 / areaOf(place)));
+                worth[place.pixel] += place.weight * radianceBy(place.hit, dvec3(1 / place.area));
         return worth;
     }
 
@@ -126,14 +126,13 @@ private:
         brought.add(row + std::size_t(pixel.x), valueOf(hit, irradiance));
     }
 
-    /// Spreads flux evenly over a disc around it.
+    /// Spreads flux evenly over the surface around it.
     void depositThroughGlass(const Hit& hit, const dvec3& direction, const dvec3& flux,
                              Brought& brought) const {
         indirectly_->near(hit, direction, [&](const SeenPlace& place) {
-            brought.add(place.pixel, place.weight * radianceBy(place.hit, flux / areaOf(place)));
+            brought.add(place.pixel, place.weight * radianceBy(place.hit, flux / place.area));
         });
     }
-    static double areaOf(const SeenPlace& place) { return std::numbers::pi * place.radius * place.radius; }
 
     dvec3 valueOf(const Hit& hit, const dvec3& irradiance) const {
         return options_.aov == scene::Aov::Color ? radianceBy(hit, irradiance) : irradiance;

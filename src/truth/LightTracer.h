@@ -25,8 +25,8 @@ struct LightOptions {
 
 /// Irradiance, W/m², of the opaque surfaces that the camera sees with nothing before them; coverage is 1
 /// where the pixel's middle shows one. Or the colour that they have by it, and of all else that of
-/// GlassEstimator, with the caustics that are seen through glass or in a mirror, spread over discs as wide as
-/// two pixels (SeenPlaces). Two parts, added:
+/// GlassEstimator, with the caustics that are seen through glass or in a mirror, spread over what the surface
+/// has within a pixel's width (SeenPlaces). Two parts, added:
 ///
 /// - Light straight from the lamps and the environment (Illumination), in the pixel's middle or as the
 ///   mean over it (PixelMean).

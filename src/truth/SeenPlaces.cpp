@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lucent::truth {
 
@@ -36,14 +37,48 @@ void SeenPlaces::add(const Optics& optics, const Eye& eye, std::size_t pixel, co
     const auto addEnd = [&](const Arrival& arrival, double before) {
         if (arrival.at != Arrival::At::Opaque || arrival.surfaces + (before > 0 ? 1 : 0) == 0) return;
         const double away = before + arrival.length;
-        places_.push_back(
-            {arrival.hit, -arrival.direction, colors * arrival.weight, eye.pixelWidth(away), pixel});
+        SeenPlace place{arrival.hit, -arrival.direction, colors * arrival.weight, eye.pixelWidth(away), 0,
+                        pixel};
+        place.area = areaAround(optics, place);
+        places_.push_back(place);
     };
     const Arrival arrival = follow(optics, beam, channel, Branching::Chain, {}, unused);
     addEnd(arrival, 0);
     if (arrival.mirrored)
         addEnd(follow(optics, *arrival.mirrored, channel, Branching::Chain, {}, unused),
                arrival.firstDistance);
+}
+
+/// Lines along the normal, evenly over the disc around a place, meet the surface where neither an edge of its
+/// shape nor another shape that stands on it takes its place. One that begins behind such a shape counts as
+/// met by that.
+double SeenPlaces::areaAround(const Optics& optics, const SeenPlace& place) {
+    const dvec3 up = glm::dot(place.hit.normal, place.viewer) < 0 ? -place.hit.normal : place.hit.normal;
+    const dvec3 right =
+        glm::normalize(glm::cross(up, std::abs(up.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
+    const dvec3 front = glm::cross(up, right);
+    const dvec3 above = place.hit.position + place.radius * up;
+    const auto firstOpaque = [&](const dvec3& origin, const dvec3& direction, double length) {
+        WorldRay ray{origin, direction, length};
+        std::optional<Hit> hit;
+        while ((hit = optics.rays().intersect(ray)) && !optics.isOpaque(hit->shape))
+            ray.begin = hit->distance + optics.rays().gap();
+        return hit;
+    };
+    double sum = 0;
+    for (int i = 0; i < kAreaRays; ++i) {
+        const double reach = place.radius * std::sqrt((i + 0.5) / kAreaRays);
+        const double angle =
+            i * std::numbers::pi * (3 - std::sqrt(5.0)); // golden: evenly spread (Vogel 1979)
+        const dvec3 aside = std::cos(angle) * right + std::sin(angle) * front;
+        if (firstOpaque(above, aside, reach)) continue;
+        const auto hit = firstOpaque(above + reach * aside, -up, 2 * place.radius);
+        if (!hit || hit->shape != place.hit.shape) continue;
+        const double slope = std::abs(glm::dot(hit->normal, up));
+        if (slope > 0 && glm::distance(hit->position, place.hit.position) <= place.radius) sum += 1 / slope;
+    }
+    const double disc = std::numbers::pi * place.radius * place.radius;
+    return disc * std::max(sum, 1.0) / kAreaRays; // it is on the surface itself
 }
 
 /// Cells that share a key cost time only: places are compared by themselves.

@@ -18,6 +18,7 @@ struct SeenPlace {
     dvec3 viewer;      ///< unit, to where it is seen from
     dvec3 weight;      ///< of its radiance in the pixel
     double radius;     ///< m: a pixel's width, as far away as light had to come
+    double area;       ///< m², of the shape's surface no further than that, by kAreaRays lines
     std::size_t pixel; ///< row by row
 };
 
@@ -47,9 +48,12 @@ public:
 private:
     glm::i64vec3 cellOf(const dvec3& place) const { return glm::i64vec3(glm::floor(place / cell_)); }
     static std::uint64_t key(const glm::i64vec3& cell);
+    static double areaAround(const Optics& optics, const SeenPlace& place);
     static bool reaches(const SeenPlace& place, const Hit& hit, const dvec3& direction);
     void add(const Optics& optics, const Eye& eye, std::size_t pixel, const Beam& beam, int channel,
              const dvec3& colors);
+
+    static constexpr int kAreaRays = 64;
 
     std::vector<SeenPlace> places_;
     double cell_ = 1;                                                   ///< m: the largest radius

@@ -457,6 +457,29 @@ TEST(LightTracer, ColoursAreThoseOfGlassWithCausticsDirectlyAndThroughIt) {
               "truth: AOV depth is not traced by light; must be irradiance or color");
 }
 
+TEST(LightTracer, ThroughGlassAFloorOfTwoPartsIsAsBrightWhereTheyMeet) {
+    scene::Scene scene = floorUnder(glass(scene::Box{{4, 0.5f, 4}}, 1.5f, {0, 2, 0}), 1);
+    scene.objects[1].visible = true;
+    scene.objects[0] = matt(scene::Plane{{20, 40}}, {-10, 0, 0});
+    scene.objects.push_back(matt(scene::Plane{{20, 40}}, {10, 0, 0}));
+    scene.objects.push_back(matt(scene::Box{{2, 0.1f, 2}}, {-1.25f, 0.05f, 0})); // it covers a part beside
+    scene.lights = {scene::DistantLight{.direction = {0, -1, 0}, .irradiance = 2}};
+    const Picture picture = traced(scene, {16, 16}, {.aov = scene::Aov::Color, .photons = 1'000'000});
+    const double shown = std::pow(0.96, 4) * 2 * double(0.8f) / kPi; // the material's diffuse
+    for (const int column :
+         {2, 3, 4, 7, 8, 12}) { // the box ends between 3 and 4, the parts meet between 7 and 8
+        double sum = 0, squares = 0;
+        for (int row = 0; row < 16; ++row) {
+            const double error = double(picture.errors.at(column, row)[1]);
+            sum += double(picture.values.at(column, row)[1]) / 16;
+            squares += error * error / 256;
+        }
+        // Rays count in up to four pixels, so errors of a sum are up to twice as large; areas are known to 2
+        // %.
+        EXPECT_NEAR(sum, shown, 0.02 * shown + 4 * 2 * std::sqrt(squares)) << column;
+    }
+}
+
 TEST(LightTracer, ColoursOverPixelsAreTheMeanOfWhatIsCovered) {
     // Half of the only pixel shows the floor, its middle included; what is beside it is nothing.
     scene::Scene scene = sceneOf({matt(scene::Plane{{0.5f, 2}})});
