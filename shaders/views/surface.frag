@@ -1,10 +1,10 @@
 // views/surface.frag: the first point of a height field that an eye ray meets.
 //
-// in    uFirst    AS_SHADOW, BEHIND: as in views/shadow.frag
-// out   oSurface  see surface_pixel.glsl
+// in    uFirst    AS_SHADOW, BEHIND: as in views/shadow.frag; SECOND: views/second.glsl
+// out   oSurface  see surface_pixel.glsl; SECOND: of what the first object hides
 //       oDepth    AS_SHADOW: [m] along the view, as in views/shadow.frag
 // model the bilinear field itself, met exactly; side walls down to field.bottom; open below
-#pragma variants - AS_SHADOW
+#pragma variants - AS_SHADOW SECOND
 #pragma variants - BEHIND if AS_SHADOW
 #include "views/surface_block.glsl"
 #include "views/surface_pixel.glsl"
@@ -17,6 +17,9 @@ layout(location = 0) out vec4 oSurface;
 #ifdef BEHIND
 uniform sampler2D uFirst;
 const float kSame = 1e-5; // of a depth: what rounding may part
+#endif
+#ifdef SECOND
+#include "views/second.glsl"
 #endif
 
 // Coverage at g: the alpha image stretched over the footprint, bilinear between its texel centres.
@@ -45,6 +48,9 @@ int wallFace(vec2 g, vec3 direction) {
 }
 
 void main() {
+#ifdef SECOND
+    if (isFirst(surface.object)) discard;
+#endif
     // The ray from the pixel's own coordinates: what rasterisers interpolate carries their rounding of corners.
     vec4 onFarPlane = surface.objectFromPixel * vec4(gl_FragCoord.xy - surface.corner - 0.5 * surface.size, 1.0, 1.0);
     vec3 far = onFarPlane.xyz / onFarPlane.w;

@@ -2,10 +2,12 @@
 //
 // A look at the cube says how far a place lies before what is seen in its direction. A crossing is looked for where that
 // changes its sign, and lies on the plane of the surface that the texel shows: depths between texels need no guess.
-// Where the ray passes behind an edge instead, what it may meet there is hidden from the cube's middle: it goes on as
-// what is seen beside the edge, as a floor does behind a ball that stands on it.
+// Where the ray passes behind an edge instead, it is looked for in what the cube shows without the first object in each
+// direction. Where that hides the place too, or there is none, the ray goes on as what is seen beside the edge, as a
+// table's side does that turns away.
 //
-// in    uAround       radiance; layer 6 * cube + face (+x, -x, +y, -y, +z, -z)
+// in    uAround       radiance; layer 6 * cube + face (+x, -x, +y, -y, +z, -z); behind those of all cubes the same of
+//                     the second objects
 //       uAroundSolid  x: depth along the face's axis [m]; yz: octahedral normal towards the middle; w: number of the
 //                     object in the scene + 1, 0: nothing there
 // The file that includes this defines AROUND, an Around, and environmentAt(direction).
@@ -18,6 +20,9 @@ const float kTexelsALook = 2.0;
 const int kHalvings = 5;
 const float kSamePlane = 2.0; // texels from the one that shows a plane, within which it may be met: normals are the
                               // texel's own, surfaces bend
+const float kDeepest = 8.0; // widths of a texel that a surface goes deeper from one to the next: it would be 7 degrees
+                              // from edge-on. A plane seen at an outline would reach as far back as anybody looks.
+                              // Chosen by eye
 
 struct Glance {
     float gap;   // [m] by which a place lies before the plane of the surface there; 1e30: nothing there
@@ -32,6 +37,7 @@ struct Met {
     int object;
     vec3 radiance;
 };
+const Met kNothingMet = Met(1e30, vec3(0.0), vec3(0.0), -1, vec3(0.0));
 
 // A vector by a face: to its right, up, and along its axis.
 vec3 inFace(int face, vec3 v) {
@@ -57,8 +63,8 @@ int faceTowards(vec3 v) {
 
 float sizeOfFace() { return float(textureSize(uAroundSolid, 0).x); }
 
-bool isShown(int layer) {
-    return ((int(AROUND.cubes[layer / 6].reflectance.a) >> (layer % 6)) & 1) == 1;
+bool isShown(int cube, int face, int place) {
+    return ((int(AROUND.cubes[cube].reflectance.a) >> (6 * place + face)) & 1) == 1;
 }
 
 vec2 pixelIn(vec3 u) { return (0.5 + 0.5 * u.xy / max(u.z, 1e-20)) * sizeOfFace(); }
@@ -69,11 +75,12 @@ vec3 placeOf(ivec3 texel, float depth) {
     return fromFace(texel.z % 6, vec3(depth * p, depth));
 }
 
-Glance glanceAt(int cube, vec3 v) {
+// @param place  0: of the first objects; 1: of those that they hide
+Glance glanceAt(int cube, int place, vec3 v) {
     int face = faceTowards(v);
-    int layer = 6 * cube + face;
+    int layer = 6 * (cube + place * AROUND.count) + face;
     ivec3 texel = ivec3(clamp(ivec2(pixelIn(inFace(face, v))), ivec2(0), ivec2(sizeOfFace()) - 1), layer);
-    vec4 solid = isShown(layer) ? texelFetch(uAroundSolid, texel, 0) : vec4(0.0);
+    vec4 solid = isShown(cube, face, place) ? texelFetch(uAroundSolid, texel, 0) : vec4(0.0);
     float gap = solid.w == 0.0 ? 1e30 : dot(v - placeOf(texel, solid.x), fromOctahedral(solid.yz));
     return Glance(gap, texel, solid);
 }
@@ -86,12 +93,16 @@ float planeAlong(Glance glance, vec3 origin, vec3 direction) {
     return dot(placeOf(glance.texel, glance.solid.x) - origin, n) / slope;
 }
 
-// The same where it does so near the texel.
+// The same where it does so near the texel, and in a texel that shows the object, too: beside an outline there is nothing
+// of the plane.
 float surfaceAlong(Glance glance, vec3 origin, vec3 direction) {
     float t = planeAlong(glance, origin, direction);
     vec3 u = inFace(glance.texel.z % 6, origin + t * direction);
     vec2 apart = abs(pixelIn(u) - vec2(glance.texel.xy) - 0.5);
-    return u.z > 0.0 && max(apart.x, apart.y) < kSamePlane ? t : -1.0;
+    bool isDeep = abs(u.z - glance.solid.x) > kDeepest * kSamePlane * 2.0 * glance.solid.x / sizeOfFace();
+    if (t < 0.0 || u.z <= 0.0 || isDeep || max(apart.x, apart.y) >= kSamePlane) return -1.0;
+    ivec2 there = clamp(ivec2(pixelIn(u)), ivec2(0), ivec2(sizeOfFace()) - 1);
+    return texelFetch(uAroundSolid, ivec3(there, glance.texel.z), 0).w == glance.solid.w ? t : -1.0;
 }
 
 // Of the surface that a texel shows, at a place on it: between the texels around that show it too.
@@ -126,63 +137,94 @@ float endOf(vec3 origin, vec3 direction) {
     return min(t.x, min(t.y, t.z)) + 0.01 * distance(AROUND.low.xyz, AROUND.high.xyz);
 }
 
+// A part of a ray that begins before a surface and ends behind one.
+struct Passage {
+    float from, to;
+    Glance before, after;
+};
+
+// Narrows it down around where it passes, by the first objects or what they hide.
+void halve(inout Passage passage, int cube, int place, vec3 origin, vec3 direction) {
+    for (int halving = 0; halving < kHalvings; ++halving) {
+        float middle = 0.5 * (passage.from + passage.to);
+        Glance there = glanceAt(cube, place, origin + middle * direction);
+        if (there.gap < 0.0) {
+            passage.to = middle;
+            passage.after = there;
+        } else {
+            passage.from = middle;
+            passage.before = there;
+        }
+    }
+}
+
+// What a ray meets there; t 1e30 where it passes behind an edge.
+//
+// least  [m] along the ray, before which it meets nothing
+Met metIn(Passage passage, float least, vec3 origin, vec3 direction) {
+    float t = surfaceAlong(passage.after, origin, direction);
+    if (t >= least) return metAt(passage.after, t, origin + t * direction);
+    t = surfaceAlong(passage.before, origin, direction);
+    if (t >= least) return metAt(passage.before, t, origin + t * direction);
+    return kNothingMet;
+}
+
 bool isOfItself(int cube) { return AROUND.cubes[cube].place.w < -1.5; }
 
 // What a ray meets first, both from the cube's middle.
 Met meetAround(int cube, vec3 origin, vec3 direction) {
-    Met met = Met(1e30, vec3(0.0), vec3(0.0), -1, vec3(0.0));
     float end = endOf(origin + AROUND.cubes[cube].place.xyz, direction);
-    if (end <= 0.0) return met;
+    if (end <= 0.0) return kNothingMet;
     // Looks are spaced evenly in the angle that the middle sees.
     float along = dot(origin, direction);
     float aside = max(length(origin - along * direction), 1e-3 * end);
     float first = atan(along, aside), last = atan(along + end, aside);
     int looks = int(clamp(ceil((last - first) * sizeOfFace() / (1.5707963 * kTexelsALook)), 1.0, float(kMostLooks)));
 
-    Glance before = glanceAt(cube, origin);
+    Glance before = glanceAt(cube, 0, origin);
     float from = 0.0;
     float touching = 4.0 * length(origin) / sizeOfFace();
     float least = isOfItself(cube) ? touching : 0.0; // it begins on what the cube shows
     bool isBefore = before.gap > -touching;
     Glance beside = before; // what lies beside the edge that the ray is behind of
+    Glance hidden = glanceAt(cube, 1, origin);
     for (int i = 1; i <= looks; ++i) {
         float to = i == looks ? end : aside * tan(mix(first, last, float(i) / float(looks))) - along;
-        Glance after = glanceAt(cube, origin + to * direction);
-        Glance next = after;
+        Glance after = glanceAt(cube, 0, origin + to * direction);
         if (isBefore && after.gap < 0.0) {
-            float low = from, high = to;
-            for (int halving = 0; halving < kHalvings; ++halving) {
-                float middle = 0.5 * (low + high);
-                Glance there = glanceAt(cube, origin + middle * direction);
-                if (there.gap < 0.0) {
-                    high = middle;
-                    after = there;
-                } else {
-                    low = middle;
-                    before = there;
-                }
-            }
-            float t = surfaceAlong(after, origin, direction);
-            if (t >= least) return metAt(after, t, origin + t * direction);
-            t = surfaceAlong(before, origin, direction);
-            if (t >= least) return metAt(before, t, origin + t * direction);
-            beside = before;
+            Passage passage = Passage(from, to, before, after);
+            halve(passage, cube, 0, origin, direction);
+            Met met = metIn(passage, least, origin, direction);
+            if (met.t < 1e29) return met;
             isBefore = false;
+            beside = passage.before;
+            from = passage.to;
+            hidden = glanceAt(cube, 1, origin + from * direction);
         } else if (!isBefore && after.gap >= 0.0) {
             isBefore = true;
         }
         if (!isBefore) {
+            Glance next = glanceAt(cube, 1, origin + to * direction);
+            bool isBeforeHidden = hidden.gap > -touching;
+            if (isBeforeHidden && next.gap < 0.0) {
+                Passage passage = Passage(from, to, hidden, next);
+                halve(passage, cube, 1, origin, direction);
+                Met met = metIn(passage, least, origin, direction);
+                if (met.t < 1e29) return met;
+            }
             float t = planeAlong(beside, origin, direction);
-            if (t >= max(from, least) && t <= to) {
-                met = metAt(beside, t, placeOf(beside.texel, beside.solid.x));
+            bool isKnown = isBeforeHidden && hidden.solid.w > 0.0;
+            if (!isKnown && t >= max(from, least) && t <= to) {
+                Met met = metAt(beside, t, placeOf(beside.texel, beside.solid.x));
                 met.place = origin + t * direction;
                 return met;
             }
+            hidden = next;
         }
-        before = next;
+        before = after;
         from = to;
     }
-    return met;
+    return kNothingMet;
 }
 
 int cubeOf(int object) {

@@ -5,7 +5,8 @@ const int kMostFlat = 4;  // mirrors with pictures of their own
 struct Cube {
     vec4 place;       // world, its middle; w: number of its mirror in the scene, -1: of refractive objects, -2: shows
                       // nothing but the mirror of the cube before, which is seen in itself
-    vec4 reflectance; // of the mirror; a: a bit for each face that shows anything
+    vec4 reflectance; // of the mirror; a: a bit for each face that shows anything, of the first objects and of
+                      // the second ones
 };
 struct Around {
     Cube cubes[kMostCubes];

@@ -38,6 +38,7 @@ views::Eye Renderer::State::eyeOf(const scene::Scene& scene) const {
     views::Eye eye =
         views::makeEye(scene, float(size.x) / float(size.y), 1e-3f, shift + 2.0f * offset / vec2(size));
     eye.cut = cut;
+    eye.second = second;
     return eye;
 }
 

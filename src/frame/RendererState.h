@@ -98,6 +98,7 @@ struct Renderer::State {
     // One picture from elsewhere: a face of a cube view, or a flat mirror's.
     struct Aside {
         int cube = -1, face = 0, flat = -1;
+        bool second = false; // what the first objects hide
     };
 
     /// @param of  null: it has its own
@@ -126,7 +127,7 @@ struct Renderer::State {
     views::Surroundings surroundings; // as drawn
     views::Surroundings beyondFlat;   // what flat mirrors' pictures are drawn with: its cubes
     graph::Texture aroundRadiance, aroundSolid, flatPictures;
-    std::vector<int> facesShown;      // of each cube: bits of those before which anything lies
+    std::vector<int> facesShown;      // of each cube: as in views::Surroundings::faces, when all are drawn
     std::vector<Aside> asides;        // to be drawn before the stage's picture
     bool surveyed = false;            // they are known
     std::optional<SceneKey> cubesFor; // what the cubes were drawn for
@@ -137,6 +138,7 @@ struct Renderer::State {
     std::uint64_t asideRevision = 0;
     vec4 cut{0, 0, 0, 1};                       // of such a one: Eye::cut
     vec2 shift{0};                              // Eye::shift
+    bool second = false;                        // Eye::second
     const views::Surroundings* given = nullptr; // of such a one: what its pictures know of their surroundings
     bool allAround = false;                     // of such a one: technique::Picture::allAround
     std::size_t outlooksLeft = 0;               // cubes that were asked for and are too many
@@ -210,6 +212,7 @@ struct Renderer::State {
     // Surroundings.cpp
     Status survey(const Moment& moment);
     void surveyCubes(const Moment& moment, std::vector<views::Outlook> asked);
+    void makeCubes();
     void surveyFlat(const Moment& moment, std::vector<views::FlatMirror> asked);
     Result<bool> lookAround(const Moment& moment);
     scene::Scene sceneFor(const Moment& moment, const Aside& aside) const;

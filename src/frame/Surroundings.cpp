@@ -8,6 +8,7 @@
 #include "views/Surface.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 
 namespace lucent::frame {
@@ -52,18 +53,22 @@ void hideBehind(scene::Scene& scene, const views::FlatMirror& mirror) {
         if (!reachesBefore(mirror, views::boundsOf(object))) object.visible = false;
 }
 
-// Bits of the faces of a cube view in which anything may be seen.
+// Bits of the faces of a cube view in which anything may be seen, and in which an object may hide another one
+// (views::Surroundings::faces). Through refractive objects what is behind them is seen.
 int facesWithAnything(scene::Scene scene, const views::Outlook& cube) {
     hide(scene, cube.hidden);
     int faces = 0;
     for (int face = 0; face < kFaces; ++face) {
         scene.camera = views::cameraOf(cube, face);
         const views::Eye eye = views::makeEye(scene, 1);
-        const bool shows =
-            std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
-                return object.visible && !isEmpty(views::seenBy(eye, views::boundsOf(object)));
-            });
-        if (shows) faces |= 1 << face;
+        int seen = 0, clear = 0;
+        for (const scene::Object& object : scene.objects) {
+            if (!object.visible || isEmpty(views::seenBy(eye, views::boundsOf(object)))) continue;
+            ++seen;
+            clear += object.material.isRefractive();
+        }
+        if (seen > 0) faces |= 1 << face;
+        if (seen > 1 && clear == 0) faces |= 1 << (kFaces + face);
     }
     return faces;
 }
@@ -120,37 +125,50 @@ Status Renderer::State::survey(const Moment& moment) {
 void Renderer::State::surveyCubes(const Moment& moment, std::vector<views::Outlook> asked) {
     outlooksLeft = asked.size() - std::min(asked.size(), std::size_t(views::kMostCubes));
     asked.resize(asked.size() - outlooksLeft);
-    const int side = faceSize(screen, asked.size()); // a look has the picture's cubes
-    const TextureDesc desc{
-        .size = ivec2(side), .format = Format::RGBA16F, .layers = kFaces * int(asked.size())};
-    if (asked != surroundings.cubes || (aroundRadiance && aroundRadiance.desc() != desc)) {
+    if (asked != surroundings.cubes) {
         surroundings.cubes = asked;
         surroundings.faces.assign(asked.size(), 0);
-        aroundRadiance = graph::Texture();
-        aroundSolid = graph::Texture();
+        facesShown.assign(asked.size(), 0);
         cubesFor.reset();
     }
-    if (!asked.empty() && !aroundRadiance) {
-        TextureDesc solid = desc;
-        solid.format = Format::RGBA32F;
+    const bool draws = !asked.empty() && !isCoarse(); // a look has the picture's cubes
+    if (draws) {
+        SceneKey key = sceneKey(moment.scene);
+        if (cubesFor != key) {
+            cubesFor = std::move(key);
+            surroundings.faces.assign(asked.size(), 0);
+            for (std::size_t cube = 0; cube < asked.size(); ++cube)
+                facesShown[cube] = facesWithAnything(moment.scene, asked[cube]);
+        }
+    }
+    makeCubes();
+    if (!draws) return;
+    for (std::size_t cube = 0; cube < asked.size(); ++cube)
+        for (int face = 0; face < 2 * kFaces; ++face)
+            if (((facesShown[cube] & ~surroundings.faces[cube]) >> face) & 1)
+                asides.push_back({.cube = int(cube), .face = face % kFaces, .second = face >= kFaces});
+}
+
+// Of the size for the faces that are shown.
+void Renderer::State::makeCubes() {
+    const int count = int(surroundings.cubes.size());
+    const bool hides =
+        std::any_of(facesShown.begin(), facesShown.end(), [](int faces) { return faces >> kFaces; });
+    TextureDesc desc{.size = ivec2(faceSize(screen, surroundings.cubes.size())),
+                     .format = Format::RGBA16F,
+                     .layers = kFaces * count * (hides ? 2 : 1)};
+    if (aroundRadiance && (count == 0 || aroundRadiance.desc() != desc)) {
+        surroundings.faces.assign(surroundings.cubes.size(), 0);
+        aroundRadiance = graph::Texture();
+        aroundSolid = graph::Texture();
+    }
+    if (count > 0 && !aroundRadiance) {
         aroundRadiance = graph::Texture(context.device(), desc, "frame.aroundRadiance");
-        aroundSolid = graph::Texture(context.device(), solid, "frame.aroundSolid");
+        desc.format = Format::RGBA32F;
+        aroundSolid = graph::Texture(context.device(), desc, "frame.aroundSolid");
     }
     surroundings.radiance = aroundRadiance.handle();
     surroundings.solid = aroundSolid.handle();
-    if (asked.empty() || isCoarse()) return;
-    SceneKey key = sceneKey(moment.scene);
-    if (cubesFor != key) {
-        cubesFor = std::move(key);
-        surroundings.faces.assign(asked.size(), 0);
-        facesShown.clear();
-        for (const views::Outlook& cube : asked)
-            facesShown.push_back(facesWithAnything(moment.scene, cube));
-    }
-    for (std::size_t cube = 0; cube < asked.size(); ++cube)
-        for (int face = 0; face < kFaces; ++face)
-            if (((facesShown[cube] & ~surroundings.faces[cube]) >> face) & 1)
-                asides.push_back({.cube = int(cube), .face = face});
 }
 
 void Renderer::State::surveyFlat(const Moment& moment, std::vector<views::FlatMirror> asked) {
@@ -220,6 +238,7 @@ Result<bool> Renderer::State::lookAround(const Moment& moment) {
     }
     elsewhere->cut = vec4(0, 0, 0, 1);
     elsewhere->shift = vec2(0);
+    elsewhere->second = aside.second;
     if (isFlat) {
         elsewhere->shift = moment.eye.shift * vec2(-1, 1);
         const views::FlatMirror& mirror = surroundings.flat[std::size_t(aside.flat)];
@@ -272,7 +291,8 @@ Status Renderer::State::keepAside(const scene::Scene& scene, const Aside& aside)
         }
         const TextureId radiances = import(graph, isCube ? aroundRadiance : flatPictures);
         const TextureId solids = isCube ? import(graph, aroundSolid) : TextureId{};
-        const int layer = isCube ? kFaces * aside.cube + aside.face : aside.flat;
+        const int cube = aside.cube + (aside.second ? int(surroundings.cubes.size()) : 0);
+        const int layer = isCube ? kFaces * cube + aside.face : aside.flat;
         graph.addPass("views.around", [&](graph::PassBuilder& pass) -> graph::Execute {
             pass.reason("what is seen from elsewhere");
             pass.sample(picture);
@@ -297,7 +317,7 @@ Status Renderer::State::keepAside(const scene::Scene& scene, const Aside& aside)
     });
     if (!kept) return kept;
     if (isCube) {
-        surroundings.faces[std::size_t(aside.cube)] |= 1 << aside.face;
+        surroundings.faces[std::size_t(aside.cube)] |= 1 << (aside.face + (aside.second ? kFaces : 0));
         beyondFlat.faces = surroundings.faces;
     } else {
         flatDrawn |= 1 << aside.flat;
@@ -308,14 +328,16 @@ Status Renderer::State::keepAside(const scene::Scene& scene, const Aside& aside)
 std::vector<std::string> Renderer::State::aroundLines() const {
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < surroundings.cubes.size(); ++i) {
-        int faces = 0;
-        for (int face = 0; face < kFaces; ++face)
-            faces += i < facesShown.size() ? (facesShown[i] >> face) & 1 : 0;
+        const auto shown = std::bitset<2 * kFaces>(unsigned(facesShown[i]));
+        const auto seconds = (shown >> kFaces).count();
         const bool isOfItself = surroundings.cubes[i].object < -1;
-        lines.push_back((isOfItself ? "of itself, " : "") +
-                        ("from \"" + surroundings.cubes[i].name + "\": ") + std::to_string(faces) +
-                        " face(s) of a cube, " + std::to_string(aroundRadiance.desc().size.x) +
-                        " pixels a side: rays leave it towards what the camera need not see");
+        lines.push_back(
+            (isOfItself ? "of itself, " : "") + ("from \"" + surroundings.cubes[i].name + "\": ") +
+            std::to_string(shown.count() - seconds) + " face(s) of a cube, " +
+            (seconds > 0 ? std::to_string(seconds) + " of them also without what hides other objects, "
+                         : "") +
+            std::to_string(aroundRadiance.desc().size.x) +
+            " pixels a side: rays leave it towards what the camera need not see");
     }
     for (const views::FlatMirror& mirror : surroundings.flat)
         lines.push_back("the camera's view mirrored by \"" + mirror.name + "\", " + std::to_string(size.x) +

@@ -19,6 +19,8 @@ struct Eye {
     float nearest = 0, farthest = 0; ///< depths between which everything lies, m
     vec2 shift{0}; ///< of what the picture shows, in halves of it: samples of a pixel lie beside its middle
     vec4 cut{0, 0, 0, 1}; ///< world, a plane: what lies where dot(cut, (place, 1)) is below 0 is not shown
+    bool second =
+        false; ///< of each pixel the object that it meets first is left out: what that hides is shown
 
     /// Where eye rays come from in the space of an object: the position with w = 1, or with w = 0 the unit
     /// direction that all of them share. This is what shaders call `eye`.

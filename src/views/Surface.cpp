@@ -4,12 +4,18 @@
 
 namespace lucent::views {
 
-Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                     const Drawables& drawables, graph::TextureId target, ivec2 size) {
+namespace {
+
+// @param first  surface image of the objects that are left out in its pixels, or none
+void drawSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& eye, const Drawables& drawables,
+                 graph::TextureId target, ivec2 size, graph::TextureId first) {
     graph.addPass("views.surface", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("the first point of " + std::to_string(drawables.size()) +
-                    " visible object(s) that each pixel meets");
-        std::vector<Drawing> drawings = drawingsOf(context, pass, drawables, ViewKind::Surface);
+        pass.reason((first ? "behind the first object the first point of " : "the first point of ") +
+                    std::to_string(drawables.size()) + " visible object(s) that each pixel meets");
+        std::vector<Drawing> drawings =
+            drawingsOf(context, pass, drawables, ViewKind::Surface,
+                       first ? std::vector<std::string>{"SECOND"} : std::vector<std::string>{});
+        if (first) pass.sample(first);
         pass.write(target);
         pass.clear(target, vec4(0));
         const bool hides =
@@ -18,10 +24,24 @@ Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& 
         if (hides) pass.clear(pass.createDepth("views.depth", size), 1.0f);
         return [=, depthTest = hides ? graph::DepthTest::Less : graph::DepthTest::None](
                    const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw how{.depthTest = depthTest};
+            if (first) how.textures = {{"uFirst", resources[first]}};
             for (const Drawing& draw : drawings)
-                draw(resources, commands, eye, size, {.depthTest = depthTest});
+                draw(resources, commands, eye, size, how);
         };
     });
+}
+
+} // namespace
+
+Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                     const Drawables& drawables, graph::TextureId target, ivec2 size) {
+    graph::TextureId first;
+    if (eye.second) {
+        first = graph.create("views.first", {.size = size, .format = graph::Format::RGBA32F});
+        drawSurface(graph, context, eye, drawables, first, size, {});
+    }
+    drawSurface(graph, context, eye, drawables, target, size, first);
     return Done{};
 }
 

@@ -5,7 +5,8 @@
 
 namespace lucent::views {
 
-/// Draws the surface image (layout: shaders/views/surface_pixel.glsl) into `target`, RGBA32F.
+/// Draws the surface image (layout: shaders/views/surface_pixel.glsl) into `target`, RGBA32F; of the second
+/// object in each pixel where the eye asks for that (Eye::second).
 Status recordSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
                      const Drawables& drawables, graph::TextureId target, ivec2 size);
 

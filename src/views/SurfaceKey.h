@@ -9,6 +9,7 @@ namespace lucent::views {
 struct SurfaceKey {
     std::vector<ObjectKey> objects;
     mat4 clipFromWorld;
+    bool second; // Eye::second
     ivec2 size;
     bool showsGlass;      // its surface, not what is behind
     std::uint64_t waters; // Waters::changes()

@@ -64,11 +64,13 @@ scene::Camera mirrored(const scene::Camera& camera, const FlatMirror& mirror);
 /// All of it as drawn. Who shades reads it by shaders/views/surroundings.glsl.
 struct Surroundings {
     std::vector<Outlook> cubes;
-    std::vector<int> faces; ///< of each cube: bits of those that show anything
+    std::vector<int> faces; ///< of each cube: bits of those that show anything, and six higher of those that
+                            ///< also show what the first objects in their pixels hide
     std::vector<FlatMirror> flat;
     Bounds bounds;   ///< of all that is drawn
     int further = 1; ///< mirrors that a ray from one is followed to
-    graph::TextureHandle radiance = graph::TextureHandle::None; ///< of cubes, arrays
+    graph::TextureHandle radiance = graph::TextureHandle::None; ///< of cubes, arrays: of the first objects,
+                                                                ///< then of what they hide
     graph::TextureHandle solid = graph::TextureHandle::None;
     graph::TextureHandle mirrored = graph::TextureHandle::None; ///< a layer for each flat mirror
 

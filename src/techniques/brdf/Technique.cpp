@@ -170,7 +170,8 @@ const technique::NotDrawn kLimits[] = {
      [](const scene::Scene& scene) {
          return shows(scene, views::Around::Surroundings) && countVisible(scene, isShownMirror) > 1;
      }},
-    {"what is hidden from the middle of a curved mirror", "its surroundings are drawn from there",
+    {"what more than one object hides from the middle of a curved mirror",
+     "its surroundings are drawn from there",
      [](const scene::Scene& scene) {
          const auto isCurved = [](const scene::Object& object) {
              return isShownMirror(object) && !views::isFlat(object);

@@ -305,7 +305,8 @@ const technique::NotDrawn kLimits[] = {
      {},
      "surroundings",
      "surroundings"},
-    {"through glass, what is hidden from the camera and from the middle of the glass",
+    {"through glass, what is hidden from the camera, and from the middle of the glass by more than one "
+     "object",
      "its surroundings are drawn from there",
      [](const scene::Scene& scene) { return showsAround(scene, views::Around::Surroundings); }},
 };
