@@ -65,11 +65,11 @@ vec2 spreadOf(vec2 a, vec2 b, vec2 c) {
     return count == 0.0 ? vec2(kLeastArea, 1.0) : vec2(-count, 0.0);
 }
 
-// Where a ray of the same way lands; w 0: there is none.
+// Where a ray of the same way lands, on a receiver behind another one or not; w 0: there is none.
 vec4 landingLike(ivec2 ray, float way) {
     if (any(lessThan(ray, ivec2(0))) || any(greaterThanEqual(ray, light.grid))) return vec4(0.0);
     vec4 landing = texelFetch(uLanding, ray, 0);
-    return landing.w == way ? landing : vec4(0.0);
+    return wayOf(landing.w) == wayOf(way) ? landing : vec4(0.0);
 }
 
 // Whether rays part evenly before two neighbours and behind them.
@@ -81,7 +81,8 @@ bool partEvenly(ivec2 ray, ivec2 next, vec4 a, vec4 b) {
     return distance(before.xyz + b.xyz, 2.0 * a.xyz) <= most && distance(a.xyz + after.xyz, 2.0 * b.xyz) <= most;
 }
 
-// Whether all three rays land on one surface and took the same way, so that light between them lands between them.
+// Whether all three rays land on one surface and took the same way, so that light between them lands between them. In
+// a part of it another receiver may hide it from the light, as a pool's wall hides the edge of its floor.
 bool isBeam(ivec2 square, int triangle, vec4 places[3], vec4 landings[3]) {
     View face = light.faces[0]; // all look from the same point
     bool perspective = face.eye.w > 0.5;
@@ -90,7 +91,7 @@ bool isBeam(ivec2 square, int triangle, vec4 places[3], vec4 landings[3]) {
     float reach = perspective ? distance(landings[0].xyz, face.eye.xyz) : 1.0; // where rays lie so far apart unbent
     for (int i = 0; i < 3; ++i) {
         int next = (i + 1) % 3;
-        if (landings[i].w != landings[0].w || !isNear(landings[i].xyz, landings[next].xyz, along)) return false;
+        if (wayOf(landings[i].w) != wayOf(landings[0].w) || !isNear(landings[i].xyz, landings[next].xyz, along)) return false;
         if (distance(places[i].xyz, places[next].xyz) >= kMostStretch * light.size * depth) return false;
 #ifdef REFINE
         bool isWide = distance(landings[i].xyz, landings[next].xyz) >= kMostSpread * light.size * reach;

@@ -57,7 +57,9 @@ void main() {
     add(ray - 1, 1);
     oDensity = vec4(around.area > 0.0 ? around.flux / around.area : vec3(0.0), 0.0);
 #ifdef SHARPEN
-    oDensity.rgb += texelFetch(uDensity, ray, 0).rgb;
+    // Beside a shadow this would take more than there is. Some wavelengths are less than nothing of a colour.
+    vec3 before = texelFetch(uDensity, ray, 0).rgb;
+    oDensity.rgb = mix(oDensity.rgb + before, vec3(0.0), lessThanEqual((oDensity.rgb + before) * before, vec3(0.0)));
 #else
     oPoint = vec4(around.point, 0.0);
 #endif

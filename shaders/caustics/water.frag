@@ -127,7 +127,8 @@ void main() {
     oAbsorbed = vec4(own * (1.0 - mirrored) * (1.0 - passed) * flux, 1.0);
     oLost = vec4(0.0);
 #else
-    bool shines = mirrored < 1.0 && flux != vec3(0.0);
+    // Rays in the shadow go on without light: between them and their neighbours it fades as it does on the water.
+    bool shines = mirrored < 1.0;
     oPlace = vec4(place, shines ? 1.0 : 0.0);
     oDirection = vec4(direction, 0.0);
     oFlux = shines ? vec4((1.0 - mirrored) * passed * flux, 64.0) : vec4(0.0); // all sixths are full

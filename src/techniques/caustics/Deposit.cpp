@@ -96,12 +96,19 @@ Status LightPasses::addBeams(std::vector<Kind>& kinds) {
     if (!context_.caps().floatBlend) ofPoints.push_back("ON_ONE_TEXEL");
     std::vector<std::string> ofQuads = ofPoints;
     ofQuads.push_back("AS_QUADS");
-    const auto squares = [](const Sheet& sheet) { return Range{0, 6 * areaOf(sheet.grid.count - 1)}; };
-    const auto beams = [](const Sheet& sheet) -> Samples {
-        return {{"uLanding", sheet.grid.landing},
-                {"uFlux", sheet.grid.flux},
-                {"uBeams", sheet.cells.beams},
-                {"uDensity", sheet.density}};
+    const int layers = light_.hasBehind ? 2 : 1;
+    if (light_.hasBehind) ofBeams.push_back("USE_BEHIND");
+    const auto squares = [layers](const Sheet& sheet) {
+        return Range{0, layers * 6 * areaOf(sheet.grid.count - 1)};
+    };
+    const auto beams = [this](const Sheet& sheet) -> Samples {
+        Samples samples{{"uLanding", sheet.grid.landing},
+                        {"uFlux", sheet.grid.flux},
+                        {"uBeams", sheet.cells.beams},
+                        {"uDensity", sheet.density}};
+        if (light_.hasBehind)
+            samples.insert(samples.end(), {{"uShadow", mapDepths_}, {"uBehind", mapBehind_}});
+        return samples;
     };
     const auto points = [](const Sheet& sheet) -> Samples {
         return {{"uLanding", sheet.grid.landing}, {"uPoint", sheet.points}};
