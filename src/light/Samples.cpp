@@ -124,7 +124,8 @@ const ParamTable& samplingParams() {
                  .logarithmic = true,
                  .group = Group::Light,
                  .doc = "How many light samples stand for a lamp that has a size; each casts its own "
-                        "shadows. More make soft shadows smooth, few show as steps."}),
+                        "shadows. With more the edge of a soft shadow fades smoothly; with few it "
+                        "shows several hard edges beside each other."}),
         declare(&Sampling::shadowSize,
                 {.id = "shadowSize",
                  .label = "Shadow map",

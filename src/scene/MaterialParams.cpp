@@ -158,8 +158,10 @@ Param scatteringParam() {
                     .max = kFar,
                     .high = 5e3, // marble, milk and skin
                     .group = Group::Material,
-                    .doc = "How often light is scattered on a metre of its path inside, red, green and blue: "
-                           "often is like milk, seldom like cloudy water. Above 0 the object is translucent.",
+                    .doc =
+                        "How often light is scattered on a metre of its path inside, red, green and blue: "
+                        "high values look dense and soft like milk, low ones hazy like cloudy water. Above 0 "
+                        "the object is translucent.",
                     .axes = "rgb"});
 }
 
@@ -447,8 +449,9 @@ const ParamTable& layerParams() {
                  .max = kFar,
                  .high = 5e3,
                  .group = Group::Material,
-                 .doc = "How often light is scattered on a metre of its path, red, "
-                        "green and blue: often is like milk, seldom like cloudy water."}),
+                 .doc =
+                     "How often light is scattered on a metre of its path, red, green and blue: high values "
+                     "look dense and soft like milk, low ones hazy like cloudy water."}),
         declare(&MediumLayer::absorption,
                 {.id = "absorption",
                  .label = "Absorption",
