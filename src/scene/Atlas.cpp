@@ -19,12 +19,11 @@ using Corners = std::array<dvec2, 3>;
 
 constexpr int kNone = -1;
 
-// A chart looks along one of the six axes of its mesh. Every normal has one within 54.7 degrees, so that
-// charts may take all within 60: lengths shrink to a half at most.
-constexpr double kSteepest = 0.5;
+// Unless charts are fitted, one looks along one of the six axes of its mesh. Every normal has one within 54.7
+// degrees, so that charts may take all within 60: lengths shrink to a half at most.
 
-// Overlaps are looked for while charts grow at the scale at which the whole mesh, all of it 60 degrees steep,
-// fills a picture of this side. What is closer together is found when all charts have their places.
+// Overlaps are looked for while charts grow at the scale at which the whole mesh, all of it as steep as may
+// be, fills a picture of this side. What is closer together is found when all charts have their places.
 constexpr int kMaskSide = 512;
 
 // No chart is longer, in sides of the mask, for the longest one bounds the scale of all.
@@ -39,6 +38,13 @@ struct Axis {
 constexpr Axis kAxes[] = {{{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
                           {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},  {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
                           {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}}, {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}};
+
+// Looks along a unit normal.
+Axis axisAlong(const dvec3& out) {
+    const dvec3 aside = std::abs(out.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
+    const dvec3 right = glm::normalize(glm::cross(aside, out));
+    return {out, right, -glm::cross(out, right)};
+}
 
 dvec2 flattened(const Axis& axis, const dvec3& place) {
     return {glm::dot(place, axis.right), glm::dot(place, axis.down)};
@@ -148,14 +154,56 @@ struct Box {
 
 // Triangles that are seen along one axis, or, without one, that have no area and no neighbour.
 struct Chart {
-    const Axis* axis = nullptr;
+    std::optional<Axis> axis;
     Box box; // flattened, m
 };
+
+// The corners of the convex shape around some places, counter-clockwise (Andrew's monotone chain).
+std::vector<dvec2> hullOf(std::vector<dvec2> places) {
+    std::sort(places.begin(), places.end(),
+              [](const dvec2& a, const dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    std::vector<dvec2> hull;
+    const auto add = [&](const dvec2& p, std::size_t keep) {
+        while (hull.size() > keep && edge(hull[hull.size() - 2], hull.back(), p) <= 0)
+            hull.pop_back();
+        hull.push_back(p);
+    };
+    for (const dvec2& p : places)
+        add(p, 1);
+    const std::size_t lower = hull.size();
+    for (auto p = places.rbegin(); p != places.rend(); ++p)
+        add(*p, lower);
+    return hull;
+}
+
+// The way along which the box around some places is smallest: one side of it lies along the hull (the
+// paper's rotating calipers find the same).
+dvec2 smallestBoxAlong(const std::vector<dvec2>& places) {
+    const std::vector<dvec2> hull = hullOf(places);
+    dvec2 best(1, 0);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < hull.size(); ++i) {
+        const dvec2 way = hull[i + 1] - hull[i];
+        const double length = glm::length(way);
+        if (!(length > 0)) continue;
+        const dvec2 along = way / length;
+        Box box;
+        for (const dvec2& p : hull)
+            box.add({glm::dot(p, along), along.x * p.y - along.y * p.x});
+        const double area = box.size().x * box.size().y;
+        if (area < least) {
+            least = area;
+            best = along;
+        }
+    }
+    return best;
+}
 
 // Parts a mesh into charts and lays them out.
 class Layout {
 public:
-    Layout(const Mesh& mesh, int side) : mesh_(mesh), side_(side), count_(mesh.indices.size() / 3) {
+    Layout(const Mesh& mesh, const Charting& charting)
+        : mesh_(mesh), charting_(charting), side_(charting.side), count_(mesh.indices.size() / 3) {
         measure();
         join();
     }
@@ -174,11 +222,12 @@ public:
         }
     }
 
+    double scale() const { return scale_; }
     int chartOf(std::size_t triangle) const { return chartOf_[triangle]; }
     vec2 placeOf(std::uint32_t vertex, int chart) const {
         const Chart& in = charts_[std::size_t(chart)];
         const dvec2 inside = in.axis ? flattened(*in.axis, position(vertex)) - in.box.low : dvec2(0);
-        return vec2(dvec2(offsets_[std::size_t(chart)] + 1) + inside * scale_);
+        return vec2(dvec2(offsets_[std::size_t(chart)] + charting_.border) + inside * scale_);
     }
 
 private:
@@ -197,9 +246,10 @@ private:
             const double longest = std::max(glm::dot(u, u), glm::dot(v, v)), twice = glm::length(across);
             const bool flat = !(twice > 1e-14 * longest); // rounding
             normals_.push_back(flat ? dvec3(0) : across / twice);
+            areas_.push_back(twice / 2);
             area += twice / 2;
         }
-        maskScale_ = area > 0 ? kMaskSide / std::sqrt(area * kSteepest) : 0;
+        maskScale_ = area > 0 ? kMaskSide / std::sqrt(area * charting_.cosine) : 0;
     }
 
     // Finds the neighbours over edges that two triangles share the same way round.
@@ -244,32 +294,74 @@ private:
     }
 
     void growFrom(std::size_t seed) {
-        const auto facing = [&](const Axis& axis) { return glm::dot(axis.out, normals_[seed]); };
-        const Axis* axis =
-            std::max_element(std::begin(kAxes), std::end(kAxes),
-                             [&](const Axis& a, const Axis& b) { return facing(a) < facing(b); });
         const int number = int(charts_.size());
-        Chart chart{axis, {}};
+        if (!charting_.fitted) {
+            const auto facing = [&](const Axis& axis) { return glm::dot(axis.out, normals_[seed]); };
+            const Axis* axis =
+                std::max_element(std::begin(kAxes), std::end(kAxes),
+                                 [&](const Axis& a, const Axis& b) { return facing(a) < facing(b); });
+            Chart chart{*axis, {}};
+            take(chart, seed, number);
+            charts_.push_back(chart);
+            return;
+        }
+        // First across the seed's own normal, then across the mean of what that took.
+        Chart tried{axisAlong(normals_[seed]), {}};
+        std::vector<std::size_t> taken = take(tried, seed, number);
+        dvec3 mean(0);
+        for (const std::size_t t : taken) {
+            mean += areas_[t] * normals_[t];
+            chartOf_[t] = kNone;
+        }
+        const double length = glm::length(mean);
+        const bool holdsSeed =
+            length > 0 && glm::dot(mean, normals_[seed]) > (charting_.cosine + 1e-9) * length;
+        Chart chart{axisAlong(holdsSeed ? mean / length : normals_[seed]), {}};
+        taken = take(chart, seed, number);
+        turn(chart, taken);
+        charts_.push_back(chart);
+    }
+
+    // Grows a chart from a triangle on. @return  its triangles
+    std::vector<std::size_t> take(Chart& chart, std::size_t seed, int number) {
         Mask mask;
+        std::vector<std::size_t> taken;
         std::deque<std::size_t> waiting{seed};
         while (!waiting.empty()) {
             const std::size_t t = waiting.front();
             waiting.pop_front();
             if (chartOf_[t] != kNone || !accepts(chart, t, mask)) continue;
             chartOf_[t] = number;
+            taken.push_back(t);
             for (std::size_t i = 0; i < 3; ++i) {
-                chart.box.add(flattened(*axis, position(corner(t, i))));
+                chart.box.add(flattened(*chart.axis, position(corner(t, i))));
                 const int next = across_[3 * t + i];
                 if (next != kNone && chartOf_[std::size_t(next)] == kNone)
                     waiting.push_back(std::size_t(next));
             }
         }
-        charts_.push_back(chart);
+        return taken;
+    }
+
+    // Turns a chart in its plane until its box is smallest.
+    void turn(Chart& chart, const std::vector<std::size_t>& triangles) const {
+        std::vector<dvec2> places;
+        for (const std::size_t t : triangles)
+            for (std::size_t i = 0; i < 3; ++i)
+                places.push_back(flattened(*chart.axis, position(corner(t, i))));
+        const dvec2 along = smallestBoxAlong(places);
+        const Axis axis = *chart.axis;
+        chart.axis = Axis{axis.out, along.x * axis.right + along.y * axis.down,
+                          along.x * axis.down - along.y * axis.right};
+        chart.box = {};
+        for (const std::size_t t : triangles)
+            for (std::size_t i = 0; i < 3; ++i)
+                chart.box.add(flattened(*chart.axis, position(corner(t, i))));
     }
 
     bool accepts(const Chart& chart, std::size_t t, Mask& mask) const {
         if (normals_[t] == dvec3(0)) return true; // it covers nothing
-        if (glm::dot(normals_[t], chart.axis->out) < kSteepest) return false;
+        if (glm::dot(normals_[t], chart.axis->out) < charting_.cosine) return false;
         Corners corners;
         dvec3 heights(0);
         Box box = chart.box;
@@ -303,7 +395,7 @@ private:
             area += size.x * size.y;
             longest = std::max({longest, size.x, size.y});
         }
-        double most = longest > 0 ? (side_ - 2) / longest : 0; // scale
+        double most = longest > 0 ? (side_ - 2 * charting_.border) / longest : 0; // scale
         if (area > 0) most = std::min(most, side_ / std::sqrt(area));
         constexpr int kHalvings = 40;
         double fits = place(order, most) ? most : 0;
@@ -315,14 +407,15 @@ private:
         return Done{};
     }
 
-    // Offsets of all boxes at this scale, each with a texel around it; false when there is no room.
+    // Offsets of all boxes at this scale, each with its border; false when there is no room.
     bool place(const std::vector<std::size_t>& order, double scale) {
         offsets_.resize(charts_.size());
         ivec2 at(0);
         int shelf = 0; // its height
         for (const std::size_t chart : order) {
             // What rounding adds may hang into the texel around: reading goes half a texel farther at most.
-            const dvec2 size = glm::max(glm::ceil(charts_[chart].box.size() * scale - 1e-3), dvec2(1)) + 2.0;
+            const dvec2 size = glm::max(glm::ceil(charts_[chart].box.size() * scale - 1e-3), dvec2(1)) +
+                               2.0 * charting_.border;
             if (size.x > side_ || size.y > side_) return false;
             if (at.x + int(size.x) > side_) at = {0, at.y + std::exchange(shelf, 0)};
             if (at.y + int(size.y) > side_) return false;
@@ -354,14 +447,16 @@ private:
     }
 
     const Mesh& mesh_;
+    Charting charting_;
     int side_;
     std::size_t count_;
     std::vector<dvec3> normals_; // of the triangles; 0: without area
+    std::vector<double> areas_;  // m²
     std::vector<int> across_;    // three a triangle
     double maskScale_ = 0;       // texels a metre
     std::vector<int> chartOf_;
     std::vector<Chart> charts_;
-    std::vector<ivec2> offsets_; // of the boxes with the texel around them
+    std::vector<ivec2> offsets_; // of the boxes with their borders
     double scale_ = 0;           // texels a metre
 };
 
@@ -394,7 +489,7 @@ Atlas atlasFrom(const Mesh& source, const Layout& layout, int side) {
     };
     std::vector<Copy> copies(source.positions.size());
     std::vector<std::uint32_t> sources;
-    Atlas atlas{nullptr, std::vector<vec2>(copies.size(), vec2(0)), side};
+    Atlas atlas{nullptr, std::vector<vec2>(copies.size(), vec2(0)), side, layout.scale()};
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
         const std::uint32_t vertex = source.indices[i];
         const int chart = layout.chartOf(i / 3);
@@ -421,9 +516,13 @@ Atlas atlasFrom(const Mesh& source, const Layout& layout, int side) {
 } // namespace
 
 Result<std::shared_ptr<const Atlas>> atlasOf(const Mesh& mesh, int side) {
-    Layout layout(mesh, side);
+    return atlasOf(mesh, Charting{side});
+}
+
+Result<std::shared_ptr<const Atlas>> atlasOf(const Mesh& mesh, const Charting& charting) {
+    Layout layout(mesh, charting);
     if (Status laid = layout.run(); !laid) return laid.error();
-    return std::make_shared<const Atlas>(atlasFrom(mesh, layout, side));
+    return std::make_shared<const Atlas>(atlasFrom(mesh, layout, charting.side));
 }
 
 Result<std::shared_ptr<const Atlas>> atlasOf(const Object& object, int side) {

@@ -249,6 +249,52 @@ TEST(Atlas, BearsTrianglesWithoutAreaAndSeveralComponents) {
     }
 }
 
+// Charts across the mean of their normals, and free texels around each.
+TEST(Atlas, FittedChartsFaceTheirTrianglesWithinTheirAngleAndKeepTheirBorders) {
+    const double cosine = std::cos(glm::radians(30.0));
+    const Mesh mesh = meshOf(Sphere{1}, 48);
+    const auto found = atlasOf(mesh, Charting{.side = 256, .cosine = cosine, .border = 4, .fitted = true});
+    ASSERT_TRUE(found) << found.error().message;
+    const Atlas& atlas = **found;
+    expectNoTwoMeet(atlas);
+    EXPECT_LE(chartCount(atlas), 30u); // caps of 30 degrees hold 1/15 of a sphere
+    const std::vector<std::size_t> charts = chartsOf(atlas);
+    std::vector<std::size_t> owner(256 * 256, ~std::size_t(0));
+    std::size_t shrunk = 0, crowded = 0;
+    for (std::size_t t = 0; t < charts.size(); ++t) {
+        const auto places = placesOf(atlas, t);
+        const auto at = [&](std::size_t i) {
+            return dvec3(atlas.mesh->positions[atlas.mesh->indices[3 * t + i]]);
+        };
+        const double area = glm::length(glm::cross(at(1) - at(0), at(2) - at(0))) * atlas.scale * atlas.scale;
+        if (std::abs(twiceArea(places[0], places[1], places[2])) < (cosine - 1e-3) * area) ++shrunk;
+        for (const dvec2& place : places)
+            for (int y = -4; y <= 4; ++y)
+                for (int x = -4; x <= 4; ++x) {
+                    const ivec2 texel = ivec2(place) + ivec2(x, y);
+                    if (texel.x < 0 || texel.y < 0 || texel.x >= 256 || texel.y >= 256) {
+                        ++crowded;
+                        continue;
+                    }
+                    if (x * x + y * y > 12) continue;
+                    std::size_t& known = owner[std::size_t(texel.y * 256 + texel.x)];
+                    if (known != ~std::size_t(0) && known != charts[t]) ++crowded;
+                    known = charts[t];
+                }
+    }
+    EXPECT_EQ(shrunk, 0u);
+    EXPECT_EQ(crowded, 0u);
+}
+
+TEST(Atlas, FittedChartsAreTurnedToTheSmallestBox) {
+    Mesh plank = meshOf(Plane{{4, 0.5f}}, 4);
+    for (vec3& p : plank.positions) // turned by 30 degrees in its plane
+        p = {0.8660254f * p.x - 0.5f * p.z, 0, 0.5f * p.x + 0.8660254f * p.z};
+    const auto atlas = atlasOf(plank, Charting{.side = 128, .cosine = 0.9, .border = 2, .fitted = true});
+    ASSERT_TRUE(atlas);
+    EXPECT_NEAR((*atlas)->scale, 124.0 / 4, 0.1); // it fills the picture from side to side
+}
+
 TEST(Atlas, SaysWhenThePictureIsTooSmall) {
     Mesh mesh;
     for (int i = 0; i < 40; ++i) {
