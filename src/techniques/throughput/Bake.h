@@ -1,0 +1,59 @@
+#pragma once
+/// Everything that is worked out once for an object and its material, and what it makes of light: radiosity
+/// from irradiance, without a GPU.
+
+#include "techniques/throughput/Blend.h"
+#include "techniques/throughput/Factors.h"
+
+#include <array>
+
+namespace lucent::throughput {
+
+enum class Local : int {
+    Live,  ///< what texels leave around them is computed where it is needed
+    Stored ///< by 49 factors a texel, as the paper has it
+};
+enum class Blend : int {
+    Fitted, ///< close light is counted once
+    None    ///< and twice: to compare
+};
+
+struct BakeOptions {
+    int side = 512; ///< texels of the atlas
+    Local local = Local::Live;
+    Blend blend = Blend::Fitted; ///< of Stored; Live needs none
+    FactorOptions factors{};     ///< but for the diagonal
+    bool operator==(const BakeOptions&) const = default;
+};
+
+/// What leaves of light that entered.
+struct Lit {
+    std::vector<vec3> local, global; ///< of each texel, W/m²: they add up
+};
+
+struct Bake {
+    BakeOptions options;
+    Medium medium;
+    Surface surface;
+    Factors factors;
+    Filters filters;          ///< of Stored
+    float cut = 0;            ///< m, how far texels leave light around them; of Live
+    int radius = 0;           ///< texels, as far in the atlas
+    std::vector<vec3> evened; ///< of Live, for each texel: factor of what it gets of texels around, by which
+                              ///< it gets of even light what the near part's integral over the surface says,
+                              ///< however coarse texels are and whichever of them show the same place
+
+    /// E_v: by the dual basis.
+    std::vector<vec3> vertexIrradiance(std::span<const vec3> irradiance) const;
+    /// B = local + global.
+    ///
+    /// @param irradiance  of each of surface.texels.list, W/m² that enters
+    Lit relight(std::span<const vec3> irradiance) const;
+    std::size_t bytes() const; ///< of factors and filters
+};
+
+/// @param scale  metres a unit of the mesh
+Result<Bake> bake(const scene::Mesh& mesh, float scale, const Medium& medium, const BakeOptions& options,
+                  const Work& work);
+
+} // namespace lucent::throughput
