@@ -39,6 +39,7 @@ constexpr Key kObject[] = {
     {"transform", KeyType::Content, "Where the object stands: scaled, turned, then moved."},
     {"wave", KeyType::Content, "A wave that runs through it; not through height fields and water."},
     {"paint", KeyType::Content, "What is painted on it, where its material scatters."},
+    {"bake", KeyType::File, "What lucent bake wrote for it, where its material is precomputed."},
     {"visible", KeyType::Toggle, "False hides it from the camera only."},
 };
 constexpr Key kHeightField[] = {

@@ -245,10 +245,19 @@ private:
                optional(place, "paint", &Loader::readPaint, object) &&
                optional(place, "material", &Loader::readMaterial, object) &&
                optional(place, "wave", &Loader::readWave, object) &&
+               optional(place, "bake", &Loader::readBake, object) &&
                (json.find("material") || takeMaterials(place, read)) && refuseIdlePaint(place, read);
     }
     bool readTransform(const Place& place, Transform& transform) {
         return readKeys(place, transformKeys(), {&transform});
+    }
+    // Whether it fits the object only its technique can tell.
+    bool readBake(const Place& place, Object& object) {
+        const auto share = [](const Bytes& bytes,
+                              const std::string&) -> Result<std::shared_ptr<const Bytes>> {
+            return std::make_shared<const Bytes>(bytes);
+        };
+        return readFileName(place, object.bakeFile) && readFile(place, object.bakeFile, object.bake, share);
     }
     bool readWave(const Place& place, Object& object) {
         if (const std::string why = whyIdle(object, "wave"); !why.empty()) return fail(place, why);

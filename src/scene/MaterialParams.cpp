@@ -334,6 +334,12 @@ const ParamTable& translucentParams() {
                  .max = 1,
                  .group = Group::Material,
                  .doc = "Of the surface that mirrors lamps: 0 as sharp points, 1 spread wide."}),
+        declare(&Translucent::precomputed,
+                {.id = "precomputed",
+                 .label = "Precomputed",
+                 .group = Group::Material,
+                 .doc = "What leaves of light is worked out once for the body, which must keep its shape and "
+                        "be unpainted: each picture then takes less, of light from anywhere."}),
     };
     static const ParamTable table = tableOf<Translucent>("material", params);
     return table;

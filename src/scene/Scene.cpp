@@ -407,6 +407,11 @@ bool moves(const Object& object) {
     return object.wave.amplitude != vec3(0) || (shape && shape->mesh && shape->mesh->moves());
 }
 
+bool isPrecomputed(const Object& object) {
+    return object.material.isScattering() && object.material.translucent().precomputed && !object.painting &&
+           !moves(object);
+}
+
 namespace {
 
 Status checkAll(const Scene& scene) {

@@ -6,6 +6,7 @@
 #include "base/Math.h"
 #include "base/Param.h"
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -172,6 +173,8 @@ struct Translucent {
     float anisotropy = 0;   ///< g, mean cosine of a scattered ray, [-0.999,0.999]
     float thickness = 0;    ///< m, of a slab that the surface is the upper side of; 0: as thick as the object
     float roughness = 0.3f; ///< of the surface, [0,1]: its highlight
+    /// What leaves of light is worked out once for the body (isPrecomputed()), not for each picture.
+    bool precomputed = false;
     std::vector<MediumLayer> layers{}; ///< on top of it, kMostMediumLayers at most, in no order
     float attenuationDistance = 0;     ///< as Clear's
 
@@ -295,7 +298,10 @@ struct Object {
     bool visible = true; ///< false: hidden from the camera only
     /// What an artist painted on it; null: nothing. Acts where the material scatters.
     std::shared_ptr<const Painting> painting;
-    Kept kept{}; ///< what was worked out from it: its mesh, its bounds
+    /// What was worked out of it beforehand, as the technique that wrote it reads it; null: nothing.
+    std::shared_ptr<const std::vector<std::byte>> bake;
+    std::string bakeFile{}; ///< as the scene file names it
+    Kept kept{};            ///< what was worked out from it: its mesh, its bounds
 
     /// A height field that is a relief, whose heights rays walk along. Of other materials it is a mesh, the
     /// body of its heights (Mesh.h).
@@ -477,6 +483,10 @@ std::vector<BoundParam> bindParams(Scene& scene);
 
 /// True where the picture depends on View::time: water, a wave, an animation.
 bool moves(const Object& object);
+
+/// Whether what its body does with light is worked out once, as its material asks for: a body that keeps its
+/// shape, unpainted.
+bool isPrecomputed(const Object& object);
 
 /// What no single range can say: the camera looks somewhere, a direction has a length, a torus has a hole or
 /// a dent. Error "KEY is X; must...".

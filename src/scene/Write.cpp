@@ -153,6 +153,7 @@ void writeObject(JsonWriter& json, const Object& object) {
     json.end();
     writeWave(json, object);
     writePaint(json, object);
+    writeText(json, "bake", object.bakeFile);
     if (!object.visible) json.key("visible").value(false);
     json.end();
 }

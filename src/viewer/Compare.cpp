@@ -205,6 +205,8 @@ std::vector<std::pair<std::string, Bytes>> packScene(scene::Scene scene) {
         if (auto* measured = std::get_if<scene::MeasuredBrdf>(&material.kind))
             packImage(files, measured->table, measured->tableFile);
         packPainting(files, object.painting);
+        object.bakeFile.clear(); // exact solutions need none
+        object.bake.reset();
     }
     const std::string text = scene::toJson(scene);
     const auto bytes = std::as_bytes(std::span(text));

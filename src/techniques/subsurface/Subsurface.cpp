@@ -305,7 +305,8 @@ const ParamTable& Subsurface::params() {
 }
 
 bool scatters(const scene::Object& object) {
-    return object.visible && !object.isField() && object.material.isScattering();
+    return object.visible && !object.isField() && object.material.isScattering() &&
+           !scene::isPrecomputed(object);
 }
 
 bool acts(const Settings& settings, std::string_view id) {

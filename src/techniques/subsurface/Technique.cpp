@@ -171,8 +171,8 @@ const technique::NotDrawn kLimits[] = {
     {"layers and thickness of a translucent material", "method diffusion solves the body itself",
      [](const scene::Scene& scene) {
          return solves(scene) && std::any_of(scene.objects.begin(), scene.objects.end(), [](const auto& one) {
-                    return one.material.isScattering() && (!one.material.translucent().layers.empty() ||
-                                                           one.material.translucent().thickness > 0);
+                    return scatters(one) && (!one.material.translucent().layers.empty() ||
+                                             one.material.translucent().thickness > 0);
                 });
      }},
     {"light that scatters once inside objects", "diffusion leaves it out (dissertation ch. 6)", anyScatters},
