@@ -2,11 +2,12 @@
 //
 // in    uSurface    the visible points (views/surface_pixel.glsl)
 //       uShadow     views/shadow.glsl
+//       uPlaces     OF_PLACES: world places of the points, xyz
 // out   oOcclusion  1 - visibility, in one channel; added to what the others hold
 //
 // OF_FIELD: of one height field, whose shadow on itself is left to whoever walks through it: the plane that its point is
 // compared by faces the light. Else of all other shapes.
-#pragma variants - OF_FIELD
+#pragma variants - OF_FIELD OF_PLACES
 #include "views/view.glsl"
 layout(std140) uniform OcclusionBlock {
     View view;
@@ -23,6 +24,9 @@ layout(std140) uniform OcclusionBlock {
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
 #include "views/shadow.glsl"
+#ifdef OF_PLACES
+uniform sampler2D uPlaces;
+#endif
 layout(location = 0) out vec4 oOcclusion;
 
 void main() {
@@ -35,7 +39,11 @@ void main() {
     vec3 normal = normalize(light.source.xyz - (light.source.w == 0.0 ? vec3(0.0) : place));
 #else
     if (pixel.face != kMeshFace) discard;
+#ifdef OF_PLACES
+    vec3 place = texelFetch(uPlaces, ivec2(at), 0).xyz;
+#else
     vec3 place = light.view.eye.xyz + placeFrom(light.view, at, pixel.z);
+#endif
     vec3 normal = fromOctahedral(pixel.g);
     vec3 toLight = light.source.xyz - (light.source.w == 0.0 ? vec3(0.0) : place);
     if (dot(normal, toLight) <= 0.0) discard; // faces away

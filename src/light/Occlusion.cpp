@@ -55,6 +55,7 @@ struct Target {
     ivec2 size;
     TextureId surface;
     const DrawnField* field; // null: all but fields
+    TextureId places{};      // as LitView's
 };
 
 light::OcclusionBlock blockOf(const Target& target, const LampPoint& sample, const ShadowViews& views,
@@ -81,8 +82,10 @@ Occlusion emptyFor(const gl::Context& context, ivec2 size, std::size_t samples) 
 // Adds what one sample's shadow keeps from a view.
 Status add(graph::FrameGraph& graph, gl::Context& context, const Target& target, const LampPoint& sample,
            const Shadow& shadow, std::size_t number, std::size_t samples, Occlusion& occlusion) {
-    const gl::Program* program = context.program(
-        "light/occlusion", target.field ? std::vector<std::string>{"OF_FIELD"} : std::vector<std::string>{});
+    std::vector<std::string> defines;
+    if (target.field) defines.push_back("OF_FIELD");
+    if (target.places) defines.push_back("OF_PLACES");
+    const gl::Program* program = context.program("light/occlusion", defines);
     const int copy = int(number) / kSamplesPerTexel, copies = copiesOf(samples), columns = occlusion.columns;
     const ivec2 corner = ivec2(copy % columns, copy / columns) * target.size;
     const bool isFirst = !occlusion.texture;
@@ -94,16 +97,21 @@ Status add(graph::FrameGraph& graph, gl::Context& context, const Target& target,
                                  : "what keeps a light sample from surfaces");
         pass.sample(target.surface);
         pass.sample(shadow.map);
+        if (target.places) pass.sample(target.places);
         pass.write(occlusion.texture);
         if (isFirst) pass.clear(occlusion.texture, vec4(0));
-        return [surface = target.surface, map = shadow.map, program, region = ivec4(corner, target.size),
+        return [surface = target.surface, places = target.places, map = shadow.map, program,
+                region = ivec4(corner, target.size),
                 block = blockOf(target, sample, shadow.views, corner, int(number) % kSamplesPerTexel)](
                    const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
+                                                 {"uShadow", resources[map]}};
+            if (places) textures.push_back({"uPlaces", resources[places]});
             commands.draw({.program = program,
                            .region = region,
                            .blend = graph::Blend::Add,
                            .block = block,
-                           .textures = {{"uSurface", resources[surface]}, {"uShadow", resources[map]}}});
+                           .textures = textures});
         };
     });
     return Done{};
@@ -156,7 +164,7 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
 Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const LitView& view,
                                   std::span<const LampPoint> samples, std::span<const Shadow> shadows) {
     Occlusion occlusion = emptyFor(context, view.size, samples.size());
-    const Target target{view.eye, view.size, view.surface, nullptr};
+    const Target target{view.eye, view.size, view.surface, nullptr, view.places};
     for (std::size_t i = 0; i < samples.size(); ++i)
         if (shadows[i].map)
             if (Status s = add(graph, context, target, samples[i], shadows[i], i, samples.size(), occlusion);

@@ -53,6 +53,9 @@ struct LitView {
     const Eye& eye;
     ivec2 size;
     graph::TextureId surface; ///< views.surface, or a layer of one object with outward normals
+    /// World places of the pixels, xyz, where they do not follow from the eye: of what is unfolded. None: they
+    /// do.
+    graph::TextureId places{};
 };
 
 /// The same for another view, by the shadows that are drawn already.
