@@ -23,6 +23,7 @@ Command addList(CLI::App& program);
 Command addConvert(CLI::App& program);
 Command addPaint(CLI::App& program);
 Command addTabulate(CLI::App& program);
+Command addBake(CLI::App& program);
 Command addSchema(CLI::App& program);
 Command addBench(CLI::App& program);
 Command addReport(CLI::App& program);

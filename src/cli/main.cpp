@@ -44,11 +44,11 @@ int run(int argc, char** argv) {
     program.require_subcommand(1);
     program.footer("lucent COMMAND --help explains a command, with examples.\n"
                    "Exit codes: 0 done; 1 the input is wrong; 2 the machine cannot.");
-    const std::vector<Command> commands{addRender(program),   addTruth(program),   addMerge(program),
-                                        addCompare(program),  addExplain(program), addList(program),
-                                        addConvert(program),  addPaint(program),   addTabulate(program),
-                                        addSchema(program),   addBench(program),   addReport(program),
-                                        addSelfCheck(program)};
+    const std::vector<Command> commands{addRender(program),  addTruth(program),    addMerge(program),
+                                        addCompare(program), addExplain(program),  addList(program),
+                                        addConvert(program), addPaint(program),    addTabulate(program),
+                                        addBake(program),    addSchema(program),   addBench(program),
+                                        addReport(program),  addSelfCheck(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

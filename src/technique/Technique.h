@@ -7,6 +7,8 @@
 #include "scene/Scene.h"
 #include "truth/Model.h"
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +20,20 @@ namespace lucent::technique {
 
 class Guest;
 struct Store;
+
+/// How long work is done; no result depends on it.
+struct BakeWork {
+    int threads = 0; ///< 0: as many as the machine has
+    /// Called now and then with the finished share, [0,1], from the calling thread. @return false: it stops
+    std::function<bool(double)> goOn = [](double) { return true; };
+};
+
+/// Work that a technique does once for an object, into files that scenes name (scene::Object::bake).
+struct Baker {
+    bool (*takes)(const scene::Object&); ///< whether it bakes such an object
+    /// The file, or why there is none.
+    Result<std::vector<std::byte>> (*bake)(const Settings&, const scene::Object&, const BakeWork&);
+};
 
 /// A parameter that trades error for time: first looks turn it down, and quality.maxError chooses its value.
 struct Knob {
@@ -85,6 +101,7 @@ struct Technique {
     std::span<const Knob> knobs = {};
     std::span<const NotDrawn> limits = {};
     std::optional<Mode> mode = {};
+    std::optional<Baker> baker = {};
     std::unique_ptr<Guest> (*make)(const Store&);
 };
 
