@@ -29,8 +29,12 @@ inline Work partOf(const Work& work, double from, double to) {
 /// @return  Error where the work was stopped: some pieces are not done
 template <class Piece>
 Status forEach(std::size_t count, const Work& work, const Piece& piece) {
+#ifdef __EMSCRIPTEN__
+    const std::size_t threads = 1; // the page's module is built without them
+#else
     const std::size_t threads =
         std::size_t(work.threads > 0 ? work.threads : std::max(1, int(std::thread::hardware_concurrency())));
+#endif
     std::atomic<std::size_t> next{0};
     std::atomic<bool> stops{false};
     const std::size_t batch = std::clamp<std::size_t>(count / 256, 1, 64);

@@ -1,0 +1,129 @@
+#include "technique/Technique.h"
+
+#include "technique/Guest.h"
+#include "techniques/throughput/BakeFile.h"
+#include "techniques/throughput/Throughput.h"
+
+#include <algorithm>
+
+namespace lucent::throughput {
+
+namespace {
+
+using graph::TextureId;
+using scene::Aov;
+
+const Settings& settingsOf(const scene::Scene& scene) {
+    return scene.technique.at("throughput").as<Settings>();
+}
+
+class ThroughputGuest : public technique::Guest {
+public:
+    explicit ThroughputGuest(const technique::Store& store) : throughput_(store.context) {}
+
+    Status prepare(const technique::Picture& picture) override {
+        return throughput_.prepare(baked(picture.drawables), settingsOf(picture.scene));
+    }
+    bool shades(const scene::Scene& scene) const override { return need(scene) && showsLight(scene); }
+    views::Bounds lit(const technique::Picture& picture) const override {
+        return boundsOfAll(filtered(
+            picture.drawables, [](const views::Drawable& one) { return throughput::bakes(*one.object); }));
+    }
+    Status shade(const technique::Passes& passes, const technique::Slice& slice) override {
+        if (slice.clears) views::recordNothing(passes.graph, "before what is baked", slice.target);
+        return throughput_.light(passes.graph,
+                                 {.eye = passes.picture.eye,
+                                  .table = slice.table,
+                                  .samples = slice.samples,
+                                  .first = slice.first,
+                                  .end = slice.end,
+                                  .shadows = slice.occlusion.shadows,
+                                  .irradiance = passes.picture.scene.view.show == Aov::Irradiance},
+                                 baked(passes.posed), settingsOf(passes.picture.scene));
+    }
+    Status scatter(const technique::Passes& passes, TextureId shown) override {
+        const technique::Picture& picture = passes.picture;
+        if (!showsLight(picture.scene)) return Done{};
+        return throughput_.record(passes.graph,
+                                  {.scene = picture.scene,
+                                   .eye = picture.eye,
+                                   .size = picture.size,
+                                   .surface = passes.surface,
+                                   .target = shown},
+                                  baked(passes.posed), settingsOf(picture.scene));
+    }
+    std::map<std::string, std::size_t> bytes() const override { return throughput_.bytes(); }
+    void clear() override { throughput_.clear(); }
+
+private:
+    static bool showsLight(const scene::Scene& scene) {
+        const Aov show = scene.view.show;
+        return show == Aov::Color || show == Aov::Radiosity || show == Aov::Irradiance;
+    }
+    static std::vector<views::DrawnMesh> baked(views::Drawables list) {
+        return meshesOf(filtered(std::move(list),
+                                 [](const views::Drawable& one) { return throughput::bakes(*one.object); }));
+    }
+
+    Throughput throughput_;
+};
+
+Result<std::vector<std::byte>> bakeFile(const lucent::Settings& settings, const scene::Object& object,
+                                        const technique::BakeWork& work) {
+    const BakeOptions options = optionsOf(settings.as<Settings>());
+    const Result<Bake> made = bake(object, options, DipoleGeometry::Planar, {work.threads, work.goOn});
+    if (!made) return made.error();
+    return encodeBake(keyOf(object, options, DipoleGeometry::Planar), *made);
+}
+
+bool anyBaked(const scene::Scene& scene) { return need(scene).has_value(); }
+bool asks(const scene::Object& object) {
+    return object.material.isScattering() && object.material.translucent().precomputed;
+}
+constexpr Aov kAovs[] = {Aov::Radiosity};
+const technique::NotDrawn kLimits[] = {
+    {"precomputed light of what moves or is painted",
+     "its factors would change; it is drawn as if not precomputed",
+     [](const scene::Scene& scene) {
+         return std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
+             return asks(object) && !scene::isPrecomputed(object);
+         });
+     }},
+    {"lamps and environment mirrored by precomputed objects", "what leaves of light inside is drawn alone",
+     anyBaked},
+    {"caustics on precomputed objects", "lamps and the environment light them straight on",
+     [](const scene::Scene& scene) {
+         return anyBaked(scene) &&
+                std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
+                    return object.material.isRefractive() || object.material.isMirror();
+                });
+     }},
+    {"layers and thickness of a precomputed material", "its factors are the dipole's of a half space",
+     [](const scene::Scene& scene) {
+         return std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
+             return bakes(object) && (!object.material.translucent().layers.empty() ||
+                                      object.material.translucent().thickness > 0);
+         });
+     }},
+    {"light that scatters once inside precomputed objects", "diffusion leaves it out (2002 paper, 3)",
+     anyBaked},
+};
+
+} // namespace
+
+extern const technique::Technique kTechnique;
+const technique::Technique kTechnique{
+    .name = "throughput",
+    .need = need,
+    .shades = bakes,
+    .acts = [](const lucent::Settings& settings,
+               std::string_view id) { return acts(settings.as<Settings>(), id); },
+    .aovs = kAovs,
+    .limits = kLimits,
+    .baker = technique::Baker{.takes = bakes, .bake = bakeFile},
+    .make = [](const technique::Store& store) -> std::unique_ptr<technique::Guest> {
+        return std::make_unique<ThroughputGuest>(store);
+    },
+};
+
+} // namespace lucent::throughput

@@ -1,0 +1,451 @@
+#include "techniques/throughput/Throughput.h"
+
+#include "diffusion/Profile.h"
+#include "shaders/throughput/Blocks.h"
+#include "techniques/throughput/BakeFile.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace lucent::throughput {
+
+using graph::Format;
+using graph::TextureId;
+
+namespace {
+
+constexpr int kVectorWidth = 256;    // shaders/throughput/vector.glsl
+constexpr int kTexelsInRow = 2048;   // of lists
+constexpr int kMostTexels = 1 << 22; // of occlusion at once: 64 MiB
+
+vec2 octahedral(vec3 n) {
+    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    const vec2 xy(n);
+    if (n.z >= 0) return xy;
+    return {(1 - std::abs(xy.y)) * (xy.x >= 0 ? 1.0f : -1.0f),
+            (1 - std::abs(xy.x)) * (xy.y >= 0 ? 1.0f : -1.0f)};
+}
+
+ivec2 listSize(std::size_t count) {
+    return {kTexelsInRow, std::max(1, int((count + kTexelsInRow - 1) / kTexelsInRow))};
+}
+ivec2 vectorSize(std::size_t count) {
+    return {kVectorWidth, std::max(1, int((count + kVectorWidth - 1) / kVectorWidth))};
+}
+
+TextureId import(graph::FrameGraph& graph, const graph::Texture& texture) {
+    return graph.import(texture.handle(), texture.desc(), texture.label());
+}
+
+// Scaled already: turned and moved.
+mat4 worldFromBody(const scene::Object& object) {
+    scene::Transform transform = object.transform;
+    transform.scale = 1;
+    return transform.worldFromObject();
+}
+
+// Columns as places in the atlas, and a value for all colours.
+template <class Value>
+Rows<vec3> overAtlas(const Rows<Value>& rows, const Texels& texels) {
+    Rows<vec3> over;
+    over.starts = rows.starts;
+    for (std::size_t k = 0; k < rows.columns.size(); ++k) {
+        const ivec2 at = texels.list[rows.columns[k]].at;
+        over.columns.push_back(std::uint32_t(at.y * texels.side + at.x));
+        over.values.push_back(vec3(rows.values[k]));
+    }
+    return over;
+}
+
+Rows<vec3> rowsOfDense(const Factors& factors) {
+    Rows<vec3> rows;
+    for (std::size_t j = 0; j < factors.count; ++j) {
+        for (std::size_t i = 0; i < factors.count; ++i)
+            rows.columns.push_back(std::uint32_t(i));
+        rows.starts.push_back(std::uint32_t(rows.columns.size()));
+    }
+    rows.values = factors.dense;
+    return rows;
+}
+
+} // namespace
+
+bool bakes(const scene::Object& object) {
+    return object.visible && !object.isField() && scene::isPrecomputed(object);
+}
+
+std::optional<std::string> need(const scene::Scene& scene) {
+    for (const scene::Object& object : scene.objects)
+        if (bakes(object)) return "light inside object \"" + object.name + "\" is precomputed";
+    return std::nullopt;
+}
+
+Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const BakeOptions& options) {
+    using Made = std::shared_ptr<const Bake>;
+    const std::pair key(keyOf(object, options, DipoleGeometry::Planar), object.bake);
+    if (const Made* made = object.kept.find<Made>(key)) return *made;
+    Result<Bake> made = object.bake ? decodeBake(*object.bake, object.bakeFile, key.first)
+                                    : bake(object, options, DipoleGeometry::Planar, {});
+    if (!made)
+        return Error{"objects." + object.name + (object.bake ? ".bake: " : ": ") + made.error().message,
+                     made.error().fault};
+    return object.kept.keep(key, Made(std::make_shared<const Bake>(std::move(*made))));
+}
+
+// --- onto the GPU
+
+graph::Texture Throughput::textureOf(const std::vector<vec4>& texels, ivec2 size, const char* label) {
+    std::vector<vec4> rows = texels;
+    rows.resize(std::size_t(size.x) * std::size_t(size.y), vec4(0));
+    graph::Texture texture(context_.device(), {.size = size, .format = Format::RGBA32F}, label);
+    context_.device().upload(texture.handle(), 0, rows);
+    return texture;
+}
+
+Result<Matrix> Throughput::matrixOf(const Rows<vec3>& rows, const char* label) {
+    const ivec2 size = listSize(rows.columns.size());
+    if (size.y > context_.caps().maxTextureSize)
+        return Error{std::string(label) + ": has " + std::to_string(rows.columns.size()) +
+                         " factors, more than a texture of this GPU holds; must be hierarchical, or of fewer "
+                         "vertices",
+                     Fault::Machine};
+    using Entry = glm::uvec4;
+    std::vector<Entry> entries(std::size_t(size.x) * std::size_t(size.y), Entry(0));
+    for (std::size_t k = 0; k < rows.columns.size(); ++k) {
+        const vec3& value = rows.values[k];
+        entries[k] = {rows.columns[k], std::bit_cast<std::uint32_t>(value.r),
+                      std::bit_cast<std::uint32_t>(value.g), std::bit_cast<std::uint32_t>(value.b)};
+    }
+    std::vector<std::uint32_t> starts = rows.starts;
+    const ivec2 startsSize = listSize(starts.size());
+    starts.resize(std::size_t(startsSize.x) * std::size_t(startsSize.y), 0);
+    Matrix matrix{{context_.device(), {.size = startsSize, .format = Format::R32UI}, label},
+                  {context_.device(), {.size = size, .format = Format::RGBA32UI}, label},
+                  int(rows.count())};
+    context_.device().upload(matrix.starts.handle(), 0, starts);
+    context_.device().upload(matrix.entries.handle(), 0, entries);
+    return matrix;
+}
+
+Result<Body> Throughput::upload(std::shared_ptr<const Bake> bake) {
+    Body body;
+    body.bake = bake;
+    const Surface& surface = bake->surface;
+    const Hats& hats = surface.hats;
+    const int side = surface.texels.side;
+    const std::size_t count = std::size_t(side) * std::size_t(side);
+    std::vector<vec4> place(count, vec4(0)), frame(count, vec4(0)), corners(count, vec4(0)), evened;
+    if (!bake->evened.empty()) evened.assign(count, vec4(0));
+    for (std::size_t t = 0; t < surface.texels.list.size(); ++t) {
+        const Texel& texel = surface.texels.list[t];
+        const std::size_t at = std::size_t(texel.at.y) * std::size_t(side) + std::size_t(texel.at.x);
+        place[at] = vec4(positionAt(hats, texel.place), texel.area);
+        frame[at] =
+            vec4(octahedral(normalAt(hats, texel.place)), texel.place.weights.y, texel.place.weights.z);
+        const auto& vertices = hats.triangles[texel.place.triangle];
+        corners[at] = vec4(float(vertices[0]), float(vertices[1]), float(vertices[2]), float(texel.isShown));
+        if (!evened.empty()) evened[at] = vec4(bake->evened[t], 0);
+    }
+    body.place = textureOf(place, ivec2(side), "throughput.place");
+    body.frame = textureOf(frame, ivec2(side), "throughput.frame");
+    body.corners = textureOf(corners, ivec2(side), "throughput.corners");
+    std::vector<vec4> triangles, charts;
+    for (std::size_t t = 0; t < hats.triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i) {
+            triangles.emplace_back(hats.positions[hats.triangles[t][i]], 0);
+            charts.emplace_back(surface.places[t][i], 0, 0);
+        }
+    body.triangles = textureOf(triangles, listSize(triangles.size()), "throughput.triangles");
+    body.charts = textureOf(charts, listSize(charts.size()), "throughput.charts");
+    if (bake->options.local == Local::Live) {
+        constexpr int kNearEntries = 1024; // read at the nearest: off by 1e-3 where R_d is steepest
+        const Response response(bake->medium, 2.0 * double(bake->cut), double(bake->cut));
+        std::vector<vec4> near;
+        for (int i = 0; i < kNearEntries; ++i) {
+            const float u = float(i) / float(kNearEntries - 1);
+            near.emplace_back(response.near(vec3(0), vec3(0, 0, 1), vec3(bake->cut * u * u, 0, 0)), 0);
+        }
+        body.near = textureOf(near, {kNearEntries, 1}, "throughput.near");
+        body.evened = textureOf(evened, ivec2(side), "throughput.evened");
+    } else {
+        constexpr int kLayers = Filters::kWidth * Filters::kWidth;
+        body.filters = graph::Texture(context_.device(),
+                                      {.size = ivec2(side), .format = Format::RGBA16F, .layers = kLayers},
+                                      "throughput.filters");
+        for (int layer = 0; layer < kLayers; ++layer) {
+            std::vector<std::uint64_t> halves(count, 0);
+            for (std::size_t t = 0; t < surface.texels.list.size(); ++t) {
+                const ivec2 at = surface.texels.list[t].at;
+                halves[std::size_t(at.y) * std::size_t(side) + std::size_t(at.x)] = glm::packHalf4x16(
+                    vec4(bake->filters.factors[t * std::size_t(kLayers) + std::size_t(layer)], 0));
+            }
+            context_.device().upload(body.filters.handle(), 0, layer, halves);
+        }
+    }
+    const Factors& factors = bake->factors;
+    Rows<vec3> direct;
+    if (bake->options.local == Local::Stored) direct = overAtlas(bake->filters.direct, surface.texels);
+    const std::tuple<Matrix*, Rows<vec3>, const char*> matrices[] = {
+        {&body.duals, overAtlas(surface.duals, surface.texels), "throughput.duals"},
+        {&body.close, factors.method == Global::Dense ? rowsOfDense(factors) : factors.close,
+         "throughput.close"},
+        {&body.inner, factors.inner, "throughput.inner"},
+        {&body.outer, factors.outer, "throughput.outer"},
+        {&body.direct, direct, "throughput.direct"}};
+    for (const auto& [matrix, rows, label] : matrices) {
+        if (rows.count() == 0) continue;
+        Result<Matrix> made = matrixOf(rows, label);
+        if (!made) return made.error();
+        *matrix = std::move(*made);
+    }
+    for (graph::Texture& entered : body.entered)
+        entered = graph::Texture(context_.device(), {.size = ivec2(side), .format = Format::RGBA32F},
+                                 "throughput.entered");
+    return body;
+}
+
+Status Throughput::prepare(const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
+    std::map<int, Body> before = std::exchange(bodies_, {});
+    for (const views::DrawnMesh& mesh : meshes) {
+        Result<std::shared_ptr<const Bake>> bake = bakeOf(*mesh.object, optionsOf(settings));
+        if (!bake) return bake.error();
+        const auto known = before.find(mesh.index);
+        if (known != before.end() && known->second.bake == *bake) {
+            bodies_.emplace(mesh.index, std::move(known->second));
+            continue;
+        }
+        Result<Body> body = upload(*bake);
+        if (!body)
+            return Error{"objects." + mesh.object->name + ": " + body.error().message, body.error().fault};
+        bodies_.emplace(mesh.index, std::move(*body));
+    }
+    return Done{};
+}
+
+// --- light
+
+Status Throughput::addTo(graph::FrameGraph& graph, const Arriving& in, const views::DrawnMesh& mesh,
+                         Body& body, const Settings& settings) {
+    const ivec2 size = body.place.desc().size;
+    const TextureId place = import(graph, body.place), frame = import(graph, body.frame);
+    TextureId surface, places;
+    const gl::Program* placing = context_.program("throughput/place");
+    graph.addPass("throughput.place", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("where the texels of object \"" + mesh.object->name + "\" lie");
+        pass.sample(place);
+        pass.sample(frame);
+        surface = pass.createColor("throughput.surface", {.size = size, .format = Format::RGBA32F});
+        places = pass.createColor("throughput.places", {.size = size, .format = Format::RGBA32F});
+        pass.clear(surface, vec4(0));
+        pass.clear(places, vec4(0));
+        const PlaceBlock block{.worldFromBody = worldFromBody(*mesh.object), .object = mesh.index};
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = placing,
+                           .block = block,
+                           .textures = {{"uPlace", resources[place]}, {"uFrame", resources[frame]}}});
+        };
+    });
+    const int most =
+        std::clamp(4 * (kMostTexels / (size.x * size.y)), 4, views::mostSamplesAtOnce(context_, size));
+    for (int first = in.first; first == in.first || first < in.end; first += most) {
+        const int end = std::min(in.end, first + most);
+        const auto from = std::size_t(first), count = std::size_t(end - first);
+        Result<views::Occlusion> occlusion = views::recordOcclusion(
+            graph, context_, {.eye = in.eye, .size = size, .surface = surface, .places = places},
+            in.samples.subspan(from, count), in.shadows.subspan(from - std::size_t(in.first), count));
+        if (!occlusion) return occlusion.error();
+        std::vector<std::string> defines;
+        if (occlusion->texture) defines.push_back("USE_OCCLUSION");
+        if (first > 0) defines.push_back("USE_SUM");
+        if (settings.fresnel == Fresnel::Schlick) defines.push_back("SCHLICK");
+        const gl::Program* program = context_.program("throughput/enter", defines);
+        const TextureId before = first > 0 ? import(graph, body.entered[body.now]) : TextureId{};
+        body.now = 1 - body.now;
+        const TextureId sum = import(graph, body.entered[body.now]);
+        graph.keep(sum);
+        const ThroughputEnterBlock block{
+            .size = size,
+            .ior = in.irradiance ? 1 : mesh.object->material.translucent().surfaceIor(),
+            .firstLight = first,
+            .endLight = end,
+            .columns = occlusion->columns};
+        graph.addPass("throughput.enter", [&](graph::PassBuilder& pass) -> graph::Execute {
+            pass.reason("the illumination map of object \"" + mesh.object->name + "\"");
+            for (const TextureId id : {surface, places, in.table, occlusion->texture, before})
+                if (id) pass.sample(id);
+            pass.write(sum);
+            pass.clear(sum, vec4(0));
+            return [=, table = in.table, shade = occlusion->texture](const graph::Resources& resources,
+                                                                     graph::Commands& commands) {
+                std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
+                                                     {"uPlaces", resources[places]},
+                                                     {"uLights", resources[table]}};
+                if (shade) textures.push_back({"uOcclusion", resources[shade]});
+                if (before) textures.push_back({"uEntered", resources[before]});
+                commands.draw({.program = program, .block = block, .textures = textures});
+            };
+        });
+    }
+    return Done{};
+}
+
+Status Throughput::light(graph::FrameGraph& graph, const Arriving& in,
+                         const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
+    for (const views::DrawnMesh& mesh : meshes)
+        if (const auto body = bodies_.find(mesh.index); body != bodies_.end())
+            if (Status s = addTo(graph, in, mesh, body->second, settings); !s) return s;
+    return Done{};
+}
+
+// --- what leaves
+
+TextureId Throughput::multiply(graph::FrameGraph& graph, const Matrix& matrix, TextureId vector,
+                               TextureId sum, const char* reason) {
+    const gl::Program* program = context_.program(
+        "throughput/product", sum ? std::vector<std::string>{"USE_SUM"} : std::vector<std::string>{});
+    const TextureId starts = import(graph, matrix.starts), entries = import(graph, matrix.entries);
+    TextureId product;
+    graph.addPass("throughput.product", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason(reason);
+        for (const TextureId id : {starts, entries, vector, sum})
+            if (id) pass.sample(id);
+        product = pass.createColor("throughput.vector",
+                                   {.size = vectorSize(std::size_t(matrix.rows)), .format = Format::RGBA32F});
+        pass.clear(product, vec4(0));
+        return [=, block = ProductBlock{.rows = matrix.rows}](const graph::Resources& resources,
+                                                              graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uStarts", resources[starts]},
+                                                 {"uEntries", resources[entries]},
+                                                 {"uVector", resources[vector]}};
+            if (sum) textures.push_back({"uSum", resources[sum]});
+            commands.draw({.program = program, .block = block, .textures = textures});
+        };
+    });
+    return product;
+}
+
+TextureId Throughput::spread(graph::FrameGraph& graph, Body& body, const Settings& settings) {
+    const TextureId entered = import(graph, body.entered[body.now]);
+    const TextureId lit = multiply(graph, body.duals, entered, {}, "irradiance of the vertices");
+    TextureId vertices = multiply(graph, body.close, lit, {}, "what vertices leave at each other");
+    if (body.inner.rows > 0) {
+        const TextureId moments = multiply(graph, body.inner, lit, {}, "sums over vertices for far ones");
+        vertices = multiply(graph, body.outer, moments, vertices, "what they leave there");
+    }
+    if (body.direct.rows > 0)
+        vertices = multiply(graph, body.direct, entered, vertices, "what texels leave at their vertices");
+    const bool isLive = body.bake->options.local == Local::Live;
+    const gl::Program* program = context_.program("throughput/spread", {isLive ? "LIVE" : "STORED"});
+    const TextureId place = import(graph, body.place), frame = import(graph, body.frame),
+                    corners = import(graph, body.corners);
+    TextureId near, evened, filters, leaving;
+    if (isLive) {
+        near = import(graph, body.near);
+        evened = import(graph, body.evened);
+    } else {
+        filters = import(graph, body.filters);
+    }
+    const SpreadBlock block{.radius = body.bake->radius,
+                            .cut = body.bake->cut,
+                            .local = settings.part == Part::Global ? 0.0f : 1.0f,
+                            .global = settings.part == Part::Local ? 0.0f : 1.0f};
+    graph.addPass("throughput.spread", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what leaves at the texels: of close light and of far");
+        for (const TextureId id : {entered, vertices, place, frame, corners, near, evened, filters})
+            if (id) pass.sample(id);
+        leaving = pass.createColor("throughput.leaving",
+                                   {.size = body.place.desc().size, .format = Format::RGBA32F});
+        pass.clear(leaving, vec4(0));
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uEntered", resources[entered]},
+                                                 {"uFrame", resources[frame]},
+                                                 {"uCorners", resources[corners]},
+                                                 {"uVertices", resources[vertices]}};
+            if (near)
+                textures.insert(textures.end(), {{"uPlace", resources[place]},
+                                                 {"uNear", resources[near]},
+                                                 {"uEvened", resources[evened]}});
+            if (filters) textures.push_back({"uFilters", resources[filters]});
+            commands.draw({.program = program, .block = block, .textures = textures});
+        };
+    });
+    return leaving;
+}
+
+Status Throughput::record(graph::FrameGraph& graph, const Shown& in,
+                          const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
+    const bool isIrradiance = in.scene.view.show == scene::Aov::Irradiance;
+    const bool isColor = in.scene.view.show == scene::Aov::Color;
+    const gl::Program* seeing = context_.program("throughput/seen");
+    const gl::Program* shading =
+        context_.program("throughput/shade",
+                         isColor ? std::vector<std::string>{} : std::vector<std::string>{"SHOW_RADIOSITY"});
+    for (const views::DrawnMesh& mesh : meshes) {
+        const auto found = bodies_.find(mesh.index);
+        if (found == bodies_.end()) continue;
+        Body& body = found->second;
+        const TextureId leaving =
+            isIrradiance ? import(graph, body.entered[body.now]) : spread(graph, body, settings);
+        const TextureId triangles = import(graph, body.triangles), charts = import(graph, body.charts);
+        const int corners = 3 * int(body.bake->surface.hats.triangles.size());
+        TextureId seen;
+        graph.addPass("throughput.seen", [&](graph::PassBuilder& pass) -> graph::Execute {
+            pass.reason("the atlas of object \"" + mesh.object->name + "\" as the camera sees it");
+            for (const TextureId id : {leaving, triangles, charts})
+                pass.sample(id);
+            seen = pass.createColor("throughput.seen", {.size = in.size, .format = Format::RGBA32F});
+            pass.clear(seen, vec4(0));
+            pass.clear(pass.createDepth("throughput.depth", in.size), 1.0f);
+            const SeenBlock block{.clipFromBody = in.eye.clipFromWorld * worldFromBody(*mesh.object)};
+            return [=](const graph::Resources& resources, graph::Commands& commands) {
+                commands.draw({.program = seeing,
+                               .vertices = corners,
+                               .depthTest = graph::DepthTest::Less,
+                               .block = block,
+                               .textures = {{"uTriangles", resources[triangles]},
+                                            {"uCharts", resources[charts]},
+                                            {"uLeaving", resources[leaving]}}});
+            };
+        });
+        const float ior = mesh.object->material.translucent().surfaceIor();
+        const ThroughputShadeBlock block{.view = views::viewBlock(in.eye, in.size),
+                                         .ior = ior,
+                                         .mean = float(diffusion::meanTransmittance(double(ior))),
+                                         .object = mesh.index};
+        graph.addPass("throughput.shade", [&](graph::PassBuilder& pass) -> graph::Execute {
+            pass.reason("what object \"" + mesh.object->name + "\" sends to the eye");
+            pass.sample(in.surface);
+            pass.sample(seen);
+            pass.write(in.target);
+            return [=, surface = in.surface](const graph::Resources& resources, graph::Commands& commands) {
+                commands.draw({.program = shading,
+                               .block = block,
+                               .textures = {{"uSurface", resources[surface]}, {"uSeen", resources[seen]}}});
+            };
+        });
+    }
+    return Done{};
+}
+
+std::map<std::string, std::size_t> Throughput::bytes() const {
+    std::map<std::string, std::size_t> bytes;
+    const auto add = [&](const graph::Texture& texture) {
+        if (texture) bytes[texture.label()] += texture.desc().bytes();
+    };
+    for (const auto& [index, body] : bodies_) {
+        for (const graph::Texture* texture :
+             {&body.place, &body.frame, &body.corners, &body.triangles, &body.charts, &body.near,
+              &body.evened, &body.filters, &body.entered[0], &body.entered[1]})
+            add(*texture);
+        for (const Matrix* matrix : {&body.duals, &body.close, &body.inner, &body.outer, &body.direct}) {
+            add(matrix->starts);
+            add(matrix->entries);
+        }
+    }
+    return bytes;
+}
+
+} // namespace lucent::throughput

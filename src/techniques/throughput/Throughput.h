@@ -1,0 +1,114 @@
+#pragma once
+/// Precomputed throughput on the GPU (translucent-objects-2002): the illumination map of an object's atlas,
+/// its vertices' irradiance, the product with their factors, and what texels leave around them.
+
+#include "base/Param.h"
+#include "gl/Context.h"
+#include "graph/FrameGraph.h"
+#include "light/Occlusion.h"
+#include "scene/Scene.h"
+#include "techniques/throughput/Bake.h"
+#include "views/Meshes.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lucent::throughput {
+
+enum class Fresnel : int { Exact, Schlick };
+enum class Part : int { Whole, Local, Global };
+
+struct Settings {
+    Local local = Local::Live;
+    Global global = Global::Hierarchical;
+    Blend blend = Blend::Fitted;
+    int side = 512; ///< texels of the atlas
+    float epsilon = FactorOptions{}.epsilon;
+    float threshold = FactorOptions{}.threshold;
+    Fresnel fresnel = Fresnel::Exact;
+    Part part = Part::Whole;
+    bool operator==(const Settings&) const = default;
+};
+
+const ParamTable& params();
+BakeOptions optionsOf(const Settings& settings);
+/// Whether a parameter changes anything beside these choices.
+bool acts(const Settings& settings, std::string_view id);
+
+/// Whether an object is drawn by this technique.
+bool bakes(const scene::Object& object);
+std::optional<std::string> need(const scene::Scene& scene);
+
+/// What was baked of an object: that of its file, or what is baked now, for a few seconds, and kept with the
+/// object. Distances count by themselves (DipoleGeometry::Planar).
+Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const BakeOptions& options);
+
+/// A sparse matrix on the GPU.
+struct Matrix {
+    graph::Texture starts, entries;
+    int rows = 0;
+};
+
+/// A bake on the GPU, and the light of its object.
+struct Body {
+    std::shared_ptr<const Bake> bake;
+    graph::Texture place, frame, corners; ///< of the atlas: shaders/throughput
+    graph::Texture triangles, charts;
+    graph::Texture near, evened, filters;
+    Matrix duals, close, inner, outer, direct;
+    graph::Texture entered[2]; ///< sum of light samples, and the one before it, in turns
+    int now = 0;
+};
+
+/// Some of the light samples on their way to the objects.
+struct Arriving {
+    const views::Eye& eye;
+    graph::TextureId table; ///< views::sampleTable()
+    std::span<const views::LampPoint> samples;
+    int first, end;                         ///< those that are added
+    std::span<const views::Shadow> shadows; ///< of these
+    bool irradiance = false;                ///< all that arrives counts
+};
+
+struct Shown {
+    const scene::Scene& scene;
+    const views::Eye& eye;
+    ivec2 size;
+    graph::TextureId surface, target;
+};
+
+class Throughput {
+public:
+    explicit Throughput(gl::Context& context) : context_(context) {}
+
+    /// Puts the bakes of objects onto the GPU, and gives back those of others.
+    ///
+    /// @return  Error naming the object: files that do not fit, meshes that cannot be baked, and
+    ///          (Fault::Machine) factors that no texture of this GPU holds
+    Status prepare(const std::vector<views::DrawnMesh>& meshes, const Settings& settings);
+    Status light(graph::FrameGraph& graph, const Arriving& in, const std::vector<views::DrawnMesh>& meshes,
+                 const Settings& settings);
+    Status record(graph::FrameGraph& graph, const Shown& in, const std::vector<views::DrawnMesh>& meshes,
+                  const Settings& settings);
+    std::map<std::string, std::size_t> bytes() const;
+    void clear() { bodies_.clear(); }
+
+private:
+    Result<Body> upload(std::shared_ptr<const Bake> bake);
+    Result<Matrix> matrixOf(const Rows<vec3>& rows, const char* label);
+    graph::Texture textureOf(const std::vector<vec4>& texels, ivec2 size, const char* label);
+    Status addTo(graph::FrameGraph& graph, const Arriving& in, const views::DrawnMesh& mesh, Body& body,
+                 const Settings& settings);
+    graph::TextureId multiply(graph::FrameGraph& graph, const Matrix& matrix, graph::TextureId vector,
+                              graph::TextureId sum, const char* reason);
+    graph::TextureId spread(graph::FrameGraph& graph, Body& body, const Settings& settings);
+
+    gl::Context& context_;
+    std::map<int, Body> bodies_; ///< by the object's place in the scene
+};
+
+} // namespace lucent::throughput

@@ -1,0 +1,198 @@
+// Whole scenes with precomputed objects: their passes, their light against closed forms and the exact dipole.
+#include "diffusion/Profile.h"
+#include "frame/Renderer.h"
+#include "scene/Mesh.h"
+#include "technique/Technique.h"
+#include "techniques/throughput/BakeFile.h"
+#include "techniques/throughput/Throughput.h"
+#include "tests/support/Gl.h"
+#include "tests/throughput/Shapes.h"
+#include "truth/Dipole.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lucent::throughput {
+namespace {
+
+scene::MeshShape shapeOf(scene::Mesh mesh) {
+    scene::MeshShape shape;
+    shape.mesh = std::make_shared<const scene::Mesh>(std::move(mesh));
+    return shape;
+}
+
+struct Precomputed : support::GlTest {
+    scene::Scene scene;
+
+    Precomputed() {
+        scene.size = {48, 48};
+        scene.camera.eye = {0, 0, 1};
+        scene.camera.height = 0.022f;
+        technique::addSettings(scene);
+        scene.lights = {scene::DistantLight{.direction = {-1, 0, 0}}};
+        scene::Object ball;
+        ball.name = "ball";
+        ball.shape = shapeOf(scene::meshOf(scene::Sphere{0.01f}, 48));
+        scene::Translucent inside;
+        inside.scattering = {2190, 2620, 3000};
+        inside.absorption = vec3(200);
+        inside.precomputed = true;
+        ball.material.kind = inside;
+        scene.objects.push_back(ball);
+        settings().side = 192;
+    }
+    Settings& settings() { return *static_cast<Settings*>(scene.technique.at("throughput").data()); }
+    void makePatch() {
+        scene.objects[0].shape = shapeOf(shapes::patch(0.02f, 40));
+        scene.lights = {scene::DistantLight{.direction = {0, 0, -1}}};
+        scene.camera.height = 0.004f;
+    }
+    Result<Image> draw(scene::Aov aov = scene::Aov::Radiosity) {
+        frame::Renderer renderer(*context);
+        scene.view.show = aov;
+        if (Status done = renderer.finish(scene, 1, scene.size); !done) return done.error();
+        return renderer.read(scene, aov);
+    }
+    Image picture(scene::Aov aov = scene::Aov::Radiosity) {
+        Result<Image> image = draw(aov);
+        EXPECT_TRUE(image.ok()) << image.error().message;
+        return std::move(*image);
+    }
+    std::string explained() {
+        frame::Renderer renderer(*context);
+        const Result<std::string> text = renderer.explain(scene, scene.size);
+        EXPECT_TRUE(text.ok()) << text.error().message;
+        return *text;
+    }
+    bool runs(const std::string& pass) { return explained().find("\n  " + pass + ":") != std::string::npos; }
+};
+
+TEST_F(Precomputed, ABallRunsItsOwnPassesAndNoSplats) {
+    for (const char* pass : {"throughput.place", "throughput.enter", "throughput.product",
+                             "throughput.spread", "throughput.seen", "throughput.shade"})
+        EXPECT_TRUE(runs(pass)) << pass;
+    EXPECT_FALSE(runs("subsurface.shade"));
+    EXPECT_FALSE(runs("brdf.light"));
+    EXPECT_NE(explained().find("throughput: light inside object \"ball\" is precomputed"), std::string::npos);
+    scene.objects[0].material.translucent().precomputed = false;
+    EXPECT_FALSE(runs("throughput.shade"));
+    EXPECT_TRUE(runs("subsurface.shade"));
+}
+
+// What moves is drawn as if it were not precomputed.
+TEST_F(Precomputed, WhatChangesItsShapeIsLeftToOthers) {
+    scene.objects[0].wave.amplitude = {0, 0.001f, 0};
+    EXPECT_FALSE(runs("throughput.shade"));
+    EXPECT_TRUE(runs("subsurface.shade"));
+    const std::vector<std::string> left = technique::notDrawn(scene);
+    EXPECT_TRUE(std::any_of(left.begin(), left.end(), [](const std::string& line) {
+        return line.find("precomputed light of what moves or is painted") != std::string::npos;
+    }));
+}
+
+TEST_F(Precomputed, EvenLightLeavesAPatchAsAHalfSpaceByEachMethod) {
+    makePatch();
+    const Medium medium = keyOf(scene.objects[0], {}, DipoleGeometry::Planar).medium;
+    const vec3 exact = float(diffusion::transmittedShare(1, 1.5)) * Response(medium, 0.03, 0).total();
+    for (const Local local : {Local::Live, Local::Stored})
+        for (const Global global : {Global::Sparse, Global::Hierarchical}) {
+            settings().local = local;
+            settings().global = global;
+            const Image image = picture();
+            float worst = 0;
+            for (int y = 0; y < image.height; ++y)
+                for (int x = 0; x < image.width; ++x)
+                    for (int c = 0; c < 3; ++c)
+                        worst = std::max(worst, std::abs(image.at(x, y)[c] / exact[c] - 1));
+            EXPECT_LT(worst, 0.01f) << int(local) << ' ' << int(global);
+            EXPECT_GT(worst, 0);
+        }
+}
+
+// Over the ball, against the integral without a bake; half of the picture is lit from the right.
+TEST_F(Precomputed, LightOnABallIsPlacedAsTheExactDipoleHasIt) {
+    scene.view.show = scene::Aov::Radiosity;
+    truth::DipoleOptions options;
+    options.aov = scene::Aov::Radiosity;
+    options.samples = 512;
+    const auto exact = truth::DipoleEstimator::create(scene, scene.size, options);
+    ASSERT_TRUE(exact) << exact.error().message;
+    Image expected(48, 48, 4);
+    for (int y = 0; y < 48; y += 3)
+        for (int x = 0; x < 48; x += 3) {
+            const truth::Pixel pixel = exact->solve({x, y});
+            for (int c = 0; c < 3; ++c)
+                expected.at(x, y)[c] = float(pixel.value[c]);
+        }
+    for (const Local local : {Local::Live, Local::Stored}) {
+        settings().local = local;
+        const Image found = picture();
+        double wrong = 0, all = 0;
+        for (int y = 0; y < 48; y += 3)
+            for (int x = 0; x < 48; x += 3)
+                for (int c = 0; c < 3; ++c) {
+                    wrong += std::abs(double(found.at(x, y)[c] - expected.at(x, y)[c])) / 2;
+                    all += double(expected.at(x, y)[c]);
+                }
+        EXPECT_GT(all, 1);
+        EXPECT_LT(wrong / all, 0.02) << int(local);
+    }
+}
+
+TEST_F(Precomputed, ItsLightTurnsAndMovesWithIt) {
+    const Image before = picture();
+    scene.objects[0].transform.translate = {0.3f, -0.2f, 0.1f};
+    scene.objects[0].transform.rotate = {0, 0, 90};
+    scene.camera.eye = {0.3f, -0.2f, 1.1f};
+    scene.camera.target = {0.3f, -0.2f, 0.1f};
+    scene.camera.up = {-1, 0, 0};
+    scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
+    const Image after = picture();
+    float most = 0;
+    for (std::size_t i = 0; i < before.pixels.size(); ++i)
+        most = std::max(most, std::abs(before.pixels[i] - after.pixels[i]));
+    EXPECT_LT(most, 0.03f); // edges of its shadow fall on other texels of the lamp's view
+    EXPECT_GT(most, 0);
+}
+
+TEST_F(Precomputed, WhatStandsInTheWayKeepsLightFromIt) {
+    scene::Object wall;
+    wall.name = "wall";
+    wall.shape = scene::Box{{0.001f, 0.04f, 0.04f}};
+    wall.transform.translate = {0.015f, 0, 0};
+    wall.visible = false;
+    scene.objects.push_back(wall);
+    const Image image = picture();
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        EXPECT_LE(i % 4 < 3 ? image.pixels[i] : 0, 1e-6f);
+}
+
+TEST_F(Precomputed, TakesItsBakeFromAFileAndRefusesThatOfAnother) {
+    const Image baked = picture();
+    const BakeOptions options = optionsOf(settings());
+    const Result<Bake> made = bake(scene.objects[0], options, DipoleGeometry::Planar, {});
+    ASSERT_TRUE(made);
+    const BakeKey key = keyOf(scene.objects[0], options, DipoleGeometry::Planar);
+    scene.objects[0].bake = std::make_shared<const Bytes>(encodeBake(key, *made));
+    scene.objects[0].bakeFile = "ball.bake";
+    EXPECT_EQ(picture().pixels, baked.pixels);
+    scene.objects[0].shape = shapeOf(scene::meshOf(scene::Sphere{0.009f}, 48));
+    const Result<Image> refused = draw();
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(
+        refused.error().message.starts_with("objects.ball.bake: ball.bake: is baked of another mesh, "))
+        << refused.error().message;
+}
+
+TEST_F(Precomputed, PartsAddUpToTheWhole) {
+    const Image whole = picture();
+    settings().part = Part::Local;
+    const Image local = picture();
+    settings().part = Part::Global;
+    const Image global = picture();
+    for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+        EXPECT_NEAR(i % 4 < 3 ? whole.pixels[i] - local.pixels[i] - global.pixels[i] : 0, 0, 1e-5f);
+}
+
+} // namespace
+} // namespace lucent::throughput
