@@ -38,31 +38,11 @@ uniform sampler2D uMatt;
 #endif
 #ifdef USE_SKY
 #include "views/environment.glsl"
+#include "views/mirrored_sky.glsl"
 #endif
 layout(location = 0) out vec4 oColor;
 
 const float kPi = 3.14159265;
-
-#ifdef USE_SKY
-const int kFacets = 16; // chosen by eye: at roughness 0.3 more change nothing that one sees
-
-vec3 mirroredSky(vec3 normal, vec3 toEye) {
-    float alpha = max(shade.roughness * shade.roughness, 1e-6);
-    vec3 x = normalize(abs(normal.y) < 0.9 ? cross(vec3(0.0, 1.0, 0.0), normal) : cross(vec3(1.0, 0.0, 0.0), normal));
-    mat3 worldFromSurface = mat3(x, cross(normal, x), normal);
-    vec3 eye = toEye * worldFromSurface;
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < kFacets; ++i) {
-        vec3 facet = seenFacet(eye, alpha, latticePoint(i, kFacets));
-        vec3 out_ = reflect(-eye, facet);
-        if (out_.z <= 0.0) continue;
-        float share = fresnelReflectance(clamp(dot(eye, facet), 0.0, 1.0), 1.0 / shade.ior) *
-                      shadowedOne(out_.z, alpha);
-        sum += share * mapRadiance(mat3(shade.mapFromWorld) * (worldFromSurface * out_));
-    }
-    return shade.intensity * sum / float(kFacets);
-}
-#endif
 
 void main() {
     SurfacePixel pixel = readSurface();
@@ -87,7 +67,7 @@ void main() {
     oColor.rgb += texelFetch(uHighlight, ivec2(gl_FragCoord.xy), 0).rgb;
 #endif
 #ifdef USE_SKY
-    if (cosine > 0.0) oColor.rgb += mirroredSky(normal, toEye);
+    if (cosine > 0.0) oColor.rgb += shade.intensity * mirroredSky(normal, toEye, shade.roughness, shade.ior, mat3(shade.mapFromWorld));
 #endif
 #endif
 }

@@ -1,6 +1,7 @@
 // Whole scenes with precomputed objects: their passes, their light against closed forms and the exact dipole.
 #include "diffusion/Profile.h"
 #include "frame/Renderer.h"
+#include "light/Samples.h"
 #include "scene/Mesh.h"
 #include "technique/Technique.h"
 #include "techniques/throughput/BakeFile.h"
@@ -182,6 +183,28 @@ TEST_F(Precomputed, TakesItsBakeFromAFileAndRefusesThatOfAnother) {
     EXPECT_TRUE(
         refused.error().message.starts_with("objects.ball.bake: ball.bake: is baked of another mesh, "))
         << refused.error().message;
+}
+
+// Colours of the same ball in light of a lamp and an environment: what mirrors is the same, what leaves
+// nearly.
+TEST_F(Precomputed, ItsSurfaceMirrorsAsIfItWereNotPrecomputed) {
+    scene.lights.push_back(scene::PointLight{.position = {0.02f, 0.03f, 0.06f}, .intensity = 2});
+    scene.environment.emplace();
+    Image sky(16, 8, 3);
+    std::fill(sky.pixels.begin(), sky.pixels.end(), 0.2f);
+    scene.environment->map = std::make_shared<const Image>(std::move(sky));
+    views::samplingOf(scene).directions = 16;
+    const Image baked = picture(scene::Aov::Color);
+    scene.objects[0].material.translucent().precomputed = false;
+    const Image live = picture(scene::Aov::Color);
+    double wrong = 0, all = 0, brightest = 0;
+    for (std::size_t i = 0; i < baked.pixels.size(); ++i) {
+        wrong += std::abs(double(baked.pixels[i] - live.pixels[i])) / 2;
+        all += double(live.pixels[i]);
+        brightest = std::max(brightest, double(live.pixels[i]));
+    }
+    EXPECT_LT(wrong / all, 0.02);
+    EXPECT_GT(brightest, 1); // a highlight: what leaves is 0.3 at most
 }
 
 TEST_F(Precomputed, PartsAddUpToTheWhole) {

@@ -38,7 +38,12 @@ public:
                                   .first = slice.first,
                                   .end = slice.end,
                                   .shadows = slice.occlusion.shadows,
-                                  .irradiance = passes.picture.scene.view.show == Aov::Irradiance},
+                                  .irradiance = passes.picture.scene.view.show == Aov::Irradiance,
+                                  .size = passes.picture.size,
+                                  .surface = passes.surface,
+                                  .occlusion = &slice.occlusion,
+                                  .placed = slice.placed,
+                                  .mirrors = passes.picture.scene.view.show == Aov::Color},
                                  baked(passes.posed), settingsOf(passes.picture.scene));
     }
     Status scatter(const technique::Passes& passes, TextureId shown) override {
@@ -49,7 +54,8 @@ public:
                                    .eye = picture.eye,
                                    .size = picture.size,
                                    .surface = passes.surface,
-                                   .target = shown},
+                                   .target = shown,
+                                   .environment = picture.environment},
                                   baked(passes.posed), settingsOf(picture.scene));
     }
     std::map<std::string, std::size_t> bytes() const override { return throughput_.bytes(); }
@@ -89,8 +95,10 @@ const technique::NotDrawn kLimits[] = {
              return asks(object) && !scene::isPrecomputed(object);
          });
      }},
-    {"lamps and environment mirrored by precomputed objects", "what leaves of light inside is drawn alone",
-     anyBaked},
+    {"objects in what precomputed surfaces mirror", "they mirror lamps and the environment past everything",
+     [](const scene::Scene& scene) {
+         return anyBaked(scene) && scene.objects.size() > 1 && views::hasEnvironment(scene);
+     }},
     {"caustics on precomputed objects", "lamps and the environment light them straight on",
      [](const scene::Scene& scene) {
          return anyBaked(scene) &&

@@ -297,7 +297,53 @@ Status Throughput::light(graph::FrameGraph& graph, const Arriving& in,
     for (const views::DrawnMesh& mesh : meshes)
         if (const auto body = bodies_.find(mesh.index); body != bodies_.end())
             if (Status s = addTo(graph, in, mesh, body->second, settings); !s) return s;
+    mirrors_ = in.mirrors && in.placed > 0;
+    if (mirrors_ && in.first < in.placed) mirror(graph, in, meshes);
     return Done{};
+}
+
+void Throughput::mirror(graph::FrameGraph& graph, const Arriving& in,
+                        const std::vector<views::DrawnMesh>& meshes) {
+    std::vector<std::string> defines;
+    if (in.occlusion->texture) defines.push_back("USE_OCCLUSION");
+    if (in.first > 0) defines.push_back("USE_SUM");
+    const gl::Program* program = context_.program("throughput/mirror", defines);
+    const TextureId before = in.first > 0 ? import(graph, mirrored_[mirroredNow_]) : TextureId{};
+    mirroredNow_ = 1 - mirroredNow_;
+    graph::Texture& target = mirrored_[mirroredNow_];
+    const graph::TextureDesc desc{.size = in.size, .format = Format::RGBA32F};
+    if (!target || target.desc() != desc)
+        target = graph::Texture(context_.device(), desc, "throughput.mirrored");
+    const TextureId sum = import(graph, target);
+    graph.keep(sum);
+    std::vector<graph::Block> blocks;
+    for (const views::DrawnMesh& mesh : meshes) {
+        const scene::Translucent& inside = mesh.object->material.translucent();
+        if (inside.roughness == 0) continue; // points of lamps have no size
+        blocks.push_back(ThroughputMirrorBlock{.view = views::viewBlock(in.eye, in.size),
+                                               .ior = inside.surfaceIor(),
+                                               .roughness = inside.roughness,
+                                               .object = mesh.index,
+                                               .firstLight = in.first,
+                                               .endLight = std::min(in.end, in.placed),
+                                               .columns = in.occlusion->columns});
+    }
+    graph.addPass("throughput.mirror", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what precomputed objects mirror of lamps");
+        for (const TextureId id : {in.surface, in.table, in.occlusion->texture, before})
+            if (id) pass.sample(id);
+        pass.write(sum);
+        pass.clear(sum, vec4(0));
+        return [=, surface = in.surface, table = in.table,
+                shade = in.occlusion->texture](const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
+                                                 {"uLights", resources[table]}};
+            if (shade) textures.push_back({"uOcclusion", resources[shade]});
+            if (before) textures.push_back({"uMirrored", resources[before]});
+            for (const graph::Block& block : blocks)
+                commands.draw({.program = program, .block = block, .textures = textures});
+        };
+    });
 }
 
 // --- what leaves
@@ -380,9 +426,13 @@ Status Throughput::record(graph::FrameGraph& graph, const Shown& in,
     const bool isIrradiance = in.scene.view.show == scene::Aov::Irradiance;
     const bool isColor = in.scene.view.show == scene::Aov::Color;
     const gl::Program* seeing = context_.program("throughput/seen");
-    const gl::Program* shading =
-        context_.program("throughput/shade",
-                         isColor ? std::vector<std::string>{} : std::vector<std::string>{"SHOW_RADIOSITY"});
+    const TextureId mirrored = isColor && mirrors_ ? import(graph, mirrored_[mirroredNow_]) : TextureId{};
+    const bool hasSky = isColor && in.environment != graph::TextureHandle::None;
+    std::vector<std::string> defines;
+    if (!isColor) defines.push_back("SHOW_RADIOSITY");
+    if (mirrored) defines.push_back("USE_LAMPS");
+    if (hasSky) defines.push_back("USE_SKY");
+    const gl::Program* shading = context_.program("throughput/shade", defines);
     for (const views::DrawnMesh& mesh : meshes) {
         const auto found = bodies_.find(mesh.index);
         if (found == bodies_.end()) continue;
@@ -411,19 +461,29 @@ Status Throughput::record(graph::FrameGraph& graph, const Shown& in,
             };
         });
         const float ior = mesh.object->material.translucent().surfaceIor();
-        const ThroughputShadeBlock block{.view = views::viewBlock(in.eye, in.size),
-                                         .ior = ior,
-                                         .mean = float(diffusion::meanTransmittance(double(ior))),
-                                         .object = mesh.index};
+        ThroughputShadeBlock block{.view = views::viewBlock(in.eye, in.size),
+                                   .ior = ior,
+                                   .roughness = mesh.object->material.translucent().roughness,
+                                   .mean = float(diffusion::meanTransmittance(double(ior))),
+                                   .object = mesh.index};
+        if (hasSky) {
+            block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.scene.environment->rotation)));
+            block.intensity = in.scene.environment->intensity;
+        }
         graph.addPass("throughput.shade", [&](graph::PassBuilder& pass) -> graph::Execute {
-            pass.reason("what object \"" + mesh.object->name + "\" sends to the eye");
+            pass.reason("what object \"" + mesh.object->name + "\" sends to the eye" +
+                        (hasSky ? "; it mirrors the environment past everything" : ""));
             pass.sample(in.surface);
             pass.sample(seen);
+            if (mirrored) pass.sample(mirrored);
             pass.write(in.target);
-            return [=, surface = in.surface](const graph::Resources& resources, graph::Commands& commands) {
-                commands.draw({.program = shading,
-                               .block = block,
-                               .textures = {{"uSurface", resources[surface]}, {"uSeen", resources[seen]}}});
+            return [=, surface = in.surface, environment = in.environment](const graph::Resources& resources,
+                                                                           graph::Commands& commands) {
+                std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
+                                                     {"uSeen", resources[seen]}};
+                if (mirrored) textures.push_back({"uMirrored", resources[mirrored]});
+                if (hasSky) textures.push_back({"uEnvironment", environment});
+                commands.draw({.program = shading, .block = block, .textures = textures});
             };
         });
     }
@@ -435,6 +495,8 @@ std::map<std::string, std::size_t> Throughput::bytes() const {
     const auto add = [&](const graph::Texture& texture) {
         if (texture) bytes[texture.label()] += texture.desc().bytes();
     };
+    for (const graph::Texture& texture : mirrored_)
+        add(texture);
     for (const auto& [index, body] : bodies_) {
         for (const graph::Texture* texture :
              {&body.place, &body.frame, &body.corners, &body.triangles, &body.charts, &body.near,

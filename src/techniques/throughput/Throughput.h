@@ -69,9 +69,14 @@ struct Arriving {
     const views::Eye& eye;
     graph::TextureId table; ///< views::sampleTable()
     std::span<const views::LampPoint> samples;
-    int first, end;                         ///< those that are added
-    std::span<const views::Shadow> shadows; ///< of these
-    bool irradiance = false;                ///< all that arrives counts
+    int first, end;                              ///< those that are added
+    std::span<const views::Shadow> shadows;      ///< of these
+    bool irradiance = false;                     ///< all that arrives counts
+    ivec2 size{0};                               ///< of the picture, which shows
+    graph::TextureId surface{};                  ///< these, and whose pixels
+    const views::Occlusion* occlusion = nullptr; ///< keeps the samples from
+    int placed = 0;       ///< [0, placed) are lamps', of which surfaces show a mirror image
+    bool mirrors = false; ///< if this is so
 };
 
 struct Shown {
@@ -79,6 +84,7 @@ struct Shown {
     const views::Eye& eye;
     ivec2 size;
     graph::TextureId surface, target;
+    graph::TextureHandle environment; ///< lat-long map; None without one
 };
 
 class Throughput {
@@ -95,7 +101,12 @@ public:
     Status record(graph::FrameGraph& graph, const Shown& in, const std::vector<views::DrawnMesh>& meshes,
                   const Settings& settings);
     std::map<std::string, std::size_t> bytes() const;
-    void clear() { bodies_.clear(); }
+    void clear() {
+        bodies_.clear();
+        for (graph::Texture& texture : mirrored_)
+            texture = graph::Texture();
+        mirrors_ = false;
+    }
 
 private:
     Result<Body> upload(std::shared_ptr<const Bake> bake);
@@ -103,12 +114,16 @@ private:
     graph::Texture textureOf(const std::vector<vec4>& texels, ivec2 size, const char* label);
     Status addTo(graph::FrameGraph& graph, const Arriving& in, const views::DrawnMesh& mesh, Body& body,
                  const Settings& settings);
+    void mirror(graph::FrameGraph& graph, const Arriving& in, const std::vector<views::DrawnMesh>& meshes);
     graph::TextureId multiply(graph::FrameGraph& graph, const Matrix& matrix, graph::TextureId vector,
                               graph::TextureId sum, const char* reason);
     graph::TextureId spread(graph::FrameGraph& graph, Body& body, const Settings& settings);
 
     gl::Context& context_;
     std::map<int, Body> bodies_; ///< by the object's place in the scene
+    graph::Texture mirrored_[2]; ///< by all of them, of lamps; the sum and the one before it, in turns
+    int mirroredNow_ = 0;
+    bool mirrors_ = false; ///< there is such a sum
 };
 
 } // namespace lucent::throughput
