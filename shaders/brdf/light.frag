@@ -9,7 +9,8 @@
 //       uTable      MEASURED: brdf/table.glsl
 // out   oSum.rgb    [W/(m² sr)], linear Rec. 709; SHOW_IRRADIANCE: [W/m²], whatever the colour; a: 1
 // model base + diffuse E / pi (Lambert), GLOSSY: or brdf/models.glsl, MEASURED: a table, on the side that is seen. Of caustics, whose
-//       directions are not known, the matt share of light from straight above
+//       directions are not known, the matt share of light from straight above. A sample of a lamp that has a size is seen
+//       as large as its part of the lamp, so that highlights have no grain
 #pragma variants - USE_OCCLUSION
 #pragma variants - USE_FLUX
 #pragma variants - SHOW_IRRADIANCE GLOSSY MEASURED
@@ -103,7 +104,8 @@ void main() {
             Angles angles = anglesOf(normal, light.toLight, toEye);
             vec3 share = mattShare(reflector, angles) * (cosine / max(angles.light, 1e-4));
             // What narrow lobes show of the environment is brdf/lobe.frag's.
-            if (i < matt.placed || matter.base.a == 0.0) share += mirroredShare(reflector, angles);
+            if (i < matt.placed || matter.base.a == 0.0)
+                share += mirroredShare(light.part > 0.0 ? widened(reflector, 0.35 * light.part) : reflector, angles);
             oSum.rgb += seen * share * light.irradiance;
             continue;
         }

@@ -74,6 +74,17 @@ float ggxShare(Angles a, float alpha) {
     return a.light <= 0.0f ? 0.0f : density * a.light / (2.0f * max(seen + lit, 1e-30f));
 }
 
+// As light from a disc of that radius [radians] is seen in it, which all comes from the middle: as wide as facets whose
+// slopes spread by both.
+Reflector widened(Reflector r, float radius) {
+    float square = radius * radius;
+    if (r.model == kGlossy || r.model == kCookTorrance) r.alpha = sqrt(r.alpha * r.alpha + square);
+    // a power of n of the cosine to the direction halfway is as wide as facets whose alpha² is 2 / (n + 2)
+    if (r.model == kBlinn) r.exponent = max(2.0f / (2.0f / (r.exponent + 2.0f) + square) - 2.0f, 0.0f);
+    if (r.model == kPhong) r.exponent = max(0.5f / (2.0f / (4.0f * r.exponent + 2.0f) + square) - 0.5f, 0.0f);
+    return r;
+}
+
 // What is not mirrored.
 vec3 mattShare(Reflector r, Angles a) {
     vec3 albedo = vec3(r.diffuse);

@@ -5,7 +5,7 @@
 //                 centre of the lamp [m] | 1: its light falls off with the square of the distance
 //                 irradiance on what faces it [W/m²], or that at 1 m | exponent of the cone
 //                 unit direction of the cone's axis | share in means over the light
-//                 scale and offset of the cosine to the axis | extent
+//                 scale and offset of the cosine to the axis | extent | part
 // model the disc of a lamp faces what it lights, so each of its samples counts as the one beside the lamp's middle that is
 //       seen in its place
 uniform sampler2D uLights;
@@ -16,6 +16,7 @@ struct LightSample {
     vec3 irradiance; // on what faces it, nothing in its way [W/m²]
     float weight;
     float extent;    // sine of the angle by which its directions spread; 0: one direction
+    float part;      // half the angle under which what it stands for of its lamp is seen, radians; of large ones a tangent
 };
 
 LightSample lightSampleAt(int index, vec3 place) {
@@ -24,18 +25,18 @@ LightSample lightSampleAt(int index, vec3 place) {
     vec4 color = texelFetch(uLights, at + ivec2(2, 0), 0);
     vec4 axis = texelFetch(uLights, at + ivec2(3, 0), 0);
     vec4 cone = texelFetch(uLights, at + ivec2(4, 0), 0);
-    if (source.w == 0.0) return LightSample(source.xyz, 1e30, color.rgb, axis.w, cone.z);
+    if (source.w == 0.0) return LightSample(source.xyz, 1e30, color.rgb, axis.w, cone.z, cone.w);
     vec4 centre = texelFetch(uLights, at + ivec2(1, 0), 0);
     vec3 way = centre.xyz - place;
     vec3 towards = way / max(length(way), 1e-30);
     vec3 beside = source.xyz - centre.xyz;
     way += beside - dot(beside, towards) * towards;
     float distance = length(way);
-    if (distance == 0.0) return LightSample(vec3(0.0, 1.0, 0.0), 1e-30, vec3(0.0), axis.w, 0.0);
+    if (distance == 0.0) return LightSample(vec3(0.0, 1.0, 0.0), 1e-30, vec3(0.0), axis.w, 0.0, 0.0);
     vec3 toLight = way / distance;
     float inCone = pow(clamp(cone.y - cone.x * dot(toLight, axis.xyz), 0.0, 1.0), color.a);
     float falloff = centre.w > 0.5 ? 1.0 / max(distance * distance, 1e-30) : 1.0;
-    return LightSample(toLight, distance, inCone * falloff * color.rgb, axis.w, 0.0);
+    return LightSample(toLight, distance, inCone * falloff * color.rgb, axis.w, 0.0, cone.w / distance);
 }
 
 // Mean cosine, 0 below the horizon, over the cone of directions of a sample whose middle has this cosine: above the

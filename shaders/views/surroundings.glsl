@@ -16,7 +16,9 @@ uniform sampler2DArray uAround;
 uniform sampler2DArray uAroundSolid;
 
 const int kMostLooks = 256;
-const float kTexelsALook = 2.0;
+#ifndef TEXELS_A_LOOK
+#define TEXELS_A_LOOK 2.0
+#endif
 const int kHalvings = 5;
 const float kSamePlane = 2.0; // texels from the one that shows a plane, within which it may be met: normals are the
                               // texel's own, surfaces bend
@@ -179,7 +181,7 @@ Met meetAround(int cube, vec3 origin, vec3 direction) {
     float along = dot(origin, direction);
     float aside = max(length(origin - along * direction), 1e-3 * end);
     float first = atan(along, aside), last = atan(along + end, aside);
-    int looks = int(clamp(ceil((last - first) * sizeOfFace() / (1.5707963 * kTexelsALook)), 1.0, float(kMostLooks)));
+    int looks = int(clamp(ceil((last - first) * sizeOfFace() / (1.5707963 * TEXELS_A_LOOK)), 1.0, float(kMostLooks)));
 
     Glance before = glanceAt(cube, 0, origin);
     float from = 0.0;

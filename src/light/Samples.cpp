@@ -42,7 +42,8 @@ void add(std::vector<LampPoint>& points, const scene::PointLight& light, int sam
                           .color = light.intensity / float(count) * light.color,
                           .isPart = count > 1,
                           .source = {.place = vec4(place, 1)},
-                          .weight = 1 / float(count)});
+                          .weight = 1 / float(count),
+                          .part = light.radius / std::sqrt(float(count))});
     }
 }
 
@@ -59,7 +60,8 @@ void add(std::vector<LampPoint>& points, const scene::DistantLight& light, int s
                           .color = light.irradiance / float(count) * light.color,
                           .isPart = count > 1,
                           .source = {.place = place},
-                          .weight = 1 / float(count)});
+                          .weight = 1 / float(count),
+                          .part = radius / std::sqrt(float(count))});
     }
 }
 
@@ -96,7 +98,8 @@ void add(std::vector<LampPoint>& points, const scene::AreaLight& light, int samp
                           .cone = {1, 0},
                           .isPart = samples > 1,
                           .source = {.place = vec4(place, 1)},
-                          .weight = 1 / float(samples)});
+                          .weight = 1 / float(samples),
+                          .part = std::sqrt(area / (kPi * float(samples)))});
     }
 }
 
@@ -254,7 +257,7 @@ Image sampleTable(const std::vector<LampPoint>& samples) {
         write(vec4(sample.centre, sample.fades ? 1 : 0));
         write(vec4(sample.color, sample.exponent));
         write(vec4(sample.axis, sample.weight));
-        write(vec4(sample.cone, sample.extent, 0));
+        write(vec4(sample.cone, sample.extent, sample.part));
     }
     return table;
 }

@@ -26,6 +26,7 @@ struct LampPoint {
     bool isEnvironment = false;
     float extent =
         0; ///< sine of the angle by which the directions spread that it stands for; of an environment
+    float part = 0; ///< radius of what it stands for of its lamp: m, or where that is distant a tangent
     bool operator==(const LampPoint&) const = default;
 };
 

@@ -134,7 +134,9 @@ TEST_F(Glossy, OtherObjectsAreSeenInIt) {
     add("box", scene::Box{vec3(0.5f)}, scene::Matt{}, {0.4f, 0.5f, -0.5f}).material.diffuse = {0.9f, 0.1f,
                                                                                                0.1f};
     addSky();
+    scene.size = {63, 45}; // of the views of the surroundings as well
     scene.lights = {scene::PointLight{.position = {-1, 1.6f, 0.9f}, .intensity = 4}};
+    ASSERT_TRUE(scene::setParam(scene, "technique.brdf.lobeDirections", "64").ok());
     const double found = misplaced(1024);
     EXPECT_LT(found, 0.02);
     // Without views of the surroundings it is not.
@@ -151,6 +153,26 @@ TEST_F(Glossy, ObjectsStandInTheWayOfLightOnRoughSurfaces) {
     EXPECT_LT(found, 0.02);
 }
 
+TEST_F(Glossy, MoreSamplesOfALampMakeItsHighlightExact) {
+    add("floor", scene::Plane{{4, 4}}, scene::Matt{}).material.diffuse = vec3(0.8f);
+    const scene::Light kLamps[] = {
+        scene::AreaLight{
+            .corner = {-0.4f, 0.6f, -1.6f}, .edgeU = {0.8f, 0, 0}, .edgeV = {0, 0.8f, 0}, .radiance = 5},
+        scene::PointLight{.position = {0.2f, 1, -1.4f}, .intensity = 5, .radius = 0.4f},
+        scene::DistantLight{.direction = {0.1f, -0.6f, 1}, .irradiance = 3, .angle = 20}};
+    for (const float roughness : {0.15f, 0.3f})
+        for (const scene::Light& lamp : kLamps) {
+            scene.objects[0].material.kind = scene::Glossy{.metallic = 1, .roughness = roughness};
+            scene.lights = {lamp};
+            views::samplingOf(scene).lamp = 16;
+            const double few = misplaced(512);
+            views::samplingOf(scene).lamp = 256;
+            const double many = misplaced(512);
+            EXPECT_LT(many, 0.4 * few) << roughness << " lamp " << lamp.index();
+            EXPECT_LT(many, roughness < 0.2f ? 0.08 : 0.03) << roughness << " lamp " << lamp.index();
+        }
+}
+
 TEST_F(Glossy, ATableShowsTheModelThatItIsOf) {
     add("ball", scene::Sphere{0.8f}, scene::CookTorrance{.roughness = 0.7f, .ior = 2});
     scene.lights = {scene::PointLight{.position = {-1, 1.6f, 2}, .intensity = 4}};
@@ -164,9 +186,9 @@ TEST_F(Glossy, ATableShowsTheModelThatItIsOf) {
     struct {
         scene::TableForm form;
         double most;
-    } const kForms[] = {{scene::TableForm::Merl, 0.005},
-                        {scene::TableForm::EqualArea, 0.02},
-                        {scene::TableForm::Projected, 0.03}};
+    } const kForms[] = {{scene::TableForm::Merl, 0.001},
+                        {scene::TableForm::EqualArea, 0.002},
+                        {scene::TableForm::Projected, 0.002}};
     for (const auto& [form, most] : kForms) {
         auto table = std::make_shared<Image>(scene::tabulate(brdf, form, 32, 32));
         scene.objects[0].material.kind = scene::MeasuredBrdf{
@@ -178,7 +200,7 @@ TEST_F(Glossy, ATableShowsTheModelThatItIsOf) {
         double apart = 0;
         for (std::size_t i = 1; i < model.pixels.size(); i += 4)
             apart += std::abs(double(found.pixels[i] - model.pixels[i]));
-        std::printf("%d: %.3f %%\n", int(form), 100 * apart / sum);
+        // Measured: 0.01 %, 0.06 %, 0.05 %.
         EXPECT_LT(apart / sum, most) << int(form);
     }
 }
