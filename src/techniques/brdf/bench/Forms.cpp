@@ -1,5 +1,6 @@
-// Known answers of light off matt surfaces.
+// Known answers of light off matt and glossy surfaces.
 #include "measure/FormScenes.h"
+#include "techniques/brdf/Reflector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,54 @@ Finding mattShadow(Studio& studio) {
     return finding;
 }
 
+scene::Object planeOf(scene::MaterialKinds kind, float diffuse) {
+    scene::Object plane = objectOf(scene::Plane{vec2(4)});
+    plane.material.diffuse = vec3(diffuse);
+    plane.material.kind = std::move(kind);
+    return plane;
+}
+
+// Light and view along the normal: F = ((n - 1) / (n + 1))², D = 1 / (pi m²), G = 1.
+Finding glossyHighlight(Studio& studio) {
+    Finding finding;
+    for (const float roughness : {0.3f, 0.5f, 0.8f}) {
+        const double square = std::pow(double(roughness), 4), mirrored = 0.04 / (4 * double(kPi) * square);
+        for (const bool isGlossy : {true, false}) {
+            scene::MaterialKinds kind = scene::CookTorrance{.roughness = roughness};
+            if (isGlossy) kind = scene::Glossy{.roughness = roughness};
+            Scene scene = sceneOf({planeOf(std::move(kind), 0)}, 1);
+            addSun(scene);
+            takeAll(finding, studio.draw(scene, Aov::Color), dvec3(mirrored));
+        }
+    }
+    return finding;
+}
+
+Finding metalAround(Studio& studio) {
+    Scene scene = sceneOf({planeOf(scene::Glossy{.metallic = 1, .roughness = 0}, 1)}, 1);
+    addWhiteSphere(scene);
+    Finding finding;
+    takeAll(finding, studio.draw(scene, Aov::Color), dvec3(1));
+    return finding;
+}
+
+// What the furnace shows of each model, by the sum over four thousand directions of its lobe.
+Finding glossAround(Studio& studio) {
+    Finding finding;
+    for (const scene::MaterialKinds& kind :
+         {scene::MaterialKinds(scene::Glossy{.roughness = 0.8f}),
+          scene::MaterialKinds(scene::Glossy{.metallic = 1, .roughness = 0.7f}),
+          scene::MaterialKinds(scene::Phong{.exponent = 2}),
+          scene::MaterialKinds(scene::Blinn{.exponent = 8}),
+          scene::MaterialKinds(scene::OrenNayar{.roughness = 0.7f})}) {
+        Scene scene = sceneOf({planeOf(kind, 0.5f)}, 1);
+        addWhiteSphere(scene);
+        takeAll(finding, studio.draw(scene, Aov::Color),
+                dvec3(directionalAlbedo(scene.objects[0].material, 1)));
+    }
+    return finding;
+}
+
 // --- the table
 
 constexpr Tolerance kRounded{2e-6, "a dozen roundings of 6e-8, and normals of as much"};
@@ -62,6 +111,14 @@ constexpr Check kChecks[] = {
      mattSphereAround},
     {"Shadow of a block", "Every pixel but those on its edge is dark inside and lit outside", kRounded,
      mattShadow},
+    {"Highlight along the normal",
+     "A glossy surface that faces lamp and eye shows F / (4 pi m²) of the light", kRounded, glossyHighlight},
+    {"Smooth metal in white light",
+     "A white metal in a white sphere is as bright as the sphere",
+     {1e-3, "facets of a slope of 1e-3 stand for a smooth surface"},
+     metalAround},
+    {"Rough surfaces in white light", "Each model shows as much of an even sky as its lobe sums to",
+     kDirections, glossAround},
 };
 
 } // namespace
