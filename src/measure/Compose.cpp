@@ -20,9 +20,9 @@ namespace {
 constexpr std::string_view kLamps[] = {"point", "spot", "distant", "area", "environment"};
 constexpr std::string_view kBetween[] = {"nothing",    "matt box",        "relief 2.5 %", "mirror",
                                          "glass ball", "absorbing glass", "marble ball",  "water"};
-constexpr std::string_view kReceivers[] = {"matt plane",       "matt mesh",   "relief 3 %",
-                                           "relief 0",         "marble slab", "floor through glass",
-                                           "floor in a mirror"};
+constexpr std::string_view kReceivers[] = {"matt plane",          "matt mesh",        "glossy mesh",
+                                           "relief 3 %",          "relief 0",         "marble slab",
+                                           "floor through glass", "floor in a mirror"};
 constexpr int kSize = 64;                 // pixels a side
 constexpr int kSamples = 512;             // of the truth, a pixel
 constexpr int kSkySamples = 10240;        // where an environment shines: noise of a quarter of 1 %
@@ -133,6 +133,10 @@ void seeInMirror(scene::Scene& scene) {
 void addReceiver(scene::Scene& scene, std::string_view receiver) {
     scene::Object object = objectOf("receiver", scene::Plane{{2, 2}});
     if (receiver == "matt mesh") object.shape = scene::Torus{0.35f, 0.15f};
+    if (receiver == "glossy mesh") {
+        object.shape = scene::Torus{0.35f, 0.15f};
+        object.material.kind = scene::Glossy{.roughness = 0.6f, .ior = 2};
+    }
     if (receiver == "relief 3 %") object = reliefOf("receiver", 1.3f, 0.08f, 0.039f);
     if (receiver == "relief 0") object = reliefOf("receiver", 1.3f, 0.08f, 1e-6f);
     if (receiver == "marble slab") {
