@@ -20,6 +20,12 @@ TRUTH_WITH_LIGHT_RAYS = 128, 4_000_000, 16
 # Of truths with light inside: pixels of the longer side, lines for each of them on which light may enter.
 TRUTH_OF_DIPOLES = 128, 512
 
+# Kinds of materials that send light back by a BRDF.
+GLOSSY = "glossy", "phong", "blinn", "cook-torrance", "oren-nayar", "measured"
+
+# Of truths with glossy surfaces: pixels of the longer side, directions and points of lamps for each of them.
+TRUTH_OF_GLOSS = 128, 1024
+
 # How the names of files end in scenes.
 ENDINGS = ".png", ".hdr", ".exr", ".glb", ".json"
 
@@ -48,6 +54,10 @@ def scatters(content: dict) -> bool:
     """Whether light goes on inside some of its things."""
     materials = [thing.get("material", {}) for thing in content["objects"]]
     return any("preset" in material or "scattering" in material for material in materials)
+
+
+def is_glossy(content: dict) -> bool:
+    return any(thing.get("material", {}).get("kind") in GLOSSY for thing in content["objects"])
 
 
 def save_small(picture: Image.Image, side: int, out: Path) -> None:
@@ -84,6 +94,9 @@ def truth_of(program: Path, scene: Path, truth: Path, _facts: Path) -> None:
         side, directions = TRUTH_UNDER_SKY if "environment" in content else TRUTH_UNDER_LAMPS
         alone = len(content["objects"]) == 1 # others are solved with what each keeps from the others
         options = ["--directions" if alone else "--samples", directions]
+    elif is_glossy(content):
+        side, samples = TRUTH_OF_GLOSS
+        options = ["--samples", samples]
     elif scatters(content):
         side, lines = TRUTH_OF_DIPOLES
         options = ["--estimator", "dipole", "--samples", lines]
@@ -117,7 +130,9 @@ def kind_of(scene: dict) -> str:
         return "Paint"
     if scatters(scene):
         return "Subsurface"
-    return "Refraction" if any(material.get("transmission") for material in materials) else "Relief"
+    if any(material.get("transmission") for material in materials):
+        return "Refraction"
+    return "Reflectance" if is_glossy(scene) else "Relief"
 
 
 def index_of(scenes: list[Path]) -> str:
