@@ -178,7 +178,7 @@ export class Controls {
   /**
    * Makes all controls anew.
    * @param controls  descriptors in the order of the panel; those without a group are left out
-   * @param profiles  of the translucent objects: owner, and text in place of the panel's curves
+   * @param profiles  of translucent and glossy objects: owner, and text in place of the panel's curves
    */
   build(controls, profiles = []) {
     this.#built = contentOf(controls);

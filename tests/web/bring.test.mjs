@@ -76,6 +76,19 @@ const kNormals = colorPng(32, 32, (x, y, channel) => {
   return Math.round(127.5 + (127.5 * [-slope, 0, 1][channel]) / Math.hypot(slope, 1));
 });
 
+/** A file of the MERL database in which every direction has the same value, dropped as a person does. */
+const dropTable = (page) =>
+  page.evaluate((share) => {
+    const viewer = document.querySelector('lucent-viewer');
+    const transfer = new DataTransfer();
+    const values = new Float64Array(3 * 90 * 90 * 180).fill(300);
+    transfer.items.add(new File([new Int32Array([90, 90, 180]), values], 'gold.binary'));
+    const box = viewer.getBoundingClientRect();
+    const place = { clientX: box.left + share * box.width, clientY: box.top + 50 };
+    for (const type of ['dragover', 'drop'])
+      viewer.dispatchEvent(new DragEvent(type, { ...place, dataTransfer: transfer, bubbles: true, cancelable: true }));
+  }, kLeft);
+
 /** Share of the pixels that something covers and that are white in one colour. */
 function clippedShare({ pixels }) {
   let clipped = 0;
@@ -362,5 +375,17 @@ test('a scene file that is none is refused with the reason, a damaged picture to
   assert.match(damaged.message, /^half\.png: .*;/);
   assert.equal((await stateOf(page)).alt, 'A dome');
   assert.deepEqual(difference(before, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
+  await page.leave();
+});
+
+test('a measured material is shown on a ball, with its lobe', async () => {
+  const page = await open();
+  await eventOf(page, 'load', () => dropTable(page));
+  const { title, files } = await stateOf(page);
+  assert.equal(title, 'gold');
+  assert.deepEqual(files, ['gold.binary', 'gold.json']);
+  await complete(page);
+  const [{ text }] = await page.evaluate(() => document.querySelector('lucent-viewer').profiles());
+  assert.match(text, /^Reflectance of gold, measured: of even light from all around /);
   await page.leave();
 });
