@@ -269,10 +269,11 @@ std::size_t Factors::bytes() const {
 namespace {
 
 Result<Factors> denseOf(const FactorRows& rows, std::size_t count, const Work& work) {
-    constexpr std::size_t kMostBytes = std::size_t(2) << 30;
-    if (count * count * sizeof(vec3) > kMostBytes)
+    constexpr std::uint64_t kMostBytes = std::uint64_t(2) << 30;
+    const std::uint64_t bytes = std::uint64_t(count) * count * sizeof(vec3);
+    if (bytes > kMostBytes)
         return Error{"all factors of " + std::to_string(count) + " vertices are " +
-                         std::to_string(count * count * sizeof(vec3) >> 20) +
+                         std::to_string(bytes >> 20) +
                          " MiB; must be sparse or hierarchical, or fewer than 13,377",
                      Fault::Machine};
     Factors factors{

@@ -30,8 +30,9 @@ struct FactorOptions {
     bool operator==(const FactorOptions&) const = default;
 };
 
-/// Rows of the matrix F_ij = integral of psi_i(x) R(x, v_j) dA(x), j a row, with R the far part of a
-/// response.
+/// Rows of the matrix F_ij = integral of psi_i(x) R(x, v_j) dA(x), j a row. R is the far part of a response,
+/// but all of it where the way over the surface from x to v_j is longer than filters of texels reach although
+/// they are as close as its near part does: on the other side of a thin wall.
 class FactorRows {
 public:
     FactorRows(const Hats& hats, const Response& response, const FactorOptions& options);
@@ -67,7 +68,7 @@ private:
 /// A matrix of factors: B = close E + outer (inner E).
 struct Factors {
     Global method = Global::Dense;
-    std::size_t count = 0;   ///< of vertices
+    std::uint64_t count = 0; ///< of vertices
     std::vector<vec3> dense; ///< of Dense: row by row
     Rows<vec3> close;        ///< of the others
     Rows<vec3> inner;        ///< of Hierarchical: sums over far vertices
