@@ -35,13 +35,19 @@ std::vector<Section> sections() {
         all.push_back({"shape " + std::string(shape.type), "objects.NAME.shape", shape.keys.tables[0]});
     const std::string material = "objects.NAME.material";
     all.push_back({"material", material, &scene::choiceParams()});
-    all.push_back({"material: relief and matt, or painted", material, &scene::colorParams()});
+    all.push_back({"material: relief, matt and glossy, or painted", material, &scene::colorParams()});
     all.push_back({"material: relief", material, &scene::reliefParams()});
     all.push_back({"material: clear", material, &scene::clearParams()});
     all.push_back({"material: translucent", material, &scene::translucentParams()});
     all.push_back({"absorption of both in other words", material, &scene::attenuationParams()});
     all.push_back({"layer on what scatters light", material + ".layers.N", &scene::layerParams()});
     all.push_back({"the same in other words, not in files", material, &scene::translucencyParams()});
+    all.push_back({"material: glossy", material, &scene::glossyParams()});
+    all.push_back({"material: phong", material, &scene::phongParams()});
+    all.push_back({"material: blinn", material, &scene::blinnParams()});
+    all.push_back({"material: cook-torrance", material, &scene::cookTorranceParams()});
+    all.push_back({"material: oren-nayar", material, &scene::orenNayarParams()});
+    all.push_back({"material: measured", material, &scene::measuredParams()});
     all.push_back({"transform", "objects.NAME.transform", &scene::transformParams()});
     all.push_back({"wave, not of height fields and water", "objects.NAME.wave", &scene::waveParams()});
     for (const scene::TypeKeys& light : scene::lightTypes())

@@ -1,5 +1,6 @@
 #include "truth/Gloss.h"
 
+#include "base/Overloaded.h"
 #include "scene/ReflectanceTable.h"
 #include "truth/Interface.h"
 #include "truth/Lights.h"
@@ -13,11 +14,6 @@ namespace lucent::truth {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-template <class... Kinds>
-struct Overloaded : Kinds... {
-    using Kinds::operator()...;
-};
 
 /// Roughness of the facets that spread light about as the material does.
 double roughnessOf(const scene::Material& material) {

@@ -81,11 +81,13 @@ TEST(Reflector, LightAndViewMayBeExchanged) {
     for (const Case& one : kCases) {
         const scene::Material material = materialOf(one, 0.6);
         for (int i = 0; i < 500; ++i) {
-            const dvec3 a(anyAbove(random)), b(anyAbove(random));
+            const dvec3 a = glm::normalize(dvec3(anyAbove(random))),
+                        b = glm::normalize(dvec3(anyAbove(random)));
             const dvec3 there = truth::Gloss(material, dvec3(kUp), b).share(a) / a.z;
             const dvec3 back = truth::Gloss(material, dvec3(kUp), a).share(b) / b.z;
             for (int c = 0; c < 3; ++c)
-                ASSERT_NEAR(there[c], back[c], 1e-6 * there[c]) << one.name; // angles by arc cosines: half the digits
+                ASSERT_NEAR(there[c], back[c], 1e-6 * there[c])
+                    << one.name; // angles by arc cosines: half the digits
         }
     }
 }

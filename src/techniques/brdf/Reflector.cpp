@@ -1,5 +1,6 @@
 #include "techniques/brdf/Reflector.h"
 
+#include "base/Overloaded.h"
 #include "scene/ReflectanceTable.h"
 
 #include <algorithm>
@@ -15,11 +16,6 @@ using std::cos, std::exp, std::exp2, std::pow, std::sin, std::sqrt;
 } // namespace glsl
 
 namespace {
-
-template <class... Kinds>
-struct Overloaded : Kinds... {
-    using Kinds::operator()...;
-};
 
 float squared(float x) { return x * x; }
 
