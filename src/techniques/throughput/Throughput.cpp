@@ -7,7 +7,6 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 namespace lucent::throughput {
@@ -116,8 +115,8 @@ Result<Matrix> Throughput::matrixOf(const Rows<vec3>& rows, const char* label) {
     std::vector<Entry> entries(std::size_t(size.x) * std::size_t(size.y), Entry(0));
     for (std::size_t k = 0; k < rows.columns.size(); ++k) {
         const vec3& value = rows.values[k];
-        entries[k] = {rows.columns[k], std::bit_cast<std::uint32_t>(value.r),
-                      std::bit_cast<std::uint32_t>(value.g), std::bit_cast<std::uint32_t>(value.b)};
+        entries[k] = {rows.columns[k], glm::floatBitsToUint(value.r), glm::floatBitsToUint(value.g),
+                      glm::floatBitsToUint(value.b)};
     }
     std::vector<std::uint32_t> starts = rows.starts;
     const ivec2 startsSize = listSize(starts.size());
