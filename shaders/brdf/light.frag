@@ -104,8 +104,11 @@ void main() {
             Angles angles = anglesOf(normal, light.toLight, toEye);
             vec3 share = mattShare(reflector, angles) * (cosine / max(angles.light, 1e-4));
             // What narrow lobes show of the environment is brdf/lobe.frag's.
-            if (i < matt.placed || matter.base.a == 0.0)
-                share += mirroredShare(light.part > 0.0 ? widened(reflector, 0.35 * light.part) : reflector, angles);
+            if (i < matt.placed || matter.base.a == 0.0) {
+                Reflector seenAs = reflector; // WebGL knows no ?: of structs
+                if (light.part > 0.0) seenAs = widened(reflector, 0.35 * light.part);
+                share += mirroredShare(seenAs, angles);
+            }
             oSum.rgb += seen * share * light.irradiance;
             continue;
         }
