@@ -8,9 +8,9 @@
 //       uMirrored   USE_MIRRORED: brdf/lobe.frag
 //       uTable      MEASURED: brdf/table.glsl
 // out   oSum.rgb    [W/(m² sr)], linear Rec. 709; SHOW_IRRADIANCE: [W/m²], whatever the colour; a: 1
-// model base + diffuse E / pi (Lambert), GLOSSY: or brdf/models.glsl, MEASURED: a table, on the side that is seen. Of caustics, whose
-//       directions are not known, the matt share of light from straight above. A sample of a lamp that has a size is seen
-//       as large as its part of the lamp, so that highlights have no grain
+// model base + diffuse E / pi (Lambert), GLOSSY: or brdf/models.glsl, MEASURED: a table, on the side that is seen. Of
+//       caustics, whose directions are not known, the matt share of light from straight above. A sample of a lamp that has
+//       a size is seen as large as its part of the lamp, so that highlights have less grain
 #pragma variants - USE_OCCLUSION
 #pragma variants - USE_FLUX
 #pragma variants - SHOW_IRRADIANCE GLOSSY MEASURED
@@ -57,6 +57,7 @@ Reflector reflectorOf(Matter m) {
 #endif
 
 #ifdef MEASURED
+#include "lib/surface_frame.glsl"
 #include "brdf/table.glsl"
 #endif
 
@@ -81,8 +82,7 @@ void main() {
 #endif
 #ifdef MEASURED
     vec3 toEye = -eyeRay(matt.view, gl_FragCoord.xy);
-    vec3 x = normalize(abs(normal.y) < 0.9 ? cross(vec3(0.0, 1.0, 0.0), normal) : cross(vec3(1.0, 0.0, 0.0), normal));
-    mat3 worldFromSurface = mat3(x, cross(normal, x), normal);
+    mat3 worldFromSurface = surfaceFrame(normal);
     vec3 eye = toEye * worldFromSurface;
     factor = tableAt(vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), matt.form, matt.blocks);
 #endif

@@ -11,6 +11,7 @@
 #include "views/view.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/ggx.glsl"
+#include "lib/surface_frame.glsl"
 #include "views/surface_pixel.glsl"
 #include "views/surroundings_block.glsl"
 #include "brdf/models.glsl"
@@ -64,8 +65,7 @@ void main() {
     // Smooth surfaces mirror one direction: facets that hardly differ.
     Reflector reflector = Reflector(lobe.diffuse, lobe.specular, max(lobe.lobe.x, lobe.alpha), lobe.lobe.y, lobe.lobe.z,
                                     int(lobe.lobe.w));
-    vec3 x = normalize(abs(normal.y) < 0.9 ? cross(vec3(0.0, 1.0, 0.0), normal) : cross(vec3(1.0, 0.0, 0.0), normal));
-    mat3 worldFromSurface = mat3(x, cross(normal, x), normal);
+    mat3 worldFromSurface = surfaceFrame(normal);
     vec3 eye = toEye * worldFromSurface;
     eye = normalize(vec3(eye.xy, max(eye.z, 1e-4)));
     oColor = vec4(0.0, 0.0, 0.0, 1.0);

@@ -4,6 +4,7 @@
 // Directions are unit; light and view above the surface. Shares are the BRDF times the light's cosine, 1/sr: that times
 // the irradiance of a surface that faces the light is the radiance that is seen. Written so that nothing is divided by a
 // cosine that may be 0.
+#include "lib/fresnel.glsl"
 #include "lib/ggx.glsl"
 
 const int kMatt = 0, kGlossy = 1, kPhong = 2, kBlinn = 3, kCookTorrance = 4, kOrenNayar = 5;
@@ -55,16 +56,6 @@ float mirroredStraight(float ior) {
     return r * r;
 }
 
-// Unpolarised, from vacuum (Cook, Torrance 1982).
-float mirroredBy(float ior, float cosine) {
-    float g2 = ior * ior - 1.0f + cosine * cosine;
-    if (g2 <= 0.0f) return ior == 1.0f ? 0.0f : 1.0f;
-    float g = sqrt(g2);
-    float a = (g - cosine) / (g + cosine);
-    float b = (cosine * (g + cosine) - 1.0f) / (cosine * (g - cosine) + 1.0f);
-    return 0.5f * a * a * (1.0f + b * b);
-}
-
 // D G / (4 cos view) of GGX facets, those hidden from light or eye left out together (Heitz 2014, eq. 99).
 float ggxShare(Angles a, float alpha) {
     float square = alpha * alpha;
@@ -114,7 +105,7 @@ float cookTorranceShare(Reflector r, Angles a) {
     // G over the view's cosine: for the smaller cosine it goes to 0 with it
     float groove = 2.0f * a.middle / max(a.turned, 1e-30f);
     float seen = a.view <= a.light ? min(1.0f / max(a.view, 1e-30f), groove) : min(1.0f, groove * a.light) / a.view;
-    return mirroredBy(r.specular.a, a.turned) * density * seen / 4.0f;
+    return fresnelReflectance(a.turned, 1.0f / r.specular.a) * density * seen / 4.0f;
 }
 
 vec3 mirroredShare(Reflector r, Angles a) {

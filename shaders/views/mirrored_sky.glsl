@@ -1,13 +1,13 @@
 // views/mirrored_sky.glsl: what a rough surface mirrors of the environment, past everything that stands in its way.
 //
 // Included after lib/fresnel.glsl, lib/ggx.glsl and views/environment.glsl.
+#include "lib/surface_frame.glsl"
 const int kFacets = 16; // chosen by eye: at roughness 0.3 more change nothing that one sees
 
 // @param ior  of the inside over that of the outside
 vec3 mirroredSky(vec3 normal, vec3 toEye, float roughness, float ior, mat3 mapFromWorld) {
     float alpha = max(roughness * roughness, 1e-6);
-    vec3 x = normalize(abs(normal.y) < 0.9 ? cross(vec3(0.0, 1.0, 0.0), normal) : cross(vec3(1.0, 0.0, 0.0), normal));
-    mat3 worldFromSurface = mat3(x, cross(normal, x), normal);
+    mat3 worldFromSurface = surfaceFrame(normal);
     vec3 eye = toEye * worldFromSurface;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < kFacets; ++i) {

@@ -191,7 +191,7 @@ Param exponentParam() {
                                      .high = 1000,
                                      .logarithmic = true,
                                      .group = Group::Material,
-                                     .doc = "How small the highlight is: large is small and sharp."});
+                                     .doc = "Of the highlight: higher numbers make it smaller and sharper."});
 }
 template <class Kind>
 Param asPrintedParam(std::string_view doc) {

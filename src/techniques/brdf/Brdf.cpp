@@ -229,12 +229,12 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
             if (occlusion) textures.push_back({"uOcclusion", resources[occlusion]});
             if (flux) textures.push_back({"uFlux", resources[flux]});
             if (sum) textures.push_back({"uSum", resources[sum]});
+            const std::vector<graph::Binding> shared = textures;
             if (mirrored) textures.push_back({"uMirrored", resources[mirrored]});
             for (const graph::Block& block : blocks)
                 commands.draw({.program = program, .block = block, .textures = textures});
-            if (mirrored) textures.pop_back();
             for (const Measured& one : measured) {
-                std::vector<graph::Binding> own = textures;
+                std::vector<graph::Binding> own = shared;
                 if (hasTable) own.push_back({"uTable", one.table});
                 commands.draw({.program = lookup, .block = one.block, .textures = own});
             }

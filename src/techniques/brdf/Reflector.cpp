@@ -9,10 +9,11 @@
 namespace lucent::brdf {
 
 namespace glsl {
-using glm::clamp, glm::cross, glm::dot, glm::fract, glm::length, glm::max, glm::min, glm::mix, glm::normalize,
-    glm::vec2, glm::vec3, glm::vec4;
-using std::cos, std::exp, std::exp2, std::pow, std::sin, std::sqrt;
+using glm::clamp, glm::cross, glm::dot, glm::fract, glm::length, glm::max, glm::min, glm::mat3, glm::mix,
+    glm::normalize, glm::vec2, glm::vec3, glm::vec4;
+using std::abs, std::cos, std::exp, std::exp2, std::pow, std::sin, std::sqrt;
 #include "shaders/brdf/models.glsl"
+#include "shaders/lib/surface_frame.glsl"
 } // namespace glsl
 
 namespace {
@@ -92,9 +93,7 @@ vec3 cosineDirection(vec2 u) {
 
 vec3 shareOf(const scene::Material& material, vec3 normal, vec3 toLight, vec3 toEye) {
     if (const auto* measured = std::get_if<scene::MeasuredBrdf>(&material.kind)) {
-        const vec3 aside = std::abs(normal.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0);
-        const vec3 x = glm::normalize(glm::cross(aside, normal));
-        const mat3 surfaceFromWorld = glm::transpose(mat3(x, glm::cross(normal, x), normal));
+        const mat3 surfaceFromWorld = glm::transpose(glsl::surfaceFrame(normal));
         const dvec3 light(surfaceFromWorld * toLight), eye(surfaceFromWorld * toEye);
         return vec3(scene::lookUp(*measured->table, measured->form, measured->blocks, light, eye) *
                     std::max(light.z, 0.0));
