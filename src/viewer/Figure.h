@@ -20,6 +20,7 @@ struct Figure {
     float height;      ///< CSS pixels
     /// Draws it at a place [CSS pixels], so wide. Needs a current ImGui window.
     std::function<void(ImDrawList&, vec2, float, const Theme&)> draw;
+    Group place = Group::Subsurface; ///< among whose controls it stands
 };
 
 /// What a technique adds to the panel.

@@ -195,7 +195,7 @@ private:
     void groupControls(Group group);
     void groupActions(Group group);
     void ownerHeading(const std::string& owner);
-    void figureOf(const std::string& owner);
+    void figureOf(const std::string& owner, Group group);
     void control(const Control& control);
     void editor(const Control& control);
 
@@ -351,14 +351,14 @@ void Panel::Frame::groupControls(Group group) {
     std::string before, owner;
     for (const Control& c : input_.controls) {
         if (c.bound.group() != group) continue;
-        if (group == Group::Subsurface && ownerOf(c.bound) != owner) figureOf(owner);
+        if (ownerOf(c.bound) != owner) figureOf(owner, group);
         owner = ownerOf(c.bound);
         const std::string heading = headingOf(c, input_.controls);
         if (heading != before && !heading.empty()) ownerHeading(heading);
         before = heading;
         control(c);
     }
-    if (group == Group::Subsurface) figureOf(owner);
+    figureOf(owner, group);
     groupActions(group);
     const vec2 at = take(kGap);
     list_->AddLine({at.x, at.y + kGap - 1}, {at.x + width_, at.y + kGap - 1}, theme_.cardBorder);
@@ -388,9 +388,9 @@ void Panel::Frame::ownerHeading(const std::string& owner) {
     text({at.x, at.y + 4}, theme_.accent, owner);
 }
 
-void Panel::Frame::figureOf(const std::string& owner) {
+void Panel::Frame::figureOf(const std::string& owner, Group group) {
     for (const Figure& figure : input_.figures)
-        if (figure.owner == owner) {
+        if (figure.owner == owner && figure.place == group) {
             figure.draw(*list_, take(figure.height), width_, theme_);
             take(kGap);
         }

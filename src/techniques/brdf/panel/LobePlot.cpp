@@ -177,7 +177,7 @@ void drawPlot(ImDrawList& list, vec2 at, float width, const LobePlot& plot, cons
 std::vector<viewer::Figure> figures(const scene::Scene& scene) {
     std::vector<viewer::Figure> list;
     for (LobePlot& plot : lobePlots(scene)) {
-        viewer::Figure figure{plot.owner, describe(plot), jsonOf(plot), kPlotHeight, {}};
+        viewer::Figure figure{plot.owner, describe(plot), jsonOf(plot), kPlotHeight, {}, Group::Material};
         figure.draw = [plot = std::move(plot)](ImDrawList& drawn, vec2 at, float width, const Theme& theme) {
             drawPlot(drawn, at, width, plot, theme);
         };
