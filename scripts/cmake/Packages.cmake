@@ -76,12 +76,13 @@ else()
 endif()
 target_link_libraries(tinyexr INTERFACE zlib)
 
-# ccache makes the second build quick wherever it is installed.
+# ccache makes the second build quick wherever it is installed, in another clone as well: paths count from the project.
 find_program(CCACHE ccache)
 if(CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=true)
   if(EMSCRIPTEN) # it must be told that a precompiled header may be trusted
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
+    list(APPEND launcher CCACHE_SLOPPINESS=pch_defines,time_macros)
   endif()
-  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher} ${CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${launcher} ${CCACHE})
 endif()
