@@ -71,6 +71,7 @@ struct Renderer::State {
             int pixels;
         };
         std::vector<Part> parts;
+        bool hasFirst;          // a pass that was never drawn: a driver may compile it now
         double begun, expected; // ms
         gl::Fence fence;
     };

@@ -316,22 +316,26 @@ void Renderer::State::submit() {
     const double begun = now();
     std::vector<Batch::Part> parts;
     double expected = 0;
+    bool hasFirst = false;
     while (expected < longest) {
         const auto portion = running->graph.step(pool, most);
         running->isSubmitted = !portion;
         if (!portion) break;
         const int pixels = std::max(portion->pixels, kFewest);
         parts.push_back({portion->pass, pixels});
-        Cost& cost = costs.try_emplace(portion->pass, guess).first->second;
+        const auto [known, isFirst] = costs.try_emplace(portion->pass, guess);
+        hasFirst |= isFirst;
+        Cost& cost = known->second;
         cost.pixels = std::max(pixels, kFirst);
         expected += cost.perPixel * pixels;
     }
-    if (!parts.empty()) submitted.push_back({std::move(parts), begun, expected, gl::Fence()});
+    if (!parts.empty()) submitted.push_back({std::move(parts), hasFirst, begun, expected, gl::Fence()});
 }
 
 // Takes what the GPU has done, and learns what it took; waits for it where nothing more can be given.
 void Renderer::State::retire(double until) {
     double expected = 0, begun = 0;
+    bool hasFirst = false;
     std::vector<Batch::Part> parts;
     while (!submitted.empty()) {
         const bool waits = expected == 0 && (running->isSubmitted || submitted.size() == kMostInFlight ||
@@ -340,6 +344,7 @@ void Renderer::State::retire(double until) {
         Batch& done = submitted.front();
         if (expected == 0) begun = std::max(done.begun, retired);
         expected += done.expected;
+        hasFirst |= done.hasFirst;
         parts.insert(parts.end(), done.parts.begin(), done.parts.end());
         submitted.pop_front();
     }
@@ -347,9 +352,11 @@ void Renderer::State::retire(double until) {
     retired = now();
     const double took = std::max(retired - begun, 1e-3);
     running->ms += took;
+    // What compiling took says nothing of the pixels: it would cut the rest of a pass into crumbs.
+    const double factor = hasFirst ? std::min(1.0, took / expected) : took / expected;
     std::set<std::string> passes;
     for (const Batch::Part& part : parts)
-        if (passes.insert(part.pass).second) costs.at(part.pass).perPixel *= took / expected;
+        if (passes.insert(part.pass).second) costs.at(part.pass).perPixel *= factor;
 }
 
 // All passes have run.
