@@ -160,20 +160,10 @@ void halve(inout Passage passage, int cube, int place, vec3 origin, vec3 directi
     }
 }
 
-// What a ray meets there; t 1e30 where it passes behind an edge.
-//
-// least  [m] along the ray, before which it meets nothing
-Met metIn(Passage passage, float least, vec3 origin, vec3 direction) {
-    float t = surfaceAlong(passage.after, origin, direction);
-    if (t >= least) return metAt(passage.after, t, origin + t * direction);
-    t = surfaceAlong(passage.before, origin, direction);
-    if (t >= least) return metAt(passage.before, t, origin + t * direction);
-    return kNothingMet;
-}
-
 bool isOfItself(int cube) { return AROUND.cubes[cube].place.w < -1.5; }
 
-// What a ray meets first, both from the cube's middle.
+// What a ray meets first, both from the cube's middle. Written so that each step stands here once: some drivers inline all
+// functions, and this one's copies took SwiftShader a minute.
 Met meetAround(int cube, vec3 origin, vec3 direction) {
     float end = endOf(origin + AROUND.cubes[cube].place.xyz, direction);
     if (end <= 0.0) return kNothingMet;
@@ -190,43 +180,64 @@ Met meetAround(int cube, vec3 origin, vec3 direction) {
     bool isBefore = before.gap > -touching;
     Glance beside = before; // what lies beside the edge that the ray is behind of
     Glance hidden = glanceAt(cube, 1, origin);
-    for (int i = 1; i <= looks; ++i) {
+    Glance found; // what it meets, and where
+    float met = -1.0;
+    bool isBeside = false; // met where the plane of what lies beside an edge goes on
+    for (int i = 1; i <= looks && met < 0.0; ++i) {
         float to = i == looks ? end : aside * tan(mix(first, last, float(i) / float(looks))) - along;
-        Glance after = glanceAt(cube, 0, origin + to * direction);
-        if (isBefore && after.gap < 0.0) {
-            Passage passage = Passage(from, to, before, after);
-            halve(passage, cube, 0, origin, direction);
-            Met met = metIn(passage, least, origin, direction);
-            if (met.t < 1e29) return met;
+        Glance after = before, next = hidden;
+        bool passes = false, isBeforeHidden = false;
+        // The first objects, and behind an edge of theirs what they hide.
+        for (int place = 0; place < 2; ++place) {
+            if (place == 1 && isBefore) break;
+            Glance there = glanceAt(cube, place, origin + to * direction);
+            Passage passage = Passage(from, to, before, there);
+            if (place == 0) {
+                after = there;
+                passes = isBefore && there.gap < 0.0;
+                if (!isBefore && there.gap >= 0.0) isBefore = true;
+            } else {
+                next = there;
+                isBeforeHidden = hidden.gap > -touching;
+                passes = isBeforeHidden && there.gap < 0.0;
+                passage.before = hidden;
+            }
+            if (!passes) continue;
+            halve(passage, cube, place, origin, direction);
+            for (int side = 0; side < 2; ++side) {
+                found = passage.after;
+                if (side == 1) found = passage.before;
+                met = surfaceAlong(found, origin, direction);
+                if (met >= least) break;
+                met = -1.0;
+            }
+            if (met >= 0.0) break;
+            if (place == 1) continue;
             isBefore = false;
             beside = passage.before;
             from = passage.to;
             hidden = glanceAt(cube, 1, origin + from * direction);
-        } else if (!isBefore && after.gap >= 0.0) {
-            isBefore = true;
         }
+        if (met >= 0.0) break;
         if (!isBefore) {
-            Glance next = glanceAt(cube, 1, origin + to * direction);
-            bool isBeforeHidden = hidden.gap > -touching;
-            if (isBeforeHidden && next.gap < 0.0) {
-                Passage passage = Passage(from, to, hidden, next);
-                halve(passage, cube, 1, origin, direction);
-                Met met = metIn(passage, least, origin, direction);
-                if (met.t < 1e29) return met;
-            }
             float t = planeAlong(beside, origin, direction);
             bool isKnown = isBeforeHidden && hidden.solid.w > 0.0;
             if (!isKnown && t >= max(from, least) && t <= to) {
-                Met met = metAt(beside, t, placeOf(beside.texel, beside.solid.x));
-                met.place = origin + t * direction;
-                return met;
+                met = t;
+                found = beside;
+                isBeside = true;
             }
             hidden = next;
         }
         before = after;
         from = to;
     }
-    return kNothingMet;
+    if (met < 0.0) return kNothingMet;
+    vec3 place = origin + met * direction, shown = place;
+    if (isBeside) shown = placeOf(beside.texel, beside.solid.x);
+    Met all = metAt(found, met, shown);
+    all.place = place;
+    return all;
 }
 
 int cubeOf(int object) {
@@ -243,10 +254,11 @@ vec4 lightAround(int cube, vec3 place, vec3 direction, out float way) {
     vec3 weight = vec3(1.0);
     way = 1e30;
     for (int mirrors = 0;; ++mirrors) {
-        Met met = meetAround(cube, place - AROUND.cubes[cube].place.xyz, direction);
-        if (cube + 1 < AROUND.count && isOfItself(cube + 1)) {
-            Met itself = meetAround(cube + 1, place - AROUND.cubes[cube].place.xyz, direction);
-            if (itself.t < met.t) met = itself;
+        Met met = kNothingMet;
+        for (int part = 0; part < 2; ++part) { // a cube of what the object itself shows follows its own
+            if (part == 1 && !(cube + 1 < AROUND.count && isOfItself(cube + 1))) break;
+            Met one = meetAround(cube + part, place - AROUND.cubes[cube].place.xyz, direction);
+            if (one.t < met.t) met = one;
         }
         if (mirrors == 0) way = met.t;
         if (met.t > 1e29) return vec4(weight, 1.0) * environmentAt(direction);
