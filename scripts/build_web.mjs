@@ -101,12 +101,8 @@ await bundleOf('lucent-truth', {
   outfile: out('lucent-truth.js'),
   alias: { 'lucent-truth-wasm': wasm('lucent-truth.mjs') },
 });
-await build({
-  ...common,
-  bundle: true,
-  entryPoints: [web('stereo_job.js')],
-  outfile: out('lucent-stereo.js'),
-});
+for (const [source, name] of [['stereo_job', 'lucent-stereo'], ['reading', 'lucent-reading']])
+  await build({ ...common, bundle: true, entryPoints: [web(`${source}.js`)], outfile: out(`${name}.js`) });
 for (const name of ['export', 'zip'])
   await build({ ...common, bundle: true, entryPoints: [web(`${name}.js`)], outfile: out(`${name}.js`) });
 const dialogs = ['./open.js', './picture.js', './selfcheck.js', './tour.js']; // fetched when asked for

@@ -1,19 +1,19 @@
 /** What a module that is started as a worker does. */
 
 /**
- * Answers the request that such a worker gets; on a page nothing happens.
+ * Answers the requests that such a worker gets, each with its number; on a page nothing happens.
  * @param work       (request, report, slice) => promise of the result, null when report() returned false
  * @param transfers  (result) => the buffers in it
  */
 export function answerRequests(work, transfers) {
   if (typeof WorkerGlobalScope === 'undefined' || !(self instanceof WorkerGlobalScope)) return;
   const kSlice = 100; // ms
-  addEventListener('message', async ({ data }) => {
+  addEventListener('message', async ({ data: { number, request } }) => {
     try {
-      const result = await work(data, (share) => postMessage({ share }), kSlice);
-      postMessage({ result }, transfers(result));
-    } catch (error) {
-      postMessage({ message: error.message });
+      const result = await work(request, (share) => postMessage({ number, share }), kSlice);
+      postMessage({ number, result }, transfers(result));
+    } catch ({ message, code }) {
+      postMessage({ number, message, code });
     }
   });
 }

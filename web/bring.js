@@ -1,7 +1,5 @@
 /** What a person opens or drops becomes a scene of its own: pictures that belong together, a model with its parts. */
-import { sceneAmong, toPlain, withReaders } from './files.js';
-import { LucentError } from './runtime.js';
-import { callWasm } from './wasm.js';
+import { reading, sceneAmong, toPlain } from './files.js';
 
 const kMesh = /\.(glb|gltf|obj|mesh)$/i;
 
@@ -23,27 +21,13 @@ const among = (files) => async (name) => {
 };
 
 /** A file in a form that the loader reads, under the name that such files have. */
-async function plainFile(file, files) {
-  const own = await bytesOf(file);
-  const bytes = await toPlain(file.name, own, among(files));
-  if (bytes === own) return { name: file.name, bytes };
-  const nameIn = (wasm) => wasm.UTF8ToString(callWasm(wasm, 'reader_plain_name', file.name, bytes));
-  return { name: await withReaders(file.name, nameIn), bytes };
-}
+const plainFile = async (file, files) => toPlain(file.name, await bytesOf(file), among(files));
 
-/** What the second module answers about files in plain form: take(answer, wasm) while their bytes are there. */
-const askReaders = (plain, take, call, ...values) =>
-  withReaders(plain[0].name, (wasm) => {
-    for (const { name, bytes } of plain) callWasm(wasm, 'reader_file_put', name, bytes);
-    return take(JSON.parse(wasm.UTF8ToString(callWasm(wasm, call, ...values))), wasm);
-  });
+/** {path, files} of a scene that the second module makes of one file. @param call  of that module */
+const bring = (call, { name, bytes }) =>
+  reading.ask({ task: 'bring', name, call, files: new Map([[name, bytes]]), value: name });
 
-/** {path, files} of an answer: the scene's own name, all files by name. */
-function takeScene({ files, error }, wasm) {
-  if (error) throw new LucentError('file', error);
-  const bytesAt = ({ name, at, size }) => [name, wasm.HEAPU8.slice(at, at + size)];
-  return { path: files[0].name, files: new Map(files.map(bytesAt)) };
-}
+const kAlone = { '.binary': 'reader_bring_table', '.ptm': 'reader_bring_ptm' }; // files that are a scene each
 
 /** Whether nobody needs to be asked: each picture is for something else, and one tells the heights. */
 export function isSet(uses) {
@@ -62,28 +46,27 @@ export async function bringScene(files, { ask, solve }) {
   const light = files.find(isLightFile);
   if (light) return solve(light, files);
   const mesh = files.find(isMesh);
-  if (mesh) {
-    const plain = await plainFile(mesh, files);
-    return askReaders([plain], takeScene, 'reader_bring_mesh', plain.name);
+  if (mesh) return bring('reader_bring_mesh', await plainFile(mesh, files));
+  for (const [ending, call] of Object.entries(kAlone)) {
+    const file = files.find(({ name }) => name.toLowerCase().endsWith(ending));
+    if (file) return bring(call, { name: file.name, bytes: await bytesOf(file) });
   }
-  const table = files.find(({ name }) => /\.binary$/i.test(name));
-  if (table) return askReaders([{ name: table.name, bytes: await bytesOf(table) }], takeScene, 'reader_bring_table', table.name);
-  const ptm = files.find(({ name }) => /\.ptm$/i.test(name));
-  if (ptm) return askReaders([{ name: ptm.name, bytes: await bytesOf(ptm) }], takeScene, 'reader_bring_ptm', ptm.name);
   const plain = await Promise.all(files.map((file) => plainFile(file, files)));
-  const known = await askReaders(plain, (uses) => new Map(uses.map(({ name, use }) => [name, use])), 'reader_uses');
+  const content = new Map(plain.map(({ name, bytes }) => [name, bytes]));
+  const name = plain[0].name;
+  const known = await reading.ask({ task: 'uses', name, files: content });
   const told = plain.map(({ name }) => known.get(name));
   const uses = isSet(told) ? told : await ask(plain.map((picture, at) => ({ ...picture, use: told[at] })));
   if (!uses) return null;
-  const useOf = Object.fromEntries(plain.map(({ name }, at) => [name, uses[at]]));
-  return askReaders(plain, takeScene, 'reader_bring_maps', JSON.stringify(useOf));
+  const value = JSON.stringify(Object.fromEntries(plain.map(({ name }, at) => [name, uses[at]])));
+  return reading.ask({ task: 'bring', name, call: 'reader_bring_maps', files: content, value });
 }
 
 /** The bytes of one picture in a form that the module reads. */
 export const openPicture = (file) => plainFile(file, [file]);
 
 /** All files of a drop, those in folders too. */
-export async function droppedFiles(transfer) {
+async function droppedFiles(transfer) {
   const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.());
   if (!entries.some((entry) => entry?.isDirectory)) return [...transfer.files];
   return (await Promise.all(entries.filter(Boolean).map(filesUnder))).flat();
@@ -98,4 +81,38 @@ async function filesUnder(entry) {
     if (!some.length) return files;
     files.push(...(await Promise.all(some.map(filesUnder))).flat());
   }
+}
+
+/**
+ * Lets a viewer take what is dropped on it, unless its event drop-files is cancelled.
+ * @param zones  shown over it meanwhile: one for a new scene, one for an environment
+ */
+export function acceptDrops(viewer, zones) {
+  const [sceneZone, environmentZone] = zones.children;
+  const isOfFiles = ({ dataTransfer }) => dataTransfer.types.includes('Files');
+  const aimsAtEnvironment = ({ altKey, clientX }) => {
+    const { left, width } = viewer.getBoundingClientRect();
+    return altKey || clientX > left + width / 2;
+  };
+  viewer.addEventListener('dragover', (event) => {
+    if (!isOfFiles(event)) return;
+    event.preventDefault();
+    zones.classList.add('shown');
+    environmentZone.classList.toggle('aimed', aimsAtEnvironment(event));
+    sceneZone.classList.toggle('aimed', !aimsAtEnvironment(event));
+  });
+  viewer.addEventListener('dragleave', ({ relatedTarget }) => {
+    if (!viewer.contains(relatedTarget)) zones.classList.remove('shown');
+  });
+  viewer.addEventListener('drop', async (event) => {
+    zones.classList.remove('shown');
+    if (!isOfFiles(event)) return;
+    event.preventDefault();
+    const isAimed = aimsAtEnvironment(event);
+    const files = await droppedFiles(event.dataTransfer);
+    if (!files.length) return;
+    const kind = kindOfDrop(files, isAimed);
+    const wanted = new CustomEvent('drop-files', { detail: { files, kind }, cancelable: true });
+    if (viewer.dispatchEvent(wanted)) viewer.openFile(files, kind);
+  });
 }

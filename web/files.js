@@ -1,6 +1,6 @@
 /** Brings files to the module: scenes with everything they name, in a form that it reads. */
+import { Service } from './job.js';
 import { LucentError } from './runtime.js';
-import { callWasm, isAbort } from './wasm.js';
 
 const kForeign = /\.(exr|tiff?|glb|gltf|obj)$/i;
 // Keys that make a material another kind than relief,
@@ -51,12 +51,56 @@ export class Reach {
   }
 }
 
-/** @param reach  of the scene that names the file; none where the page itself does */
-async function fetchBytes(url, name, reach) {
+/** What is fetched for one scene: how far it is, of what servers have announced, and an end to it. */
+export class Fetching {
+  #report;
+  #signal;
+  #announced = 0; // bytes
+  #came = 0;
+  #share = 0;
+
+  /** @param report  (share) is called as bytes come; the share never falls. @param signal  AbortSignal */
+  constructor(report, signal) {
+    this.#report = report;
+    this.#signal = signal;
+  }
+
+  fetch(url) {
+    return fetch(url, { signal: this.#signal });
+  }
+  /** The bytes of an answer. */
+  async take({ body, headers }) {
+    const length = Number(headers.get('content-length')); // of what is packed less than comes
+    this.#announced += length;
+    const parts = [];
+    let came = 0;
+    for (const reader = body.getReader(); ; ) {
+      const { done, value } = await reader.read();
+      if (done) break;
+      parts.push(value);
+      this.#count(Math.min(value.length, length - came));
+      came = Math.min(length, came + value.length);
+    }
+    this.#count(length - came);
+    return new Uint8Array(await new Blob(parts).arrayBuffer());
+  }
+
+  #count(bytes) {
+    this.#came += bytes;
+    if (this.#announced) this.#report((this.#share = Math.max(this.#share, this.#came / this.#announced)));
+  }
+}
+
+/**
+ * @param reach     of the scene that names the file; none where the page itself does
+ * @param fetching  of that scene
+ */
+async function fetchBytes(url, name, reach, fetching = new Fetching(() => {})) {
   let response;
   try {
-    response = await fetch(url);
-  } catch {
+    response = await fetching.fetch(url);
+  } catch (error) {
+    if (error.name === 'AbortError') throw error;
     throw new LucentError(
       'fetch',
       `${name}: cannot be fetched from ${url.origin}; must be a file that this page may read`,
@@ -64,73 +108,35 @@ async function fetchBytes(url, name, reach) {
   }
   if (!response.ok) throw new LucentError('fetch', `${name}: the server answers ${response.status}; must be there`);
   reach?.check(response);
-  return new Uint8Array(await response.arrayBuffer());
+  return fetching.take(response);
 }
 
-let readers;
-function loadReaders() {
-  const address = (name) => new URL(name, import.meta.url).href;
-  readers ??= import(address('lucent-readers.js'))
-    .then(({ default: create }) => create({ locateFile: address }))
-    .catch(({ message }) => {
-      throw new LucentError('fetch', `lucent-readers.js: ${message}; it must lie beside the script with its .wasm`);
-    });
-  return readers;
-}
+/** The second module, fetched when first needed: see reading.js. */
+export const reading = new Service(new URL('lucent-reading.js', import.meta.url).href);
 
 /**
- * Works with the second module, which understands glTF, OBJ and EXR and makes scenes of a person's files; it is fetched
- * when first needed.
- * @param name  of the file that is worked on
- * @param work  (wasm) => what the promise gives
- */
-export async function withReaders(name, work) {
-  const wasm = await loadReaders();
-  try {
-    return await work(wasm);
-  } catch (error) {
-    if (!isAbort(error)) throw error;
-    readers = undefined; // the next file gets a fresh module
-    throw new LucentError('scene', `${name}: cannot be read (${error.message}); must need less memory`);
-  }
-}
-
-/**
- * The bytes in a form that the loader reads: glTF, OBJ and EXR are converted, everything else stays as it is.
+ * A file in a form that the loader reads: glTF, OBJ, EXR and TIFF are converted, everything else stays as it is.
  * @param part  (name) => promise of the bytes of a file beside it that it names, undefined when there is none
+ * @return {Promise<{name: string, bytes: Uint8Array}>}  under the name that such files have
  */
 export async function toPlain(name, bytes, part) {
-  return kForeign.test(name) ? withReaders(name, (wasm) => convert(wasm, name, bytes, part)) : bytes;
-}
-
-async function convert(wasm, name, bytes, part) {
-  if (!callWasm(wasm, 'reader_is_foreign', name, bytes)) return bytes;
+  if (!kForeign.test(name)) return { name, bytes };
+  const needs = await reading.ask({ task: 'needs', name, bytes });
+  if (!needs) return { name, bytes };
   const parts = new Map([[name, bytes]]);
-  callWasm(wasm, 'reader_file_put', name, bytes);
-  for (const needed of JSON.parse(wasm.UTF8ToString(callWasm(wasm, 'reader_needs', name)))) {
+  for (const needed of needs) {
     const content = await part(needed).catch((error) => {
       if (!/\.obj$/i.test(name)) throw error; // which has triangles without its materials
     });
     if (content) parts.set(needed, content);
   }
-  // Without a pause from here on: the module forgets all files after a conversion.
-  for (const [path, content] of parts) callWasm(wasm, 'reader_file_put', path, content);
-  const message = wasm.UTF8ToString(callWasm(wasm, 'reader_to_plain', name));
-  if (message) throw new LucentError('scene', message);
-  return converted(wasm);
-}
-
-function converted(wasm) {
-  const start = callWasm(wasm, 'reader_bytes');
-  return wasm.HEAPU8.slice(start, start + callWasm(wasm, 'reader_size'));
+  return reading.ask({ task: 'convert', name, parts });
 }
 
 /** Linear values as EXR. @param picture  width, height and bytes of 4 floats a pixel @return {Promise<Blob>} */
-export async function encodeExr({ width, height, bytes }) {
-  const wasm = await loadReaders();
-  const message = wasm.UTF8ToString(callWasm(wasm, 'reader_to_exr', width, height, 4, bytes));
-  if (message) throw new LucentError('file', message);
-  return new Blob([converted(wasm)], { type: 'image/x-exr' });
+export async function encodeExr(picture) {
+  const { bytes } = await reading.ask({ task: 'exr', name: 'picture', ...picture });
+  return new Blob([bytes], { type: 'image/x-exr' });
 }
 
 /** The name of a file that another one names, as seen from where that one's own name is. */
@@ -169,7 +175,7 @@ async function readSource(name, read) {
     return bytes;
   };
   const bytes = await take('');
-  return { source, bytes: await toPlain(name, bytes, take) };
+  return { source, bytes: (await toPlain(name, bytes, take)).bytes };
 }
 
 /**
@@ -225,16 +231,17 @@ export const loadZip = () =>
 
 /**
  * Fetches a scene and every file it names, or an archive of both. See collect().
- * @param allowed  addresses of folders beneath which files may lie, beside the scene's own
+ * @param allowed   addresses of folders beneath which files may lie, beside the scene's own
+ * @param fetching  Fetching, which says how far that is. Rejects with an AbortError where its signal ends it
  */
-export async function fetchScene(start, url, allowed) {
+export async function fetchScene(start, url, allowed, fetching) {
   const path = fileName(url) || url.href;
-  const scene = await fetchBytes(url, path);
+  const scene = await fetchBytes(url, path, undefined, fetching);
   if (isZip(scene)) return collectZip(start, path, new Blob([scene]));
   const reach = new Reach(url, allowed);
   return collect(start, path, scene, async (name, part) => {
     const address = reach.find(name, url);
-    return fetchBytes(part ? reach.find(part, address) : address, part || name, reach);
+    return fetchBytes(part ? reach.find(part, address) : address, part || name, reach, fetching);
   });
 }
 
@@ -273,7 +280,7 @@ export const sourcesOf = (files) => new Map(files.map(([name, bytes]) => [name, 
 /** The name and the bytes of one picture, in a form that the module reads. */
 export async function fetchPicture(url) {
   const name = fileName(url);
-  return { name, bytes: await toPlain(name, await fetchBytes(url, name)) };
+  return { ...(await toPlain(name, await fetchBytes(url, name))), name };
 }
 const isArchive = ({ name }) => /\.zip$/i.test(name);
 /** An archive of a scene, or a scene file. */

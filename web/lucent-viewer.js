@@ -13,11 +13,12 @@
  * own error in `truth-noise`), which belongs to the scene as src has it, or one that is computed when a person asks;
  * "methods" shows it beside the same scene drawn by other methods: beside-relief-method="march".
  */
-import { bringScene, droppedFiles, kindOfDrop, openPicture } from './bring.js';
+import { reflect } from './attributes.js';
+import { acceptDrops, bringScene, openPicture } from './bring.js';
 import { Controls } from './controls.js';
-import { DrawingBar } from './drawing.js';
 import {
   encodeExr,
+  Fetching,
   fetchScene,
   filesOfScene,
   freeName,
@@ -38,6 +39,7 @@ import { TruthBar } from './truth.js';
 import { askUses } from './uses.js';
 import { camelCase, textOf, valueOf } from './values.js';
 import css from './viewer.css';
+import { Watch, WorkBar } from './workbar.js';
 
 const kMaxScale = 2; // device pixels a CSS pixel: more is not seen, but costs
 const kNear = '300px'; // around the window: within it viewers load and draw
@@ -82,7 +84,17 @@ export class LucentViewer extends HTMLElement {
   #hint;
   #divider; // what the keyboard moves the divider with
   #truth; // TruthBar
-  #drawing = new DrawingBar(() => this.stop());
+  #drawing = new WorkBar('drawing', 'Drawing', {
+    label: 'Stop',
+    title: 'Keep the picture as it is now',
+    act: () => this.stop(),
+  });
+  #loading = new WorkBar('loading', 'Loading', {
+    label: 'Cancel',
+    title: 'Keep what was shown before',
+    act: () => this.#fetching.abort(),
+  });
+  #fetching = new AbortController(); // of what is being fetched
   #photos = new PhotoBar();
   #rmse; // that was said last
   #asked = false; // what becomes of what nobody paints
@@ -149,7 +161,7 @@ export class LucentViewer extends HTMLElement {
       fail: (error) => this.#fail(error),
       changed: () => this.#truth.update(this.comparison()),
     });
-    find('.stage').append(this.#truth.element, this.#drawing.element);
+    find('.stage').append(this.#truth.element, this.#drawing.element, this.#loading.element);
     new Gestures(this.#canvas, {
       pointer: (...event) => this.#pointer(...event),
       wheel: (...event) => this.#apply('viewer_wheel', ...event),
@@ -157,7 +169,7 @@ export class LucentViewer extends HTMLElement {
       key: (...event) => this.#apply('viewer_key', ...event),
       hint: (touch) => this.#showHint(touch),
     });
-    this.#acceptDrops(find('.zones'));
+    acceptDrops(this, find('.zones'));
   }
 
   connectedCallback() {
@@ -204,69 +216,6 @@ export class LucentViewer extends HTMLElement {
     if (name !== 'src') return;
     this.#src = null;
     if (this.isConnected && (this.#near || this.loading !== 'lazy')) this.#loadSource();
-  }
-
-  get src() {
-    return this.getAttribute('src') ?? '';
-  }
-  set src(value) {
-    this.setAttribute('src', value);
-  }
-  get controls() {
-    return this.getAttribute('controls');
-  }
-  set controls(value) {
-    value === null || value === false
-      ? this.removeAttribute('controls')
-      : this.setAttribute('controls', value === true ? '' : value);
-  }
-  get poster() {
-    return this.getAttribute('poster') ?? '';
-  }
-  set poster(value) {
-    this.setAttribute('poster', value);
-  }
-  /** Addresses of folders, with blanks between them, beneath which the scene's files may lie beside its own folder. */
-  get allow() {
-    return this.getAttribute('allow') ?? '';
-  }
-  set allow(value) {
-    this.setAttribute('allow', value);
-  }
-  get truth() {
-    return this.getAttribute('truth') ?? '';
-  }
-  set truth(value) {
-    value ? this.setAttribute('truth', value) : this.removeAttribute('truth');
-  }
-  /** RMSE that the truth in the file has itself; null: not known. */
-  get truthNoise() {
-    return this.hasAttribute('truth-noise') ? Number(this.getAttribute('truth-noise')) : null;
-  }
-  set truthNoise(value) {
-    value === null || value === undefined
-      ? this.removeAttribute('truth-noise')
-      : this.setAttribute('truth-noise', value);
-  }
-  get loading() {
-    return this.getAttribute('loading') === 'lazy' ? 'lazy' : 'eager';
-  }
-  set loading(value) {
-    this.setAttribute('loading', value);
-  }
-  get alt() {
-    return this.getAttribute('alt') ?? '';
-  }
-  set alt(value) {
-    this.setAttribute('alt', value);
-  }
-
-  /** Scenes in which something moves play at once, unless the person prefers reduced motion. */
-  get autoplay() {
-    return this.hasAttribute('autoplay');
-  }
-  set autoplay(value) {
-    this.toggleAttribute('autoplay', Boolean(value));
   }
 
   /** True once a scene is there: only then have parameters values. */
@@ -731,22 +680,36 @@ export class LucentViewer extends HTMLElement {
     const task = ++this.#task;
     this.#src = this.src;
     this.#status.textContent = 'Loading…';
+    this.#fetching.abort();
+    this.#loading.show(undefined);
+    const mine = (this.#fetching = new AbortController());
+    const watch = new Watch(this.#loading);
     try {
       const allowed = this.allow.split(/\s+/).filter(Boolean);
       const scene = await fetchScene(
         (whole) => Runtime.shared(whole),
         new URL(this.src, document.baseURI),
         allowed.map((address) => new URL(address, document.baseURI)),
+        new Fetching((share) => watch.tell(share), mine.signal),
       );
+      if (task === this.#task) this.#loading.show(undefined);
       const seat = await this.#seat(task, scene.whole);
       if (seat) await this.#load(seat, task, { name: this.src }, () => loadFiles(seat, scene));
     } catch (error) {
       if (task !== this.#task) return;
+      this.#loading.show(undefined);
+      if (mine.signal.aborted) return this.#cancelled();
       this.#fail(error);
       if (error.code !== 'abort' || !again || this.#handle) return;
       this.#src = null;
       this.#loadSource(false);
     }
+  }
+
+  // The person ended a load: what was shown stays.
+  #cancelled() {
+    this.#status.textContent = this.loaded ? '' : 'Loading was cancelled';
+    this.#say('Loading was cancelled');
   }
 
   // A new scene is there: its parameters become attributes, properties and controls.
@@ -793,6 +756,8 @@ export class LucentViewer extends HTMLElement {
   // As before the first load.
   #forget() {
     this.#task++;
+    this.#fetching.abort();
+    this.#loading.show(undefined);
     this.#photos.cancel();
     this.#truth.cancel();
     this.#src = this.#shown = this.#brought = null;
@@ -1071,39 +1036,20 @@ export class LucentViewer extends HTMLElement {
     this.#timers.voice = setTimeout(() => this.#say(`${label} ${value} ${unit}`), 400);
   }
 
-  #acceptDrops(zones) {
-    const [heightZone, environmentZone] = zones.children;
-    const aims = (event) => {
-      const box = this.getBoundingClientRect();
-      return event.altKey || event.clientX > box.left + box.width / 2;
-    };
-    this.addEventListener('dragover', (event) => {
-      if (!event.dataTransfer.types.includes('Files')) return;
-      event.preventDefault();
-      zones.classList.add('shown');
-      environmentZone.classList.toggle('aimed', aims(event));
-      heightZone.classList.toggle('aimed', !aims(event));
-    });
-    this.addEventListener(
-      'dragleave',
-      (event) => this.contains(event.relatedTarget) || zones.classList.remove('shown'),
-    );
-    this.addEventListener('drop', async (event) => {
-      zones.classList.remove('shown');
-      if (!event.dataTransfer.types.includes('Files')) return;
-      event.preventDefault();
-      const aimsAtEnvironment = aims(event);
-      const files = await droppedFiles(event.dataTransfer);
-      if (!files.length) return;
-      const kind = kindOfDrop(files, aimsAtEnvironment);
-      const wanted = new CustomEvent('drop-files', { detail: { files, kind }, cancelable: true });
-      if (this.dispatchEvent(wanted)) this.openFile(files, kind);
-    });
-  }
-
   #emit(type, detail) {
     this.dispatchEvent(new CustomEvent(type, { detail }));
   }
 }
 
+reflect(LucentViewer, {
+  src: 'text',
+  controls: 'option',
+  poster: 'text',
+  allow: 'text', // addresses of folders, with blanks between them, beneath which the scene's files may lie
+  truth: 'address',
+  truthNoise: 'number', // RMSE that the truth in the file has itself; null: not known
+  loading: 'loading',
+  alt: 'text',
+  autoplay: 'flag', // scenes in which something moves play at once, unless the person prefers reduced motion
+});
 customElements.define('lucent-viewer', LucentViewer);

@@ -1,6 +1,7 @@
 /** <lucent-viewer> as a page uses it: attributes, properties, events, files, sizes and places. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
+import { kScenes } from './scenes.mjs';
 import {
   brightness,
   complete,
@@ -145,13 +146,50 @@ test('pixels are never finer than two a CSS pixel', async () => {
   await page.leave();
 });
 
+// Runs in the page: a file that comes in drops, and stops coming when that is asked for.
+function fetchSlowly() {
+  const fetchAll = window.fetch;
+  window.fetch = (address, options) => {
+    if (!String(address).endsWith('slow.pfm')) return fetchAll(address, options);
+    const body = new ReadableStream({
+      start(controller) {
+        const timer = setInterval(() => controller.enqueue(new Uint8Array(5)), 300);
+        options.signal.addEventListener('abort', () => {
+          clearInterval(timer);
+          controller.error(options.signal.reason);
+        });
+      },
+    });
+    return Promise.resolve(new Response(body, { headers: { 'Content-Length': '1000' } }));
+  };
+}
+
+test('a load that takes long tells the time left, and cancel keeps what was shown', async () => {
+  const page = await open(kDome, { init: fetchSlowly });
+  const slow = kScenes['dome.json'].replace('dome.pfm', 'slow.pfm');
+  await page.route('**/made/slow.json', (route) => route.fulfill({ body: slow }));
+  await page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/slow.json'));
+  const bar = page.locator('lucent-viewer .loading');
+  await bar.waitFor();
+  assert.match(await bar.textContent(), /^Loading: \d+ s left/);
+  await bar.locator('button').click();
+  await bar.waitFor({ state: 'hidden' });
+  assert.equal(await page.evaluate(() => document.querySelector('lucent-viewer').sceneTitle), 'A dome');
+  await eventOf(page, 'load', () =>
+    page.evaluate(() => (document.querySelector('lucent-viewer').src = 'made/ridge.json')),
+  );
+  assert.equal(await page.evaluate(() => document.querySelector('lucent-viewer').sceneTitle), 'A ridge');
+  assert.deepEqual(page.problems, []);
+  await page.leave();
+});
+
 test('work that takes long tells the time left, and stops when asked', async () => {
   const page = await open(kDome.replace('alt', 'sampling-pixel-samples="1" alt'));
   assert.equal(await page.locator('lucent-viewer .drawing').isVisible(), false);
   assert.equal(await page.evaluate(() => document.querySelector('lucent-viewer').stop()), false);
   await page.evaluate(() => document.querySelector('lucent-viewer').setAttribute('sampling-pixel-samples', '256'));
   await page.locator('lucent-viewer .drawing').waitFor();
-  assert.match(await page.textContent('lucent-viewer .drawing'), /^\d+ s left/);
+  assert.match(await page.textContent('lucent-viewer .drawing'), /^Drawing: \d+ s left/);
   await page.click('lucent-viewer .drawing button');
   await page.locator('lucent-viewer .drawing').waitFor({ state: 'hidden' });
   await complete(page);
