@@ -69,6 +69,8 @@ function runFile(file, driver) {
       const results = output.match(/^(not )?ok \d+ - .*/gm) ?? [];
       const failed = results.filter((line) => line.startsWith('not')).length;
       for (const line of results) console.log(`${driver}: ${file}: ${line}`);
+      for (const [, name, ms] of output.matchAll(/^(?:not )?ok \d+ - (.*)\n  ---\n  duration_ms: (\d{5,})/gm))
+        console.log(`${driver}: ${file}: ${Math.round(ms / 1000)} s: ${name}`);
       console.log(`${driver}: ${file}: ${Math.round((Date.now() - start) / 1000)} s`);
       for (const line of output.match(new RegExp(`^(# )?${driver}: .*`, 'gm')) ?? []) console.log(line);
       const broken = code !== 0 && failed === 0; // the file itself ended early
