@@ -5,7 +5,9 @@
 //                 centre of the lamp [m] | 1: its light falls off with the square of the distance
 //                 irradiance on what faces it [W/m²], or that at 1 m | exponent of the cone
 //                 unit direction of the cone's axis | share in means over the light
-//                 scale and offset of the cosine to the axis | extent | part
+//                 scale and offset of the cosine to the axis | extent; of a place: where its picture begins, 0: none | part
+//           and pictures behind them, each with two texels before it: to its right edge, and its width; to its upper edge,
+//           and its height (scene::PictureFrame)
 // model the disc of a lamp faces what it lights, so each of its samples counts as the one beside the lamp's middle that is
 //       seen in its place
 uniform sampler2D uLights;
@@ -18,6 +20,29 @@ struct LightSample {
     float extent;    // sine of the angle by which its directions spread; 0: one direction
     float part;      // half the angle under which what it stands for of its lamp is seen, radians; of large ones a tangent
 };
+
+vec4 lightTexel(int index) {
+    int width = textureSize(uLights, 0).x;
+    return texelFetch(uLights, ivec2(index % width, index / width), 0);
+}
+
+// What a lamp projects in a direction, bilinear between texel centres; dark beside the picture.
+vec3 projectedBy(int picture, vec3 axis, vec3 direction) {
+    vec4 right = lightTexel(picture), up = lightTexel(picture + 1);
+    float along = dot(direction, axis);
+    if (along <= 0.0) return vec3(0.0);
+    vec2 at = 0.5 + 0.5 * vec2(dot(direction, right.xyz), -dot(direction, up.xyz)) / along;
+    if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return vec3(0.0);
+    ivec2 size = ivec2(right.w, up.w);
+    vec2 texel = at * vec2(size) - 0.5;
+    ivec2 low = clamp(ivec2(floor(texel)), ivec2(0), size - 1);
+    ivec2 high = clamp(ivec2(floor(texel)) + 1, ivec2(0), size - 1);
+    vec2 part = fract(texel);
+    int first = picture + 2;
+    return mix(mix(lightTexel(first + low.y * size.x + low.x).rgb, lightTexel(first + low.y * size.x + high.x).rgb, part.x),
+               mix(lightTexel(first + high.y * size.x + low.x).rgb, lightTexel(first + high.y * size.x + high.x).rgb, part.x),
+               part.y);
+}
 
 LightSample lightSampleAt(int index, vec3 place) {
     ivec2 at = ivec2(5 * (index % 128), index / 128);
@@ -36,6 +61,7 @@ LightSample lightSampleAt(int index, vec3 place) {
     vec3 toLight = way / distance;
     float inCone = pow(clamp(cone.y - cone.x * dot(toLight, axis.xyz), 0.0, 1.0), color.a);
     float falloff = centre.w > 0.5 ? 1.0 / max(distance * distance, 1e-30) : 1.0;
+    if (cone.z > 0.0) color.rgb *= projectedBy(int(cone.z), axis.xyz, -toLight);
     return LightSample(toLight, distance, inCone * falloff * color.rgb, axis.w, 0.0, cone.w / distance);
 }
 

@@ -193,7 +193,7 @@ private:
 /// Memory that one picture of a relief of 512 x 512 texels takes: before anything larger touches any.
 Status drawOnce(gl::Context& context) {
     scene::Scene scene = measure::fieldScene(measure::benchNoise(512), 0.03f);
-    scene.lights.push_back(scene::PointLight{});
+    scene.lights.emplace_back(scene::PointLight{});
     frame::Renderer renderer(context);
     if (Status done = renderer.finish(scene, 1, scene.size); !done) return done;
     renderer.wait();

@@ -74,7 +74,8 @@ std::string truthPath(const std::string& folder, const scene::Scene& scene, int 
     hash.add(toJson(scene) + std::to_string(directions));
     const int view[] = {scene.size.x, scene.size.y, int(scene.view.show)};
     hash.add(std::as_bytes(std::span(view)));
-    if (scene.environment) hash.add(scene.environment->map.get());
+    for (const auto& map : scene::lightPictures(scene))
+        hash.add(map.get());
     for (const scene::Object& object : scene.objects) {
         if (const auto* field = std::get_if<scene::HeightField>(&object.shape))
             for (const auto& map : {field->heights, field->alpha})

@@ -93,7 +93,8 @@ Renderer::State::SceneKey Renderer::State::sceneKey(const scene::Scene& scene) c
             key.maps.push_back(map);
         key.maps.push_back(object.painting);
     }
-    if (scene.environment) key.maps.push_back(scene.environment->map);
+    for (const auto& map : scene::lightPictures(scene))
+        key.maps.push_back(map);
     return key;
 }
 

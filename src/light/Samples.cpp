@@ -71,6 +71,7 @@ void add(std::vector<LampPoint>& points, const scene::SpotLight& light, int) {
     const float scale = 1 / std::max(0.001f, inner - outer);
     const vec4 place(light.position, 1);
     const vec3 axis = glm::normalize(light.direction);
+    const auto frame = light.image ? scene::pictureFrame(light) : scene::PictureFrame{vec3(0), vec3(0)};
     points.push_back({.place = place,
                       .centre = light.position,
                       .fades = true,
@@ -78,7 +79,10 @@ void add(std::vector<LampPoint>& points, const scene::SpotLight& light, int) {
                       .axis = axis,
                       .cone = {scale, -outer * scale},
                       .exponent = 2,
-                      .source = {place, axis, std::tan(glm::radians(light.outerAngle))}});
+                      .source = {place, axis, std::tan(glm::radians(light.outerAngle))},
+                      .picture = light.image,
+                      .pictureRight = frame.right,
+                      .pictureUp = frame.up});
 }
 
 // Places of the rank-1 lattice of the golden ratio: even over the parallelogram for any number.
@@ -215,6 +219,10 @@ LampPoint facing(LampPoint point, const vec3& place) {
     return point;
 }
 
+light::PictureFrameBlock pictureBlock(const LampPoint& lamp) {
+    return {.right = vec4(lamp.pictureRight, lamp.picture ? 1 : 0), .up = vec4(lamp.pictureUp, 0)};
+}
+
 bool hasEnvironment(const scene::Scene& scene) { return scene.environment && scene.environment->enabled; }
 
 bool hasLargeLamp(const scene::Scene& scene) {
@@ -244,20 +252,36 @@ std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& s
 }
 
 Image sampleTable(const std::vector<LampPoint>& samples) {
-    constexpr int kTexels = 5, kSamplesPerRow = 128;
-    const int rows = std::max(1, (int(samples.size()) + kSamplesPerRow - 1) / kSamplesPerRow);
-    Image table(kTexels * kSamplesPerRow, rows, 4);
+    constexpr std::size_t kTexels = 5, kSamplesPerRow = 128, kPerRow = kTexels * kSamplesPerRow;
+    std::size_t end =
+        std::max<std::size_t>(1, (samples.size() + kSamplesPerRow - 1) / kSamplesPerRow) * kPerRow;
+    std::vector<std::size_t> pictures; // where each sample's begins; 0: it has none
+    for (const LampPoint& sample : samples) {
+        pictures.push_back(sample.picture ? end : 0);
+        if (sample.picture) end += 2 + sample.picture->pixels.size() / 3;
+    }
+    Image table(int(kPerRow), int((end + kPerRow - 1) / kPerRow), 4);
     float* texel = table.pixels.data();
     const auto write = [&](const vec4& value) {
         for (int i = 0; i < 4; ++i)
             *texel++ = value[i];
     };
-    for (const LampPoint& sample : samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const LampPoint& sample = samples[i];
         write(sample.place);
         write(vec4(sample.centre, sample.fades ? 1 : 0));
         write(vec4(sample.color, sample.exponent));
         write(vec4(sample.axis, sample.weight));
-        write(vec4(sample.cone, sample.extent, sample.part));
+        write(vec4(sample.cone, sample.picture ? float(pictures[i]) : sample.extent, sample.part));
+    }
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (!samples[i].picture) continue;
+        const Image& picture = *samples[i].picture;
+        texel = table.pixels.data() + 4 * pictures[i];
+        write(vec4(samples[i].pictureRight, picture.width));
+        write(vec4(samples[i].pictureUp, picture.height));
+        for (std::size_t at = 0; at < picture.pixels.size(); at += 3)
+            write(vec4(picture.pixels[at], picture.pixels[at + 1], picture.pixels[at + 2], 1));
     }
     return table;
 }

@@ -5,7 +5,10 @@
 #include "light/EnvironmentLights.h"
 #include "light/ShadowMap.h"
 #include "scene/Scene.h"
+#include "shaders/light/Blocks.h"
 
+#include <functional>
+#include <memory>
 #include <vector>
 
 namespace lucent::views {
@@ -27,8 +30,16 @@ struct LampPoint {
     float extent =
         0; ///< sine of the angle by which the directions spread that it stands for; of an environment
     float part = 0; ///< radius of what it stands for of its lamp: m, or where that is distant a tangent
+    std::shared_ptr<const Image> picture{}; ///< that it projects, around its axis; null: none
+    vec3 pictureRight{0}, pictureUp{0};     ///< scene::PictureFrame
     bool operator==(const LampPoint&) const = default;
 };
+
+/// What a lamp projects, as a texture; asked only of lamps that do.
+using PictureOf = std::function<Result<graph::TextureHandle>(const LampPoint&)>;
+
+/// What shaders/light/picture.glsl has to know of its picture.
+light::PictureFrameBlock pictureBlock(const LampPoint& lamp);
 
 /// Lamps with a size (a point light's ball, a distant light's disc of directions, an area) are so many points
 /// each. A lamp's disc faces whatever it lights, so its points lie in a ball, more of them near its surface,
@@ -80,7 +91,7 @@ bool hasLargeLamp(const scene::Scene& scene);
 /// faces them is radiance times solid angle: together the integral over the sphere.
 std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling);
 
-/// The samples as shaders read them, RGBA32F.
+/// The samples as shaders read them, and behind them the pictures that they project, RGBA32F.
 Image sampleTable(const std::vector<LampPoint>& samples);
 
 } // namespace lucent::views

@@ -33,8 +33,8 @@ scene::Scene sceneOf(std::vector<scene::Object> objects, float height) {
 }
 
 void addSun(scene::Scene& scene, double angle) {
-    scene.lights.push_back(
-        scene::DistantLight{.direction = {float(-std::sin(angle)), float(-std::cos(angle)), 0}});
+    auto& sun = scene.lights.emplace_back(std::in_place_type<scene::DistantLight>);
+    std::get<scene::DistantLight>(sun).direction = {float(-std::sin(angle)), float(-std::cos(angle)), 0};
 }
 
 void addWhiteSphere(scene::Scene& scene) {

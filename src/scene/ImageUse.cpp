@@ -1,6 +1,8 @@
 #include "scene/ImageUse.h"
 
+#include "base/Log.h"
 #include "base/Text.h"
+#include "scene/Scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +58,42 @@ Result<SharedImage> decodeColors(std::span<const std::byte> bytes, const std::st
                 colors.at(x, y)[c] = image->at(x, y)[image->channels >= 3 ? c : 0];
     constexpr float kMost = std::numeric_limits<float>::max();
     return share(std::move(colors), -kMost, kMost, name, "colours must be finite");
+}
+
+namespace {
+
+// Each texel the mean of four; of odd sides the last is left out.
+Image halved(const Image& image) {
+    Image half(std::max(1, image.width / 2), std::max(1, image.height / 2), image.channels);
+    const ivec2 step = glm::min(image.size() - 1, ivec2(1));
+    for (int y = 0; y < half.height; ++y)
+        for (int x = 0; x < half.width; ++x)
+            for (int c = 0; c < half.channels; ++c) {
+                const auto at = [&](int dx, int dy) {
+                    return image.at(2 * x * step.x + dx, 2 * y * step.y + dy)[c];
+                };
+                half.at(x, y)[c] = (at(0, 0) + at(step.x, 0) + at(0, step.y) + at(step.x, step.y)) / 4;
+            }
+    return half;
+}
+
+} // namespace
+
+Result<SharedImage> decodePicture(std::span<const std::byte> bytes, const std::string& name) {
+    Result<SharedImage> colors = decodeColors(bytes, name);
+    if (!colors) return colors;
+    constexpr float kMost = std::numeric_limits<float>::max();
+    if (Status legal = checkValues(**colors, 0, kMost, name, "what a lamp projects must be at least 0");
+        !legal)
+        return legal.error();
+    const ivec2 whole = (*colors)->size();
+    while (std::max((*colors)->width, (*colors)->height) > kMostPictureSide)
+        *colors = std::make_shared<const Image>(halved(**colors));
+    if ((*colors)->size() != whole)
+        warnOnce(name + ": is projected with " + std::to_string((*colors)->width) + " x " +
+                 std::to_string((*colors)->height) + " pixels, of " + std::to_string(whole.x) + " x " +
+                 std::to_string(whole.y));
+    return colors;
 }
 
 Result<SharedImage> decodeHeights(std::span<const std::byte> bytes, const std::string& name) {

@@ -11,6 +11,10 @@ namespace lucent::scene {
 /// Error when a value is not finite, naming the texel.
 Result<std::shared_ptr<const Image>> decodeColors(std::span<const std::byte> bytes, const std::string& name);
 
+/// The same for a lamp to project: values of at least 0, each side halved until it has kMostPictureSide at
+/// most, and that said on stderr.
+Result<std::shared_ptr<const Image>> decodePicture(std::span<const std::byte> bytes, const std::string& name);
+
 /// Picture as one channel of heights: the first of one or two, else the mean of red, green and blue.
 /// Error when a height is not finite or beyond 1e9, naming the texel.
 Result<std::shared_ptr<const Image>> decodeHeights(std::span<const std::byte> bytes, const std::string& name);

@@ -29,7 +29,10 @@ constexpr Key kEnvironment[] = {
 constexpr Key kPoint[] = {{"type", KeyType::Constant, "A lamp at one place.", R"("point")"}};
 constexpr Key kDistant[] = {
     {"type", KeyType::Constant, "Light that travels in one direction.", R"("distant")"}};
-constexpr Key kSpot[] = {{"type", KeyType::Constant, "A lamp that shines into a cone.", R"("spot")"}};
+constexpr Key kSpot[] = {
+    {"type", KeyType::Constant, "A lamp that shines into a cone.", R"("spot")"},
+    {"image", KeyType::File, "Picture that it projects, with fov and roll; beside the picture it is dark."},
+};
 constexpr Key kArea[] = {
     {"type", KeyType::Constant, "A parallelogram that shines from one side.", R"("area")"}};
 constexpr Key kObject[] = {
@@ -148,7 +151,7 @@ std::span<const TypeKeys> lightTypes() {
     static const TypeKeys types[] = {
         {"point", {{&pointLightParams()}, kPoint}},
         {"distant", {{&distantLightParams()}, kDistant}},
-        {"spot", {{&spotLightParams()}, kSpot}},
+        {"spot", {{&spotLightParams(), &projectorParams()}, kSpot}},
         {"area", {{&areaLightParams()}, kArea}},
     };
     static_assert(std::size(types) == std::variant_size_v<Light>);

@@ -144,6 +144,31 @@ const ParamTable& spotLightParams() {
     return table;
 }
 
+const ParamTable& projectorParams() {
+    static const Param params[] = {
+        declare(&SpotLight::fov, {.id = "fov",
+                                  .label = "Width of the picture",
+                                  .unit = "degrees",
+                                  .min = 1,
+                                  .max = 170,
+                                  .low = 5,
+                                  .high = 90,
+                                  .group = Group::Light,
+                                  .doc = "Across the picture that the lamp projects, seen from the lamp."}),
+        declare(&SpotLight::roll, {.id = "roll",
+                                   .label = "Turn of the picture",
+                                   .unit = "degrees",
+                                   .min = -360,
+                                   .max = 360,
+                                   .low = -180,
+                                   .high = 180,
+                                   .group = Group::Light,
+                                   .doc = "Turns the picture that the lamp projects around its axis."}),
+    };
+    static const ParamTable table = tableOf<SpotLight>("light", params);
+    return table;
+}
+
 namespace {
 
 Param edgeOf(vec3 AreaLight::*edge, std::string_view id, std::string_view label, std::string_view doc) {

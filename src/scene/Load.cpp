@@ -180,7 +180,18 @@ private:
         std::size_t index = 0;
         if (!readType(place, lightTypes(), index)) return false;
         light = alternative<Light>(index);
-        return readKeys(place, typeOf(light).keys, {dataOf(light)}) && keepStatus(place, check(light));
+        const KeySet& keys = typeOf(light).keys;
+        if (!readKeys(place, keys, std::vector<void*>(keys.tables.size(), dataOf(light)))) return false;
+        auto* spot = std::get_if<SpotLight>(&light);
+        return (!spot || readPicture(place, *spot)) && keepStatus(place, check(light));
+    }
+    bool readPicture(const Place& place, SpotLight& spot) {
+        if (!readMap(place, "image", spot.imageFile, spot.image, decodePicture)) return false;
+        for (const Param& param : projectorParams().params)
+            if (const Json* json = place.json.find(param.id); json && !spot.image)
+                return fail(place.at(*json, param.id),
+                            " does nothing without a picture; must stand beside image");
+        return true;
     }
     // Which of the types the object under `place` is of.
     bool readType(const Place& place, std::span<const TypeKeys> types, std::size_t& index) {

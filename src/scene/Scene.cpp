@@ -313,8 +313,10 @@ std::vector<BoundParam> bindParams(Scene& scene) {
     Binder binder;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         Light& light = scene.lights[i];
-        binder.add("lights." + std::to_string(i), i == 0 ? "light" : "", *typeOf(light).keys.tables[0],
-                   dataOf(light));
+        const auto* spot = std::get_if<SpotLight>(&light);
+        for (const ParamTable* table : typeOf(light).keys.tables)
+            if (table != &projectorParams() || spot->image)
+                binder.add("lights." + std::to_string(i), i == 0 ? "light" : "", *table, dataOf(light));
     }
     for (Object& object : scene.objects)
         binder.addObject(object, &object == &scene.objects.front());
@@ -373,6 +375,16 @@ Status checkKind(const AreaLight& light) {
 }
 
 } // namespace
+
+PictureFrame pictureFrame(const SpotLight& projector) {
+    const vec3 axis = glm::normalize(projector.direction);
+    const vec3 above = glm::length(glm::cross(axis, vec3(0, 1, 0))) > 1e-3f ? vec3(0, 1, 0) : vec3(0, 0, -1);
+    const vec3 level = glm::normalize(glm::cross(axis, above)), steep = glm::cross(level, axis);
+    const float angle = glm::radians(projector.roll), cosine = std::cos(angle), sine = std::sin(angle);
+    const float far = 1 / std::tan(glm::radians(projector.fov / 2));
+    const float tall = far * float(projector.image->width) / float(projector.image->height);
+    return {far * (cosine * level + sine * steep), tall * (cosine * steep - sine * level)};
+}
 
 Status check(const Light& light) {
     return std::visit([](const auto& kind) { return checkKind(kind); }, light);
@@ -477,6 +489,15 @@ Status setParam(Scene& scene, std::string_view path, std::string_view value) {
     Scene trial = scene; // images are shared, so a copy is cheap
     if (Status set = assign(trial, path, value); !set) return set;
     return assign(scene, path, value);
+}
+
+std::vector<std::shared_ptr<const Image>> lightPictures(const Scene& scene) {
+    std::vector<std::shared_ptr<const Image>> list;
+    if (scene.environment) list.push_back(scene.environment->map);
+    for (const Light& light : scene.lights)
+        if (const auto* spot = std::get_if<SpotLight>(&light); spot && spot->image)
+            list.push_back(spot->image);
+    return list;
 }
 
 bool changesNoLight(const Scene& scene, const Object& object) {

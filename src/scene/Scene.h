@@ -331,6 +331,9 @@ struct DistantLight {
         0; ///< degrees across, [0,90]: an even disc of directions; the sun has 0.53; 0: one direction
 };
 
+/// Longest side of a picture that a lamp projects, texels: larger ones are made smaller as they are read.
+inline constexpr int kMostPictureSide = 1024;
+
 /// A point that shines into a cone. Its light fades with the square of the distance.
 struct SpotLight {
     vec3 position{0, 1, 0};
@@ -339,7 +342,20 @@ struct SpotLight {
     float intensity = 1; ///< W/sr inside the inner cone
     float innerAngle = 20,
           outerAngle = 25; ///< degrees from the axis; between them light fades as glTF has it
+    // A projector: a picture in the cone, its middle on the axis. What falls beside it is dark.
+    float fov = 40;                       ///< degrees across the picture's width
+    float roll = 0;                       ///< degrees, counter-clockwise seen from the lamp; at 0 its upper
+                                          ///< edge is towards +y, of one that looks straight up or down -z
+    std::string imageFile{};              ///< as the scene file names it
+    std::shared_ptr<const Image> image{}; ///< 3 channels, linear, factors of the color; null: none
 };
+
+/// The directions along the width and the height of what a projector shows, right and up seen from it, so
+/// long that d . right / d . axis is 1 for a direction d to the picture's right edge; and up likewise.
+struct PictureFrame {
+    vec3 right, up;
+};
+PictureFrame pictureFrame(const SpotLight& projector);
 
 /// A parallelogram that shines from one side: that from which edgeU turns to edgeV counter-clockwise.
 struct AreaLight {
@@ -430,6 +446,9 @@ struct Scene {
     Quality quality;
 };
 
+/// Pictures of its light: the map of its environment, and what lamps project.
+std::vector<std::shared_ptr<const Image>> lightPictures(const Scene& scene);
+
 /// Whether an object lets all light through as it came: it has the index of the vacuum, absorbs nothing, and
 /// stands in no other medium.
 bool changesNoLight(const Scene& scene, const Object& object);
@@ -461,6 +480,7 @@ const ParamTable& transformParams();
 const ParamTable& pointLightParams();
 const ParamTable& distantLightParams();
 const ParamTable& spotLightParams();
+const ParamTable& projectorParams(); ///< the rest of a spot light with a picture
 const ParamTable& areaLightParams();
 const ParamTable& environmentParams();
 const ParamTable& cameraParams();

@@ -161,7 +161,10 @@ void writeObject(JsonWriter& json, const Object& object) {
 void writeLight(JsonWriter& json, const Light& light) {
     json.beginObject();
     json.key("type").value(typeOf(light).type);
-    writeParams(json, *typeOf(light).keys.tables[0], dataOf(light));
+    const auto* spot = std::get_if<SpotLight>(&light);
+    if (spot) writeText(json, "image", spot->imageFile);
+    for (const ParamTable* table : typeOf(light).keys.tables)
+        if (table != &projectorParams() || spot->image) writeParams(json, *table, dataOf(light));
     json.end();
 }
 

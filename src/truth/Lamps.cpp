@@ -102,6 +102,10 @@ Lamp::Lamp(const scene::Light& light) {
         const double outer = std::cos(double(spot->outerAngle) * kTwoPi / 360);
         const double scale = 1 / std::max(0.001, inner - outer);
         cone_ = {glm::normalize(dvec3(spot->direction)), scale, -outer * scale};
+        if (spot->image) {
+            const scene::PictureFrame frame = scene::pictureFrame(*spot);
+            picture_ = {dvec3(frame.right), dvec3(frame.up), spot->image};
+        }
     }
     if (const auto* area = std::get_if<scene::AreaLight>(&light)) {
         const dvec3 u(area->edgeU), v(area->edgeV), normal = glm::cross(u, v);
@@ -114,11 +118,14 @@ Lamp::Lamp(const scene::Light& light) {
     }
 }
 
-double Lamp::inCone(const dvec3& direction) const {
-    if (!cone_) return 1;
-    const double share =
-        std::clamp(glm::dot(direction, cone_->axis) * cone_->scale + cone_->offset, 0.0, 1.0);
-    return share * share;
+dvec3 Lamp::inCone(const dvec3& direction) const {
+    if (!cone_) return dvec3(1);
+    const double along = glm::dot(direction, cone_->axis);
+    const double share = std::clamp(along * cone_->scale + cone_->offset, 0.0, 1.0);
+    if (!picture_ || share == 0) return dvec3(share * share);
+    const dvec2 at(glm::dot(direction, picture_->right) / along, glm::dot(direction, picture_->up) / along);
+    if (std::abs(at.x) > 1 || std::abs(at.y) > 1) return dvec3(0);
+    return share * share * sampleMap(picture_->image.get(), {0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y});
 }
 
 LampLight Lamp::light(const dvec3& place, dvec2 within) const {

@@ -60,16 +60,22 @@ private:
         dvec3 axis;
         double scale, offset;
     };
+    /// What a spot projects; the frame as in the scene.
+    struct Picture {
+        dvec3 right, up;
+        std::shared_ptr<const Image> image;
+    };
     struct Panel {
         dvec3 corner, edgeU, edgeV, normal;
         double area;
         dvec3 radiance;
     };
-    double inCone(const dvec3& direction) const;
+    dvec3 inCone(const dvec3& direction) const;
     Emission emitFrom(const dvec3& origin, std::span<const Sphere> targets, Random& random) const;
 
     LightSource source_; ///< of all but areas
     std::optional<Cone> cone_;
+    std::optional<Picture> picture_;
     std::optional<Panel> panel_;
 };
 

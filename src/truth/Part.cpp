@@ -210,7 +210,8 @@ std::string fingerprint(const scene::Scene& scene) {
         for (const auto& map : object.material.maps())
             hash.add(map);
     }
-    if (scene.environment) hash.add(scene.environment->map);
+    for (const auto& map : scene::lightPictures(scene))
+        hash.add(map);
     return hash.text();
 }
 

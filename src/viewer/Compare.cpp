@@ -195,6 +195,9 @@ double fullScale(double p99) {
 std::vector<std::pair<std::string, Bytes>> packScene(scene::Scene scene) {
     std::vector<std::pair<std::string, Bytes>> files{{"scene.json", {}}};
     if (scene.environment) packImage(files, scene.environment->map, scene.environment->source);
+    for (scene::Light& light : scene.lights)
+        if (auto* spot = std::get_if<scene::SpotLight>(&light))
+            packImage(files, spot->image, spot->imageFile);
     for (scene::Object& object : scene.objects) {
         if (auto* field = std::get_if<scene::HeightField>(&object.shape)) packField(files, *field);
         if (auto* mesh = std::get_if<scene::MeshShape>(&object.shape)) packMesh(files, *mesh);

@@ -96,6 +96,47 @@ TEST_F(Brdf, ASpotFadesBetweenItsAngles) {
         }
 }
 
+// Four by two pixels, red in the upper left corner and green in the upper right one, elsewhere blue.
+std::shared_ptr<const Image> flag() {
+    auto picture = std::make_shared<Image>(4, 2, 3);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 4; ++x)
+            picture->at(x, y)[y == 1 ? 2 : x < 2 ? 0 : 1] = 1;
+    return picture;
+}
+
+TEST_F(Brdf, AProjectorsPictureLiesAsWideAndAsTurnedAsItSays) {
+    scene::Scene scene = seenFromAbove({matt(scene::Plane{{4, 4}})}, 2);
+    const ivec2 size{64, 64};
+    // One metre above: the picture is 1 m wide and half as high. Straight down, -z is up as in the view.
+    scene::SpotLight lamp{.position = {0, 1, 0}, .direction = {0, -1, 0}, .innerAngle = 40, .outerAngle = 50};
+    lamp.fov = glm::degrees(2 * std::atan(0.5f));
+    lamp.image = flag();
+    const auto colorAt = [&](float roll, vec2 place) {
+        lamp.roll = roll;
+        scene.lights = {lamp};
+        const Image image = shade(scene, size);
+        const ivec2 pixel = ivec2((place / 2.0f + 0.5f) * vec2(size));
+        const double square = double(glm::dot(placeOf(scene, pixel, size), placeOf(scene, pixel, size))) + 1;
+        const float* value = image.at(pixel.x, pixel.y);
+        return dvec3(value[0], value[1], value[2]) * (square * std::sqrt(square)); // I cos / d²
+    };
+    const auto expectColor = [&](float roll, vec2 place, const dvec3& color) {
+        // Texels of 0.25 m, bilinear: in the middle of what is of one colour nothing mixes.
+        EXPECT_LT(glm::length(colorAt(roll, place) - color), 1e-5)
+            << roll << " " << place.x << " " << place.y;
+    };
+    // Right and down in the view.
+    expectColor(0, {-0.4f, -0.2f}, {1, 0, 0});
+    expectColor(0, {0.4f, -0.2f}, {0, 1, 0});
+    expectColor(0, {0.4f, 0.2f}, {0, 0, 1});
+    for (const vec2 outside : {vec2(0.55f, 0), vec2(-0.55f, 0), vec2(0, 0.3f), vec2(0, -0.3f)})
+        expectColor(0, outside, dvec3(0));
+    // A quarter turn counter-clockwise seen from the lamp, which looks as the view does.
+    expectColor(90, {-0.2f, 0.4f}, {1, 0, 0});
+    expectColor(90, {-0.2f, -0.4f}, {0, 1, 0});
+}
+
 TEST_F(Brdf, GrazingLightLeavesNoSpecklesOnAPlane) {
     // A box far to the side makes sure that there is a shadow map. Five degrees above the plane.
     scene::Scene scene =

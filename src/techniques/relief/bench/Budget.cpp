@@ -104,13 +104,13 @@ std::vector<Lighting> lightings(const std::vector<BenchEnvironment>& environment
                         scene::DistantLight sun;
                         sun.direction = {-0.6f, 0.5f, -0.6f};
                         sun.angle = 12;
-                        scene.lights.push_back(sun);
+                        scene.lights.emplace_back(sun);
                     }});
     list.push_back({"bulb", [](scene::Scene& scene) {
                         scene::PointLight bulb;
                         bulb.position = {0.4f, 0.2f, 0.5f};
                         bulb.radius = 0.15f;
-                        scene.lights.push_back(bulb);
+                        scene.lights.emplace_back(bulb);
                     }});
     under("bulb and hall", std::make_shared<const Image>(*hall()), {80, 140, 0});
     const auto both = list.back().light;
@@ -119,7 +119,7 @@ std::vector<Lighting> lightings(const std::vector<BenchEnvironment>& environment
         scene::PointLight bulb;
         bulb.radius = 0.1f;
         bulb.intensity = 0.5f;
-        scene.lights.push_back(bulb);
+        scene.lights.emplace_back(bulb);
     };
     return list;
 }

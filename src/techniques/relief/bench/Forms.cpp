@@ -111,7 +111,7 @@ Finding pointLight(Studio& studio, dvec3 place) {
     constexpr double depth = 0.02, surface = 0.1;
     Finding finding;
     Scene scene = sceneOf(level({32, 32}), 0.2f, float(depth));
-    scene.lights.push_back(scene::PointLight{.position = vec3(place)});
+    scene.lights.emplace_back(scene::PointLight{.position = vec3(place)});
     const Image d = studio.draw(scene);
     for (int y = 0; y < 32; ++y) {
         for (int x = 0; x < 32; ++x) {
@@ -396,7 +396,7 @@ Finding lampOnLevelField(Studio& studio) {
     constexpr float radius = 0.3f;
     Scene scene = sceneOf(level({16, 16}), 0.2f, float(depth));
     views::samplingOf(scene).lamp = kLampPoints;
-    scene.lights.push_back(scene::PointLight{.position = {0.1f, 0, 0.1 + height}, .radius = radius});
+    scene.lights.emplace_back(scene::PointLight{.position = {0.1f, 0, 0.1 + height}, .radius = radius});
     const Image d = studio.draw(scene);
     Finding finding;
     for (int y = 2; y < 14; ++y) {
@@ -532,7 +532,7 @@ Finding hardCases(Studio& studio) {
             for (const double elevation : {90.0, 0.1, 0.0, -30.0})
                 scene.lights.push_back(lampAt(elevation, 20));
             for (const vec3 place : {vec3(0, 0, 0.01f), vec3(0, 0, -0.3f), vec3(1e-4f), vec3(1e6f)})
-                scene.lights.push_back(scene::PointLight{.position = place});
+                scene.lights.emplace_back(scene::PointLight{.position = place});
             studio.draw(scene, Aov::Color);
         }
     }
