@@ -107,9 +107,7 @@ void main() {
     vec3 up = light.normalFromObject[1].xyz;
     vec3 way = light.place.xyz - light.place.w * place;
     vec3 toLight = normalize(way);
-    float cone = pow(clamp(light.lamp.cone.y - light.lamp.cone.x * dot(toLight, light.lamp.axis.xyz), 0.0, 1.0),
-                     light.lamp.color.a);
-    vec3 flux = light.tint.rgb * light.lamp.color.rgb * cone / (light.lamp.axis.w > 0.5 ? dot(way, way) : 1.0);
+    vec3 flux = light.tint.rgb * shiningTo(light.lamp, -toLight) / (light.lamp.axis.w > 0.5 ? dot(way, way) : 1.0);
     float cosine = max(dot(normal, toLight), 0.0);
     flux *= light.area * cosine / dot(normal, up);
 #ifdef USE_SHADOW

@@ -16,12 +16,14 @@
 #include "lib/octahedral.glsl"
 #include "lib/fresnel.glsl"
 #include "views/surface_pixel.glsl"
+#include "light/picture.glsl"
 layout(std140) uniform FluxBlock {
     View view;
     vec4 color; // irradiance that faces the light, or that at 1 m; a: exponent of the cone
     vec4 axis;  // unit: along which the light shines most; w: 1: it fades
     vec4 sharpness; // of painted objects. x: most that points tell apart; y: radius of half the profile's light [m]; z:
                     // that of its blur [m], 0: it has none; w: 1: as the paper has it
+    PictureFrame picture;
     vec2 cone;
     int object;
     float ior;
@@ -72,6 +74,7 @@ void main() {
         area *= slant * slant * slant; // a solid angle
         if (light.axis.w < 0.5) area *= dot(toPlace, toPlace);
         color *= pow(clamp(light.cone.y + light.cone.x * dot(ray, light.axis.xyz), 0.0, 1.0), light.color.a);
+        color *= projectedAt(light.picture, light.axis.xyz, ray);
     }
     flux = area * color * (1.0 - fresnelReflectance(max(cosine, 0.0), 1.0 / light.ior));
 #endif

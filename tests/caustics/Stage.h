@@ -63,12 +63,17 @@ struct Caustics : support::GlTest {
             plan = std::move(*planned);
         }
     };
+    // The technique, with the pictures that lamps project.
+    caustics::Caustics techniqueOn(Stage& stage) {
+        return caustics::Caustics(
+            *context, [&stage](const views::LampPoint& lamp) { return stage.images.image(lamp.picture); });
+    }
     Plan planOf(const scene::Scene& scene) { return Stage(*context, scene, ivec2(1), {}).plan; }
     Energy energyOf(const scene::Scene& scene, ivec2 size, const Settings& settings = {}) {
         Stage stage(*context, scene, size, settings);
         context->device().checkTargets(false); // they have passed in lightOf()
-        const auto energy = caustics::Caustics(*context).measure(stage.pool, scene, stage.eye, stage.drawn,
-                                                                 stage.plan, settings);
+        const auto energy =
+            techniqueOn(stage).measure(stage.pool, scene, stage.eye, stage.drawn, stage.plan, settings);
         EXPECT_TRUE(energy.ok()) << energy.error().message;
         return *energy;
     }
@@ -84,7 +89,7 @@ struct Caustics : support::GlTest {
         const graph::TextureId surface = graph.create("surface", desc);
         const views::Drawables solids = opaque(*posed), seen = visible(solids);
         EXPECT_TRUE(views::recordSurface(graph, *context, eye, seen, surface, size).ok());
-        const auto light = caustics::Caustics(*context).record(
+        const auto light = techniqueOn(stage).record(
             graph, {scene, eye, refractive(*posed), solids, surface, size}, stage.plan, settings);
         EXPECT_TRUE(light.ok()) << light.error().message;
         const graph::TextureId targetId = graph.import(target.handle(), desc, target.label());

@@ -18,6 +18,20 @@ using stage::Caustics; // the fixture, not the technique
 
 // --- against ray-traced truth
 
+// Of smooth stripes, down on what is below.
+scene::SpotLight projectorAt(const vec3& place) {
+    auto stripes = std::make_shared<Image>(32, 16, 3);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x)
+            for (int c = 0; c < 3; ++c)
+                stripes->at(x, y)[c] = 0.6f + 0.4f * std::sin(0.5f * float(x) + float(c));
+    scene::SpotLight lamp{
+        .position = place, .direction = {-0.1f, -1, 0}, .intensity = 5, .innerAngle = 40, .outerAngle = 50};
+    lamp.fov = 50;
+    lamp.image = stripes;
+    return lamp;
+}
+
 TEST_F(Caustics, EveryKindOfLampAgreesWithTruth) {
     using scene::PointLight;
     const vec3 place(0.3f, 2.5f, 0.2f);
@@ -30,7 +44,8 @@ TEST_F(Caustics, EveryKindOfLampAgreesWithTruth) {
                          .innerAngle = 5,
                          .outerAngle = 20},
         scene::AreaLight{
-            .corner = {-0.1f, 2.5f, -0.1f}, .edgeU = {0.1f, 0, 0}, .edgeV = {0, 0, 0.1f}, .radiance = 500}};
+            .corner = {-0.1f, 2.5f, -0.1f}, .edgeU = {0.1f, 0, 0}, .edgeV = {0, 0, 0.1f}, .radiance = 500},
+        projectorAt(place)};
     for (const scene::Light& lamp : lamps) {
         scene::Scene scene = floorUnder(glass(scene::Sphere{0.5f}, 1.5f, {0, 1, 0}), 3);
         scene.lights = {lamp};

@@ -110,15 +110,17 @@ struct SubsurfaceTest : support::GlTest {
                 *plan, settings);
             EXPECT_TRUE(lit.ok()) << lit.error().message;
         }
-        const Inputs in{.scene = scene,
-                        .eye = posed.eye,
-                        .solids = bodies(posed.all),
-                        .casters = posed.all,
-                        .surface = surfaceId,
-                        .environment = posed.environment,
-                        .target = targetId,
-                        .radiosity = radiosity,
-                        .size = size};
+        const Inputs in{
+            .scene = scene,
+            .eye = posed.eye,
+            .solids = bodies(posed.all),
+            .casters = posed.all,
+            .surface = surfaceId,
+            .environment = posed.environment,
+            .target = targetId,
+            .radiosity = radiosity,
+            .size = size,
+            .pictureOf = [&](const views::LampPoint& lamp) { return images.image(lamp.picture); }};
         const Status recorded = subsurface.record(graph, in, *plan, settings);
         EXPECT_TRUE(recorded.ok()) << recorded.error().message;
         return support::finish(graph, pool, *context, target);

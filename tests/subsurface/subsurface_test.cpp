@@ -257,6 +257,42 @@ TEST_F(SubsurfaceTest, GrazingLightLeavesWhatEntersOfIt) {
     }
 }
 
+TEST_F(SubsurfaceTest, AProjectorsLightEntersWhereItsPictureIsBright) {
+    scene::Scene scene = sphereFromTheSide(0.01, dense());
+    scene::SpotLight lamp{.position = {0, 0, 0.5f},
+                          .direction = {0, 0, -1},
+                          .intensity = 1,
+                          .innerAngle = 20,
+                          .outerAngle = 25};
+    const auto drawn = [&] {
+        scene.lights = {lamp};
+        return draw(scene, {24, 24});
+    };
+    const auto sums = [&](const Image& image) { // left and right half
+        dvec2 sum(0);
+        for (int y = 0; y < 24; ++y)
+            for (int x = 0; x < 24; ++x)
+                sum[x < 12 ? 0 : 1] += std::max(0.0, double(image.at(x, y)[1])); // -1 beside the ball
+        return sum;
+    };
+    const dvec2 plain = sums(drawn());
+    auto picture = std::make_shared<Image>(2, 2, 3);
+    std::fill(picture->pixels.begin(), picture->pixels.end(), 0.5f);
+    lamp.image = picture;
+    lamp.fov = 10;
+    const dvec2 grey = sums(drawn());
+    EXPECT_NEAR(grey.x / plain.x, 0.5, 1e-3);
+    EXPECT_NEAR(grey.y / plain.y, 0.5, 1e-3);
+    // Dark on the left, seen from lamp and camera alike.
+    auto halves = std::make_shared<Image>(256, 256, 3);
+    for (int y = 0; y < 256; ++y)
+        std::fill_n(halves->at(128, y), 3 * 128, 1.0f);
+    lamp.image = halves;
+    const dvec2 half = sums(drawn());
+    EXPECT_NEAR((half.x + half.y) / (plain.x + plain.y), 0.5, 0.01);
+    EXPECT_LT(half.x, 0.1 * half.y);
+}
+
 TEST_F(SubsurfaceTest, ABodyThatLeavesALampsConeFadesToBlack) {
     scene::Scene scene = sphereFromTheSide(0.01, dense());
     std::vector<double> light;

@@ -388,7 +388,7 @@ Result<Carried> Caustics::record(graph::FrameGraph& graph, const Inputs& in, con
             return s.error();
     }
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
-        LightPasses passes(graph, context_, targets, all, plan.lights[i], settings);
+        LightPasses passes(graph, context_, targets, all, plan.lights[i], settings, pictureOf_);
         Status s =
             i < made ? passes.lookUp(carried.maps[i], carried.irradiance) : passes.record(carried.irradiance);
         if (!s) return s.error();
@@ -402,8 +402,8 @@ Result<graph::TextureId> Caustics::lookUp(graph::FrameGraph& graph, const Inputs
     graph::TextureId sum;
     Targets targets(graph);
     for (std::size_t i = 0; i < maps.size(); ++i)
-        if (Status s =
-                LightPasses(graph, context_, targets, in, plan.lights[i], settings).lookUp(maps[i], sum);
+        if (Status s = LightPasses(graph, context_, targets, in, plan.lights[i], settings, pictureOf_)
+                           .lookUp(maps[i], sum);
             !s)
             return s.error();
     return sum;
@@ -414,7 +414,7 @@ Result<Map> Caustics::recordMap(graph::FrameGraph& graph, const Inputs& in, cons
     if (Status legal = checkLimits(in, settings); !legal) return legal.error();
     graph::TextureId none;
     Targets targets(graph);
-    LightPasses passes(graph, context_, targets, in, light, settings);
+    LightPasses passes(graph, context_, targets, in, light, settings, pictureOf_);
     if (Status s = passes.record(none); !s) return s.error();
     return passes.map();
 }
@@ -463,7 +463,7 @@ Result<Energy> Caustics::measure(graph::TexturePool& pool, const scene::Scene& s
         const Inputs in{scene, eye, refractive(*posed), opaque(*posed), {}, {}};
         Targets targets(graph, &context_.device());
         graph::TextureId none;
-        LightPasses passes(graph, context_, targets, in, light, settings);
+        LightPasses passes(graph, context_, targets, in, light, settings, pictureOf_);
         if (Status s = passes.record(none); !s) return s.error();
         if (Status s = graph.compile(); !s) return s.error();
         graph.execute(pool);

@@ -110,7 +110,8 @@ public:
     /// Why the scene needs this technique; nothing when it does not.
     static std::optional<std::string> need(const scene::Scene& scene);
 
-    explicit Caustics(gl::Context& context) : context_(context) {}
+    explicit Caustics(gl::Context& context, views::PictureOf pictureOf = {})
+        : context_(context), pictureOf_(std::move(pictureOf)) {}
 
     /// Chooses the views of each light and counts their layers, which reads pictures back.
     ///
@@ -147,6 +148,7 @@ private:
     static std::optional<std::string> thrown(const scene::Scene& scene);
     Status checkLimits(const Inputs& in, const Settings& settings) const;
     gl::Context& context_;
+    views::PictureOf pictureOf_;
 };
 
 } // namespace lucent::caustics

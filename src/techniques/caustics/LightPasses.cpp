@@ -25,7 +25,8 @@ LampBlock LightPasses::lampBlock() const {
     return {.color = vec4(light_.lamp.color, light_.lamp.exponent),
             .axis = vec4(light_.lamp.axis, light_.lamp.fades),
             .cone = light_.lamp.cone,
-            .grid = vec2(float(settings_.grid))};
+            .grid = vec2(float(settings_.grid)),
+            .picture = views::pictureBlock(light_.lamp)};
 }
 
 PhotonBlock LightPasses::photonBlock(const Plan::View& view, const Tint& tint) const {
@@ -106,14 +107,16 @@ Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views:
             pass.write(target);
             if (start.isRest()) pass.clear(target, vec4(0));
         }
-        return [=, draw = drawOf(start.part), program = traced, block = photonBlock(view, tint)](
-                   const graph::Resources& resources, graph::Commands& commands) {
-            auto textures = views::layerBindings(resources, layers);
-            if (solid) textures.push_back({"uSolid", resources[solid]});
-            for (const auto& [name, texture] : start.samples())
-                textures.push_back({name, resources[texture]});
-            commands.draw(filled(draw, *program, block, std::move(textures)));
-        };
+        return
+            [=, picture = picture_, draw = drawOf(start.part), program = traced,
+             block = photonBlock(view, tint)](const graph::Resources& resources, graph::Commands& commands) {
+                auto textures = views::layerBindings(resources, layers);
+                textures.push_back(pictureBinding(picture, resources[layers.triangles.corners]));
+                if (solid) textures.push_back({"uSolid", resources[solid]});
+                for (const auto& [name, texture] : start.samples())
+                    textures.push_back({name, resources[texture]});
+                commands.draw(filled(draw, *program, block, std::move(textures)));
+            };
     });
     return Done{};
 }
@@ -151,9 +154,10 @@ Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Sta
             pass.write(target);
             if (start.isRest()) pass.clear(target, vec4(0));
         }
-        return [=, draw = drawOf(start.part), program = reflecting,
+        return [=, picture = picture_, draw = drawOf(start.part), program = reflecting,
                 block = mirrorBlock(view)](const graph::Resources& resources, graph::Commands& commands) {
-            std::vector<graph::Binding> textures{{"uSurface", resources[surface]}};
+            std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
+                                                 pictureBinding(picture, resources[surface])};
             for (const auto& [name, texture] : start.samples())
                 textures.push_back({name, resources[texture]});
             commands.draw(filled(draw, *program, block, std::move(textures)));
@@ -424,6 +428,11 @@ Status LightPasses::recordRound() {
 // --- all of them
 
 Status LightPasses::record(TextureId& sum) {
+    if (light_.lamp.picture) {
+        const Result<graph::TextureHandle> picture = pictureOf_(light_.lamp);
+        if (!picture) return picture.error();
+        picture_ = *picture;
+    }
     const views::Bounds bounds = boundsOfAll(receivers_);
     Result<TextureId> depths = views::recordShadow(graph_, context_, light_.receivers, receivers_, bounds);
     if (!depths) return depths.error();

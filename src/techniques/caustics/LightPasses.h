@@ -49,9 +49,9 @@ private:
 class LightPasses {
 public:
     LightPasses(graph::FrameGraph& graph, gl::Context& context, Targets& targets, const Inputs& in,
-                const Plan::Light& light, const Settings& settings)
+                const Plan::Light& light, const Settings& settings, const views::PictureOf& pictureOf)
         : graph_(graph), context_(context), targets_(targets), in_(in), light_(light), settings_(settings),
-          receivers_(receiversOf(in.solids)) {}
+          pictureOf_(pictureOf), receivers_(receiversOf(in.solids)) {}
 
     /// @param sum  of what other points left on the pixels; becomes the sum with this one
     Status record(graph::TextureId& sum);
@@ -112,6 +112,11 @@ private:
     }
     ivec2 viewSize() const { return viewSizeOf(settings_.grid); }
     LampBlock lampBlock() const;
+    /// @param picture    that the lamp projects, or None
+    /// @param otherwise  any texture of two dimensions
+    static graph::Binding pictureBinding(graph::TextureHandle picture, graph::TextureHandle otherwise) {
+        return {"uPicture", picture == graph::TextureHandle::None ? otherwise : picture};
+    }
 
     PhotonBlock photonBlock(const Plan::View& view, const Tint& tint) const;
     Result<views::Layers> layersOf(const Plan::View& view, graph::TextureId& solid);
@@ -180,6 +185,8 @@ private:
     const Inputs& in_;
     const Plan::Light& light_;
     const Settings& settings_;
+    const views::PictureOf& pictureOf_;
+    graph::TextureHandle picture_ = graph::TextureHandle::None; // that the lamp projects
     views::Drawables receivers_;
     std::vector<Sheet> sheets_;
     graph::TextureId depths_, map_;

@@ -21,7 +21,10 @@ const Settings& settingsOf(const scene::Scene& scene) {
 
 class CausticsGuest : public technique::Guest {
 public:
-    explicit CausticsGuest(const technique::Store& store) : store_(store), caustics_(store.context) {}
+    explicit CausticsGuest(const technique::Store& store)
+        : store_(store), caustics_(store.context, [this](const views::LampPoint& lamp) {
+              return store_.images.image(lamp.picture);
+          }) {}
 
     Status prepare(const technique::Picture& picture) override {
         Key key = keyOf(picture);

@@ -78,9 +78,10 @@ Status LightPasses::beginOnWater(const Tint& tint, ivec2 rays, TextureId shadow,
         if (shadow) pass.sample(shadow);
         for (const TextureId target : targets)
             pass.write(target);
-        return [=, program = beginning, block = waterBlock(tint, rays)](const graph::Resources& resources,
-                                                                        graph::Commands& commands) {
-            std::vector<graph::Binding> textures{{"uPositions", resources[positions]}};
+        return [=, picture = picture_, program = beginning, block = waterBlock(tint, rays)](
+                   const graph::Resources& resources, graph::Commands& commands) {
+            std::vector<graph::Binding> textures{{"uPositions", resources[positions]},
+                                                 pictureBinding(picture, resources[positions])};
             if (shadow) textures.push_back({"uShadow", resources[shadow]});
             commands.draw({.program = program, .block = block, .textures = std::move(textures)});
         };

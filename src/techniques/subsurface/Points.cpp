@@ -58,7 +58,8 @@ Result<Level> recordMerge(graph::FrameGraph& graph, gl::Context& context, const 
 // What the points of a view are made of.
 struct Sources {
     TextureId surface, paint{};
-    TextureId entered{}, way{}; // of a layer
+    TextureId entered{}, way{};                                // of a layer
+    graph::TextureHandle picture = graph::TextureHandle::None; // of a projector
 };
 
 Result<Points> recordPoints(graph::FrameGraph& graph, gl::Context& context, const FluxBlock& block,
@@ -78,6 +79,8 @@ Result<Points> recordPoints(graph::FrameGraph& graph, gl::Context& context, cons
         return [=](const graph::Resources& resources, graph::Commands& commands) {
             graph::Draw draw{
                 .program = program, .block = block, .textures = {{"uSurface", resources[from.surface]}}};
+            const bool isProjected = from.picture != graph::TextureHandle::None;
+            draw.textures.push_back({"uPicture", isProjected ? from.picture : resources[from.surface]});
             if (from.paint) draw.textures.push_back({"uPaint", resources[from.paint]});
             if (from.entered) draw.textures.push_back({"uEntered", resources[from.entered]});
             if (way) draw.textures.push_back({"uWay", resources[way]});
@@ -179,7 +182,13 @@ Result<Points> recordLit(graph::FrameGraph& graph, gl::Context& context, const v
         if (!drawn) return drawn.error();
         from.paint = *drawn;
     }
+    if (lamp.picture) {
+        const Result<graph::TextureHandle> picture = cut.pictureOf(lamp);
+        if (!picture) return picture.error();
+        from.picture = *picture;
+    }
     FluxBlock block = blockOf(face, size, object, cut.grid.sharpness);
+    block.picture = views::pictureBlock(lamp);
     block.color = vec4(lamp.color, lamp.exponent);
     block.axis = vec4(lamp.axis, lamp.fades);
     block.cone = lamp.cone;

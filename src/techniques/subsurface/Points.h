@@ -59,6 +59,7 @@ struct Cut {
     const views::DrawnMesh& object;
     const Grid& grid;
     bool refracted = false; ///< `normal` holds the way on which light goes on inside instead
+    views::PictureOf pictureOf{};
 };
 
 /// Points of an object that a lamp sees.

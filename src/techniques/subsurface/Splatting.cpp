@@ -327,7 +327,8 @@ Status Splatter::lit(const Target& target, const views::LampPoint& lamp) {
         views::shadowViews(lamp.source, boundsOfAll(in_.casters), target.bounds, target.layout.grid.most);
     for (const views::Eye& face : views.faces) {
         Result<Points> points =
-            recordLit(graph_, context_, lamp, face, {target.mesh, target.layout.grid}, in_.casters);
+            recordLit(graph_, context_, lamp, face, {target.mesh, target.layout.grid, false, in_.pictureOf},
+                      in_.casters);
         if (!points) return points.error();
         if (Status s = splat(target, *points, target.layout.coarser); !s) return s;
     }

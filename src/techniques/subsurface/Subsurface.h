@@ -60,6 +60,7 @@ struct Inputs {
     bool irradiance = false;              ///< shows what arrives, W/m²
     ivec2 size{0};
     graph::TextureId matt{}; ///< painted objects as if they were opaque (brdf), RGBA32F; not for radiosity
+    views::PictureOf pictureOf{};
 };
 
 /// Some of the light samples, on their way to scattering objects.

@@ -78,19 +78,21 @@ public:
             if (!copied) return copied.error();
             matt = *copied;
         }
-        return subsurface_.record(passes.graph,
-                                  {.scene = picture.scene,
-                                   .eye = picture.eye,
-                                   .solids = solids,
-                                   .casters = changingLight(picture.scene, passes.posed),
-                                   .surface = passes.surface,
-                                   .environment = picture.environment,
-                                   .target = shown,
-                                   .radiosity = show == Aov::Radiosity,
-                                   .irradiance = show == Aov::Irradiance,
-                                   .size = picture.size,
-                                   .matt = matt},
-                                  *plan_, settingsOf(picture.scene));
+        return subsurface_.record(
+            passes.graph,
+            {.scene = picture.scene,
+             .eye = picture.eye,
+             .solids = solids,
+             .casters = changingLight(picture.scene, passes.posed),
+             .surface = passes.surface,
+             .environment = picture.environment,
+             .target = shown,
+             .radiosity = show == Aov::Radiosity,
+             .irradiance = show == Aov::Irradiance,
+             .size = picture.size,
+             .matt = matt,
+             .pictureOf = [this](const views::LampPoint& lamp) { return store_.images.image(lamp.picture); }},
+            *plan_, settingsOf(picture.scene));
     }
 
     std::vector<std::string> leftOut(const technique::Picture& picture) const override {

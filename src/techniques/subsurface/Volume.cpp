@@ -245,7 +245,7 @@ Status Body::lay(const Points& points) {
 
 Status Body::light() {
     const Grid grid = gridOf(cells_, context_);
-    const Cut cut{mesh_, grid, true};
+    const Cut cut{mesh_, grid, true, in_.pictureOf};
     if (const LitBody* body = entering_.of(plan_.index)) {
         for (std::size_t axis = 0; axis < 3; ++axis)
             for (const LitLayer& layer : body->layers[axis]) {
