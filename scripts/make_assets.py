@@ -34,6 +34,7 @@ import head
 import meshes
 import pictures
 import probes
+import projected
 import reflectance
 import strokes
 import terrain
@@ -54,7 +55,7 @@ SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-back
           "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff", "glass-dragon",
           "glass-sphere", "glass-relief", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave",
           "prism", "skin", "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup", "makeup",
-          "checkerboards", "brdf-models", "brushed"]
+          "checkerboards", "projector", "brdf-models", "brushed"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
 RENDERING = ["shaders", "src/scene", "src/views", "src/light", "src/diffusion", "src/technique", "src/techniques",
@@ -125,6 +126,7 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(meshes.tiles, [], [GALLERY / "tiles.glb"])
     stamps.make(flame.flame, [], [GALLERY / "flame.glb"], [Path(meshes.__file__)])
     stamps.make(head.head, [], [GALLERY / "head.glb"], [Path(meshes.__file__)])
+    stamps.make(projected.checkerboard, [], [GALLERY / "checkerboard.png"])
     stamps.make(reflectance.brushed, [], [GALLERY / "brushed.hdr"])
     stamps.make(strokes.checkerboard, [], [GALLERY / "checkerboard-strokes.json"])
     stamps.make(strokes.makeup, [], [GALLERY / "makeup-strokes.json"], [Path(head.__file__)])
