@@ -51,7 +51,10 @@ std::vector<Section> sections() {
     all.push_back({"transform", "objects.NAME.transform", &scene::transformParams()});
     all.push_back({"wave, not of height fields and water", "objects.NAME.wave", &scene::waveParams()});
     for (const scene::TypeKeys& light : scene::lightTypes())
-        all.push_back({std::string(light.type) + " light", "lights.N", light.keys.tables[0]});
+        for (const ParamTable* table : light.keys.tables)
+            all.push_back({table == &scene::projectorParams() ? "projector, a spot light with an image"
+                                                              : std::string(light.type) + " light",
+                           "lights.N", table});
     all.push_back({"environment", "environment", &scene::environmentParams()});
     all.push_back({"camera", "camera", &scene::cameraParams()});
     all.push_back({"view", "view", &scene::viewParams()});

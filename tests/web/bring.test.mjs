@@ -379,7 +379,7 @@ test('a scene file that is none is refused with the reason, a damaged picture to
 });
 
 test('a measured material is shown on a ball, with its lobe', async () => {
-  const page = await open();
+  const page = await open(160, 120);
   await eventOf(page, 'load', () => dropTable(page));
   const { title, files } = await stateOf(page);
   assert.equal(title, 'gold');

@@ -18,7 +18,7 @@ const kFlags = [
   '--disable-features=LocalNetworkAccessChecks', // a frame without an origin must reach our server on this machine
 ];
 const kSite = process.env.LUCENT_SITE ?? 'build/web/site';
-const kPatience = Number(process.env.LUCENT_PATIENCE ?? 60000); // ms that a software driver may take for a picture
+const kPatience = Number(process.env.LUCENT_PATIENCE ?? 120000); // ms that a software driver may take for a picture
 const kBlank =
   '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><link rel="stylesheet" href="page.css">' +
   '<script type="module" src="lucent-viewer.js"></script>';
