@@ -57,9 +57,8 @@ export class Fetching {
   #signal;
   #announced = 0; // bytes
   #came = 0;
-  #share = 0;
 
-  /** @param report  (share) is called as bytes come; the share never falls. @param signal  AbortSignal */
+  /** @param report  (share) is called as bytes come; it falls where more is announced. @param signal  AbortSignal */
   constructor(report, signal) {
     this.#report = report;
     this.#signal = signal;
@@ -87,7 +86,7 @@ export class Fetching {
 
   #count(bytes) {
     this.#came += bytes;
-    if (this.#announced) this.#report((this.#share = Math.max(this.#share, this.#came / this.#announced)));
+    if (this.#announced) this.#report(this.#came / this.#announced);
   }
 }
 
