@@ -674,6 +674,10 @@ Result<std::vector<std::string>> dependencies(const std::string& path, std::span
             const Json* source = item.find("source");
             if (source && !isProcedural(source->string)) collect(item, environmentKeys());
         }
+        if (root->keys[i] == "lights")
+            for (const Json& light : item.items)
+                for (const TypeKeys& type : lightTypes())
+                    collect(light, type.keys);
         if (root->keys[i] != "objects") continue;
         for (const Json& object : item.items)
             for (std::size_t k = 0; k < object.keys.size(); ++k) {

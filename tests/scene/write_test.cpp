@@ -1,3 +1,4 @@
+#include "base/Pfm.h"
 #include "scene/Json.h"
 #include "scene/Keys.h"
 #include "scene/Load.h"
@@ -69,6 +70,36 @@ TEST(ToJson, LoadsBackToTheSameValues) {
     EXPECT_EQ(copy.quality.maxError, scene->quality.maxError);
     EXPECT_FALSE(copy.objects[0].visible);
     EXPECT_EQ(copy.objects[0].material.diffuseMapFile, "c.png");
+}
+
+TEST(Write, AProjectorKeepsItsPictureAndNobodyElseHasOne) {
+    test::Files files;
+    files.content["scenes/p.pfm"] = encodePfm(Image(2, 1, 3));
+    const auto load = [&](const std::string& light) {
+        return test::load(files, R"({ "lucent": 1, "lights": [ )" + light +
+                                     R"( ], "objects": [ { "shape": { "type": "plane" } } ] })");
+    };
+    const Result<Scene> scene = load(R"({ "type": "spot", "image": "p.pfm", "fov": 30, "roll": -20 })");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Result<Scene> back = test::load(files, toJson(*scene));
+    ASSERT_TRUE(back) << back.error().message;
+    const auto& lamp = std::get<SpotLight>(back->lights[0]);
+    EXPECT_EQ(lamp.fov, 30);
+    EXPECT_EQ(lamp.roll, -20);
+    EXPECT_EQ(lamp.imageFile, "p.pfm");
+    ASSERT_TRUE(lamp.image);
+    EXPECT_EQ(lamp.image->size(), ivec2(2, 1));
+    const std::string text = toJson(*scene);
+    EXPECT_EQ(*dependencies("scenes/s.json", std::as_bytes(std::span(text))),
+              std::vector<std::string>{"scenes/p.pfm"});
+    const Result<Scene> bare = load(R"({ "type": "spot", "fov": 30 })");
+    ASSERT_FALSE(bare);
+    EXPECT_NE(bare.error().message.find("fov does nothing without a picture; must stand beside image"),
+              std::string::npos)
+        << bare.error().message;
+    Scene plain = *load(R"({ "type": "spot" })");
+    EXPECT_EQ(toJson(plain).find("fov"), toJson(plain).rfind("fov")); // the camera's alone, or none
+    EXPECT_FALSE(setParam(plain, "lights.0.roll", "5"));
 }
 
 TEST(ToJson, LoadsBackEveryShapeLightAndKindOfMaterial) {
