@@ -123,11 +123,15 @@ export async function toPlain(name, bytes, part) {
   const needs = await reading.ask({ task: 'needs', name, bytes });
   if (!needs) return { name, bytes };
   const parts = new Map([[name, bytes]]);
-  for (const needed of needs) {
-    const content = await part(needed).catch((error) => {
-      if (!/\.obj$/i.test(name)) throw error; // which has triangles without its materials
+  for (const { file, optional } of needs) {
+    const content = await part(file).catch((error) => {
+      if (!optional || error.name === 'AbortError') throw error;
     });
-    if (content) parts.set(needed, content);
+    if (!content) continue;
+    parts.set(file, content);
+    if (!/\.mtl$/i.test(file)) continue;
+    const textures = await reading.ask({ task: 'needs', name: file, bytes: content });
+    needs.push(...textures.map((one) => ({ ...one, file: besideFile(file, one.file) })));
   }
   return reading.ask({ task: 'convert', name, parts });
 }

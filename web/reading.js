@@ -29,9 +29,9 @@ function converted(wasm, code, message) {
 }
 
 const kTasks = {
-  /** Names of the files that one names for itself; null where it is in a plain form already. */
+  /** Files that one names for itself, [{file, optional}]; null where it is in a plain form already. */
   needs(wasm, { name, bytes }) {
-    if (!callWasm(wasm, 'reader_is_foreign', name, bytes)) return null;
+    if (!/\.mtl$/i.test(name) && !callWasm(wasm, 'reader_is_foreign', name, bytes)) return null;
     callWasm(wasm, 'reader_file_put', name, bytes);
     return JSON.parse(text(wasm, 'reader_needs', name));
   },

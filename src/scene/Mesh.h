@@ -5,6 +5,7 @@
 #include "base/Image.h"
 #include "base/Math.h"
 #include "scene/Scene.h"
+#include "scene/Textures.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -63,6 +64,7 @@ struct Mesh {
     std::vector<vec3> normals{};        ///< unit, one a position; empty: areaWeightedNormals()
     std::vector<std::array<std::uint16_t, 4>> joints{}; ///< of each position, in Rig::joints; empty: none
     std::vector<vec4> jointWeights{};                   ///< >= 0, their sum 1
+    std::vector<vec2> coordinates{}; ///< on textures: u to the right and v down, one a position; empty: none
     Rig rig{};
 
     /// Triangles by material, in the order of `indices`; empty for files without materials.
@@ -70,8 +72,10 @@ struct Mesh {
         std::string material; ///< unique within the mesh
         std::uint32_t firstIndex = 0, indexCount = 0;
         Material values; ///< what the file says of it
+        Textures textures{};
     };
     std::vector<Part> parts{};
+    std::vector<std::shared_ptr<const TextureImage>> images{}; ///< of its textures; never null
 
     bool moves() const { return rig.duration > 0; }
 };
@@ -118,6 +122,13 @@ ivec2 waterCells(const Water& water);
 /// with flat normals no two triangles share a vertex. Water lies still.
 std::shared_ptr<const Mesh> meshOf(const Object& object);
 
+/// Whether a material's textures are shown: it is matt or glossy.
+bool showsTextures(const Material& material);
+
+/// The textures on an object: those of its file's material, where it shows them and is matt or glossy; null:
+/// none. Their images and coordinates are those of meshOf().
+const Textures* texturesOf(const Object& object);
+
 /// For each vertex the first one at its place.
 std::vector<std::uint32_t> weldedVertices(std::span<const vec3> positions);
 
@@ -130,7 +141,7 @@ Mesh partOf(const Mesh& mesh, const Mesh::Part& part);
 
 /// True for bytes that start as the plain form does.
 bool isMesh(std::span<const std::byte> bytes);
-/// The plain form in which meshes reach the loader: "LUCENTM4" and then everything above, little-endian; of a
+/// The plain form in which meshes reach the loader: "LUCENTM5" and then everything above, little-endian; of a
 /// material its colours and the numbers of its kind that such files know.
 /// The readers write it from glTF and OBJ, natively and in the page alike.
 Bytes encodeMesh(const Mesh& mesh);

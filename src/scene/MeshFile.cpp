@@ -13,7 +13,7 @@
 namespace lucent::scene {
 namespace {
 
-constexpr std::string_view kMagic = "LUCENTM4";
+constexpr std::string_view kMagic = "LUCENTM5";
 static_assert(std::endian::native == std::endian::little, "mesh files are written as they lie in memory");
 static_assert(sizeof(vec2) == 8 && sizeof(vec3) == 12 && sizeof(vec4) == 16 && sizeof(mat4) == 64);
 static_assert(sizeof(Node) == 44, "parent, translate, rotate as x y z w, scale: nothing between them");
@@ -161,6 +161,20 @@ void materialFields(File& file, AnyMaterial& m) {
     std::visit([&](auto& of) { kindFields(file, of); }, m.kind);
 }
 
+template <class File>
+void useFields(File& file, auto& use) {
+    file.value(use.image, "textures");
+    file.value(use.u, "textures");
+    file.value(use.v, "textures");
+}
+
+template <class File>
+void imageFields(File& file, auto& image) {
+    file.value(image.size, "sizes of textures");
+    file.value(image.encoding, "sizes of textures");
+    file.list(image.texels, "textures");
+}
+
 template <class File, class AnyMesh>
 void meshFields(File& file, AnyMesh& mesh) {
     file.list(mesh.positions, "positions");
@@ -168,6 +182,7 @@ void meshFields(File& file, AnyMesh& mesh) {
     file.list(mesh.normals, "normals");
     file.list(mesh.joints, "joints");
     file.list(mesh.jointWeights, "weights of joints");
+    file.list(mesh.coordinates, "texture coordinates");
     auto& rig = mesh.rig;
     file.list(rig.nodes, "nodes");
     file.list(rig.joints, "list of joints");
@@ -191,6 +206,21 @@ void meshFields(File& file, AnyMesh& mesh) {
         file.value(part.firstIndex, "parts");
         file.value(part.indexCount, "parts");
         materialFields(file, part.values);
+        useFields(file, part.textures.color);
+        useFields(file, part.textures.emission);
+        useFields(file, part.textures.roughness);
+        useFields(file, part.textures.normal);
+        file.value(part.textures.normalScale, "textures");
+    });
+    file.items(mesh.images, "textures", [&](auto& image) {
+        if constexpr (std::is_const_v<AnyMesh>) {
+            imageFields(file, *image);
+        } else {
+            TextureImage read;
+            imageFields(file, read);
+            read.findLeast();
+            image = std::make_shared<const TextureImage>(std::move(read));
+        }
     });
 }
 
@@ -236,6 +266,8 @@ public:
         morphs();
         for (std::size_t i = 0; i < rig_.channels.size(); ++i)
             channel(rig_.channels[i], "channel " + std::to_string(i));
+        for (std::size_t i = 0; i < mesh_.images.size(); ++i)
+            image(*mesh_.images[i], "texture " + std::to_string(i));
         if (!(rig_.duration >= 0 && isFinite(rig_.duration)))
             wrong("lasts " + std::to_string(rig_.duration) + " s; must be 0 or more");
         parts();
@@ -282,6 +314,8 @@ private:
                 return wrong("normal " + std::to_string(i) + " has length " + std::to_string(length) +
                              "; must be 1");
         }
+        if (!mesh_.coordinates.empty()) sameLength(mesh_.coordinates.size(), "texture coordinates", count);
+        finite(mesh_.coordinates, "texture coordinate");
         if (!mesh_.joints.empty()) sameLength(mesh_.joints.size(), "joints of positions", count);
         sameLength(mesh_.jointWeights.size(), "weights of joints", mesh_.joints.size());
         for (const auto& four : mesh_.joints)
@@ -294,6 +328,32 @@ private:
                 return wrong("weights of joints " + std::to_string(i) + " are negative or sum to " +
                              std::to_string(sum) + "; must be 0 or more and sum to 1");
         }
+    }
+
+    void image(const TextureImage& image, const std::string& name) {
+        const auto legal = [](int side) { return side >= 1 && side <= kMostTextureSide; };
+        const std::size_t texels =
+            std::size_t(std::max(image.size.x, 0)) * std::size_t(std::max(image.size.y, 0));
+        if (!legal(image.size.x) || !legal(image.size.y) || image.texels.size() != 4 * texels)
+            wrong(name + " has " + std::to_string(image.size.x) + " x " + std::to_string(image.size.y) +
+                  " texels in " + std::to_string(image.texels.size()) +
+                  " bytes; must have 4 bytes a texel and at most " + std::to_string(kMostTextureSide) +
+                  " on a side");
+        if (image.encoding != Encoding::Linear && image.encoding != Encoding::Srgb)
+            wrong(name + " has encoding " + std::to_string(int(image.encoding)) + "; must be 0 or 1");
+    }
+
+    void textures(const Textures& textures, const std::string& name) {
+        for (const TextureUse& use :
+             {textures.color, textures.emission, textures.roughness, textures.normal}) {
+            if (use.image < -1 || use.image >= std::int64_t(mesh_.images.size()))
+                below(use.image, mesh_.images.size(), name + ": texture", "textures");
+            if (use.u > Wrap::Mirror || use.v > Wrap::Mirror)
+                wrong(name + " has textures that go on in an unknown way; must repeat, clamp or mirror");
+        }
+        if (textures.any() && mesh_.coordinates.empty())
+            wrong(name + " has textures without coordinates; must have them");
+        if (!isFinite(textures.normalScale)) wrong(name + " has a normal scale that is not finite; must be");
     }
 
     void bones() {
@@ -367,6 +427,7 @@ private:
             end = std::uint64_t(part.firstIndex) + part.indexCount;
             if (!isSound(part.values))
                 wrong(name + " has a value that is not finite or an ior of 0 or less; must not");
+            textures(part.textures, name);
         }
         if (!mesh_.parts.empty() && end != mesh_.indices.size())
             wrong("its parts end at index " + std::to_string(end) + "; must end at " +

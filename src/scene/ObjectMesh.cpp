@@ -67,7 +67,10 @@ Mesh flattened(const Mesh& mesh) {
               .indices = std::vector<std::uint32_t>(mesh.indices.size()),
               .joints = perCorner(mesh.joints, mesh.indices),
               .jointWeights = perCorner(mesh.jointWeights, mesh.indices),
-              .rig = mesh.rig};
+              .coordinates = perCorner(mesh.coordinates, mesh.indices),
+              .rig = mesh.rig,
+              .parts = mesh.parts,
+              .images = mesh.images};
     std::iota(flat.indices.begin(), flat.indices.end(), 0u);
     for (MorphTarget& target : flat.rig.targets)
         target = {perCorner(target.positions, mesh.indices), {}};
@@ -90,6 +93,17 @@ std::shared_ptr<const Mesh> meshOf(const Object& object) {
     return object.kept.of<std::shared_ptr<const Mesh>>(
         Source{object.shape, isWaved(object), isClear(object)},
         [&] { return std::make_shared<const Mesh>(file ? flattened(*file->mesh) : generated(object)); });
+}
+
+bool showsTextures(const Material& material) {
+    return std::holds_alternative<Matt>(material.kind) || std::holds_alternative<Glossy>(material.kind);
+}
+
+const Textures* texturesOf(const Object& object) {
+    const auto* file = std::get_if<MeshShape>(&object.shape);
+    if (!file || !file->textured || file->mesh->parts.size() != 1) return nullptr;
+    const Textures& textures = file->mesh->parts.front().textures;
+    return showsTextures(object.material) && textures.any() ? &textures : nullptr;
 }
 
 } // namespace lucent::scene

@@ -119,8 +119,12 @@ Pose poseAt(const Rig& rig, float time) {
 }
 
 Mesh posed(const Mesh& mesh, const Pose& pose) {
-    Mesh out{
-        .positions = mesh.positions, .indices = mesh.indices, .normals = mesh.normals, .parts = mesh.parts};
+    Mesh out{.positions = mesh.positions,
+             .indices = mesh.indices,
+             .normals = mesh.normals,
+             .coordinates = mesh.coordinates,
+             .parts = mesh.parts,
+             .images = mesh.images};
     for (std::size_t t = 0; t < pose.weights.size(); ++t) {
         const MorphTarget& target = mesh.rig.targets[t];
         for (std::size_t i = 0; i < out.positions.size(); ++i)

@@ -60,6 +60,7 @@ struct MeshShape {
     std::string source;               ///< as the scene file names it
     std::string part;                 ///< only triangles of this material of the file; "": all
     bool flatNormals = false;         ///< light meets the triangles themselves, not interpolated normals
+    bool textured = true;             ///< with the textures of its file, where that has some
     std::shared_ptr<const Mesh> mesh; ///< never null once loaded
     bool operator==(const MeshShape&) const = default;
 };

@@ -85,6 +85,12 @@ const ParamTable& meshParams() {
                  .label = "Flat normals",
                  .group = Group::Shape,
                  .doc = "The normals of the triangles themselves instead of those interpolated over them."}),
+        declare(&MeshShape::textured,
+                {.id = "textured",
+                 .label = "Textures",
+                 .group = Group::Shape,
+                 .doc = "Whether the pictures that the file puts on its surface are shown, which multiply "
+                        "the colours of the material. Off: the material alone."}),
     };
     static const ParamTable table = tableOf<MeshShape>("shape", params);
     return table;

@@ -208,6 +208,7 @@ Mesh partOf(const Mesh& mesh, const Mesh::Part& part) {
     out.normals = keep(mesh.normals);
     out.joints = keep(mesh.joints);
     out.jointWeights = keep(mesh.jointWeights);
+    out.coordinates = keep(mesh.coordinates);
     out.rig = {.nodes = mesh.rig.nodes,
                .joints = mesh.rig.joints,
                .jointFromMesh = mesh.rig.jointFromMesh,
@@ -219,6 +220,7 @@ Mesh partOf(const Mesh& mesh, const Mesh::Part& part) {
         out.rig.targets.push_back({keep(target.positions), keep(target.normals)});
     out.parts.push_back(part);
     out.parts[0].firstIndex = 0;
+    out.images = mesh.images;
     return out;
 }
 

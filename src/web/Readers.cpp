@@ -5,6 +5,7 @@
 #include "scene/readers/Readers.h"
 #include "base/JsonWriter.h"
 #include "scene/Ptm.h"
+#include "scene/readers/GltfTextures.h"
 #include "scene/readers/Obj.h"
 #include "scene/readers/Photos.h"
 
@@ -40,22 +41,28 @@ const char* answer(std::string text) {
     return converter().answer.c_str();
 }
 
-int hexDigit(char c) {
-    const std::string_view digits = "0123456789abcdef";
-    const std::size_t place = digits.find(char(c | 0x20));
-    return place == digits.npos ? -1 : int(place);
+// Files that the elements of a glTF file's list name.
+std::vector<std::string> filesIn(const nlohmann::json& gltf, const char* list) {
+    std::vector<std::string> names;
+    const auto elements = gltf.find(list); // of anything but an object: its end
+    if (elements == gltf.end() || !elements->is_array()) return names;
+    for (const nlohmann::json& element : *elements) {
+        const auto uri = element.find("uri");
+        if (uri == element.end() || !uri->is_string()) continue;
+        const auto& place = uri->get_ref<const std::string&>();
+        if (!place.starts_with("data:")) names.push_back(scene::decodedUri(place));
+    }
+    return names;
 }
 
-// A URI names a file as a URL does: %20 is a blank.
-std::string decodedUri(const std::string& uri) {
-    std::string name;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool coded =
-            uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0 && hexDigit(uri[i + 2]) >= 0;
-        name += coded ? char(hexDigit(uri[i + 1]) * 16 + hexDigit(uri[i + 2])) : uri[i];
-        i += coded ? 2 : 0;
-    }
-    return name;
+// [{"file", "optional"}] of what must be there, and of what its file is read without as well.
+std::string needsJson(const std::vector<std::string>& needed, const std::vector<std::string>& optional) {
+    JsonWriter json;
+    json.beginArray();
+    for (const auto* names : {&needed, &optional})
+        for (const std::string& name : *names)
+            json.beginObject().key("file").value(name).key("optional").value(names == &optional).end();
+    return json.end().text();
 }
 
 std::string namesJson(const std::vector<std::string>& names) {
@@ -117,24 +124,16 @@ int reader_is_foreign(const char* name, const std::uint8_t* bytes, int size) {
     return scene::isForeign(name, std::as_bytes(std::span(bytes, std::size_t(size))));
 }
 
-/// JSON array of the files that a .gltf which was put keeps its data in, relative to it, or those in which an
-/// .obj has its materials. A text that is no glTF needs nothing here: reader_to_plain() says what is wrong
-/// with it.
+/// The files that a .gltf which was put keeps its data and pictures in, or those in which an .obj has its
+/// materials and these their textures: JSON array of {"file", "optional"}, relative to it. A text that is no
+/// glTF needs nothing here: reader_to_plain() says what is wrong with it.
 const char* reader_needs(const char* name) {
     const Bytes& bytes = converter().files[name];
-    if (scene::isObj(name)) return answer(namesJson(scene::materialFilesOf(bytes)));
+    if (scene::isObj(name) || scene::isMaterialFile(name))
+        return answer(needsJson({}, scene::filesNamedIn(bytes)));
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     const nlohmann::json gltf = nlohmann::json::parse(text, text + bytes.size(), nullptr, false);
-    std::vector<std::string> names;
-    const auto buffers = gltf.find("buffers"); // of anything but an object: its end
-    if (buffers != gltf.end() && buffers->is_array())
-        for (const nlohmann::json& buffer : *buffers) {
-            const auto uri = buffer.find("uri");
-            if (uri == buffer.end() || !uri->is_string()) continue;
-            const auto& place = uri->get_ref<const std::string&>();
-            if (!place.starts_with("data:")) names.push_back(decodedUri(place));
-        }
-    return answer(namesJson(names));
+    return answer(needsJson(filesIn(gltf, "buffers"), filesIn(gltf, "images")));
 }
 
 /// Converts a file that was put and forgets all files. "" or the message; the result is at reader_bytes().

@@ -99,7 +99,7 @@ TEST(MeshFile, CutFilesAreRefused) {
     for (std::size_t length = 0; length < file.size(); ++length)
         EXPECT_FALSE(decodeMesh(std::span(file).first(length), "a")) << length;
     EXPECT_EQ(decodeMesh(std::span(file).first(7), "a").error().message,
-              "a: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM4");
+              "a: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM5");
     // Behind the magic and the count of 3 positions (36 bytes) stand 20 - 12 = 8 bytes.
     EXPECT_EQ(decodeMesh(std::span(file).first(20), "a").error().message,
               "a: the mesh file ends in its positions, of which 8 bytes are there; must have 36");

@@ -106,7 +106,7 @@ TEST(Obj, GroupsOfOneMaterialBecomeOnePart) {
     EXPECT_EQ(mesh.parts[0].values.clear().ior, 1.33f);
     EXPECT_EQ(mesh.parts[1].firstIndex, 6u);
     EXPECT_EQ(mesh.parts[1].values.base, vec3(3, 2, 1));
-    EXPECT_EQ(materialFilesOf(bytesOf("mtllib a b.mtl\n")), (std::vector<std::string>{"a b.mtl"}));
+    EXPECT_EQ(filesNamedIn(bytesOf("mtllib a b.mtl\n")), (std::vector<std::string>{"a b.mtl"}));
 }
 
 TEST(Obj, WhatIsNotReadIsNamedOnce) {

@@ -187,7 +187,7 @@ TEST(Scene, EachShapeAndLightBindsItsOwnParameters) {
     using List = std::vector<std::string>;
     Scene scene = fullScene();
     EXPECT_EQ(endingsOf(scene, "objects.coin.shape."), (List{"heightScale", "width"}));
-    EXPECT_EQ(endingsOf(scene, "objects.bunny.shape."), (List{"flatNormals"}));
+    EXPECT_EQ(endingsOf(scene, "objects.bunny.shape."), (List{"flatNormals", "textured"}));
     EXPECT_EQ(endingsOf(scene, "objects.floor.shape."), (List{"size"}));
     EXPECT_EQ(endingsOf(scene, "objects.block.shape."), (List{"size"}));
     EXPECT_EQ(endingsOf(scene, "objects.ball.shape."), (List{"radius"}));

@@ -4,6 +4,7 @@
 #include "scene/Json.h"
 #include "scene/readers/GltfMaterial.h"
 #include "scene/readers/GltfNumbers.h"
+#include "scene/readers/GltfTextures.h"
 #include "scene/readers/TinyGltf.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -46,9 +47,10 @@ struct Files {
     }
 };
 
-// Pictures are of no interest here.
-bool skipImage(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
-               void*) {
+// Pictures are decoded once it is known what for: until then they stay as the file has them.
+bool keepImage(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+               const unsigned char* bytes, int size, void*) {
+    image->image.assign(bytes, bytes + size);
     return true;
 }
 
@@ -119,7 +121,8 @@ private:
 /// which nothing moves all triangles stand in the pose of rest, and there is no rig.
 class GltfReader {
 public:
-    GltfReader(const tinygltf::Model& model, const std::string& name) : model_(model), name_(name) {}
+    GltfReader(const tinygltf::Model& model, const std::string& name, const ReadFile& read)
+        : model_(model), name_(name), textures_(model, name, read, unread_) {}
 
     Result<Mesh> read() {
         if (!(checkExtensions() && readTree() && findUse() && readAnimation() && addMeshes() && finishRig()))
@@ -379,8 +382,9 @@ private:
         for (const auto& [attribute, accessor] : primitive.attributes)
             if (attribute.starts_with("COLOR_")) unread_.insert("colours of vertices");
         Mesh piece;
-        if (!(readPositions(primitive, piece) && readTriangles(primitive, mode, piece) &&
-              readTargets(primitive, piece) && readJoints(primitive, index, piece)))
+        if (!(readPositions(primitive, piece) && readCoordinates(primitive, piece) &&
+              readTriangles(primitive, mode, piece) && readTargets(primitive, piece) &&
+              readJoints(primitive, index, piece)))
             return false;
         if (primitive.attributes.contains("NORMAL")) {
             if (!readNormals(primitive, piece)) return false;
@@ -400,6 +404,25 @@ private:
             readNumbers(model_, primitive.attributes.at("POSITION"), TINYGLTF_TYPE_VEC3, "positions", name_);
         if (pass(positions)) piece.positions = toVectors(*positions);
         return bool(positions);
+    }
+
+    // Where the textures of its material lie; none without textures.
+    bool readCoordinates(const tinygltf::Primitive& primitive, Mesh& piece) {
+        const tinygltf::Material* material = element(model_.materials, primitive.material);
+        if (!material || !hasTextures(*material)) return true;
+        const TextureMapping mapping = textures_.mappingOf(*material);
+        const auto found = primitive.attributes.find("TEXCOORD_" + std::to_string(mapping.set));
+        if (found == primitive.attributes.end()) return true;
+        const Result<std::vector<double>> numbers =
+            readNumbers(model_, found->second, TINYGLTF_TYPE_VEC2, "texture coordinates", name_);
+        if (!pass(numbers)) return false;
+        if (numbers->size() != 2 * piece.positions.size())
+            return fail("has " + std::to_string(numbers->size() / 2) + " texture coordinates for " +
+                        std::to_string(piece.positions.size()) + " positions; must be as many");
+        for (std::size_t i = 0; i < numbers->size(); i += 2)
+            piece.coordinates.emplace_back(mapping.textureFromVertex *
+                                           dvec3((*numbers)[i], (*numbers)[i + 1], 1));
+        return true;
     }
 
     bool readTriangles(const tinygltf::Primitive& primitive, int mode, Mesh& piece) {
@@ -481,6 +504,7 @@ private:
             list = std::move(taken);
         };
         take(piece.positions);
+        if (!piece.coordinates.empty()) take(piece.coordinates);
         take(piece.joints);
         take(piece.jointWeights);
         piece.normals = std::move(normals);
@@ -624,6 +648,10 @@ private:
             append(target.positions, piece.rig.targets[t].positions);
             append(target.normals, piece.rig.targets[t].normals);
         }
+        if (!piece.coordinates.empty()) {
+            mesh_.coordinates.resize(first, vec2(0)); // of what has no textures
+            append(mesh_.coordinates, piece.coordinates);
+        }
         append(mesh_.positions, piece.positions);
         append(mesh_.normals, piece.normals);
         append(mesh_.joints, piece.joints);
@@ -672,13 +700,27 @@ private:
             const tinygltf::Material* material = element(model_.materials, index);
             std::string name = material ? material->name : "default";
             name = names.unique(name.empty() ? "material " + std::to_string(index) : name);
-            if (named)
-                mesh_.parts.push_back({name, std::uint32_t(mesh_.indices.size()),
-                                       std::uint32_t(indices.size()),
-                                       materialOf(material ? *material : tinygltf::Material(), unread_)});
+            if (named) {
+                Mesh::Part& part = mesh_.parts.emplace_back(
+                    Mesh::Part{name, std::uint32_t(mesh_.indices.size()), std::uint32_t(indices.size()),
+                               materialOf(material ? *material : tinygltf::Material(), unread_)});
+                if (material) addTextures(*material, part);
+            }
             append(mesh_.indices, indices);
         }
+        mesh_.images = textures_.takeImages();
+        if (!mesh_.coordinates.empty()) mesh_.coordinates.resize(mesh_.positions.size(), vec2(0));
         return !mesh_.indices.empty();
+    }
+
+    void addTextures(const tinygltf::Material& material, Mesh::Part& part) {
+        if (showsTextures(part.values) && !mesh_.coordinates.empty())
+            part.textures = textures_.texturesOf(material);
+        else if (showsTextures(part.values) && hasTextures(material))
+            unread_.insert("textures of what has no texture coordinates");
+        // Emission beside a texture, which mostly blackens it, counts nothing without that.
+        if (material.emissiveTexture.index >= 0 && part.textures.emission.image < 0)
+            part.values.base = vec3(0);
     }
 
     static constexpr std::size_t kMostVertices = std::size_t(1) << 24, kMostCorners = 6 * kMostVertices;
@@ -694,6 +736,7 @@ private:
     std::map<int, std::vector<std::uint32_t>> indicesOf_; // by material
     std::size_t animated_ = 0;                            // numbers of the animation
     std::set<std::string> unread_;
+    GltfTextures textures_;
     Error error_;
 };
 
@@ -751,7 +794,7 @@ Result<Mesh> readGltf(const std::string& name, std::span<const std::byte> bytes,
     tinygltf::TinyGLTF loader;
     Files files{name, read, {}};
     loader.SetFsCallbacks({Files::exists, Files::expand, Files::readWhole, Files::write, &files});
-    loader.SetImageLoader(skipImage, nullptr);
+    loader.SetImageLoader(keepImage, nullptr);
 
     tinygltf::Model model;
     std::string error, warning;
@@ -763,7 +806,7 @@ Result<Mesh> readGltf(const std::string& name, std::span<const std::byte> bytes,
                : loader.LoadASCIIFromString(&model, &error, &warning, text, length, "");
     if (!files.error.message.empty()) return Error{name + ": " + files.error.message};
     if (!loaded) return Error{name + ": " + firstLine(error) + "; must be a whole glTF 2.0 file"};
-    return GltfReader(model, name).read();
+    return GltfReader(model, name, read).read();
 }
 
 } // namespace lucent::scene

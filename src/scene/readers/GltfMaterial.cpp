@@ -1,6 +1,7 @@
 #include "scene/readers/GltfMaterial.h"
 
 #include "scene/Keys.h"
+#include "scene/Mesh.h"
 
 #include <algorithm>
 #include <optional>
@@ -12,9 +13,18 @@ constexpr std::string_view kTransmission = "KHR_materials_transmission", kIor = 
                            kVolume = "KHR_materials_volume", kDispersion = "KHR_materials_dispersion",
                            kStrength = "KHR_materials_emissive_strength",
                            kScatter = "KHR_materials_volume_scatter",
-                           kDiffuse = "KHR_materials_diffuse_transmission";
-constexpr std::string_view kKnown[] = {kTransmission, kIor,     kVolume,  kDispersion,
-                                       kStrength,     kScatter, kDiffuse, "KHR_mesh_quantization"};
+                           kDiffuse = "KHR_materials_diffuse_transmission",
+                           kSpecular = "KHR_materials_specular";
+constexpr std::string_view kKnown[] = {kTransmission,
+                                       kIor,
+                                       kVolume,
+                                       kDispersion,
+                                       kStrength,
+                                       kScatter,
+                                       kDiffuse,
+                                       kSpecular,
+                                       "KHR_mesh_quantization",
+                                       "KHR_texture_transform"};
 
 vec3 rgb(const std::vector<double>& values, vec3 otherwise) {
     return values.size() < 3 ? otherwise : vec3(values[0], values[1], values[2]);
@@ -39,11 +49,17 @@ public:
         m.diffuse = color;
         m.kind = kindOf(color);
         readEmission(m);
+        nameWhen(!showsTextures(m) && hasTextures(gltf_),
+                 "textures of what is clear, translucent or a mirror");
         nameWhen(!m.isScattering() && number(kDiffuse, "diffuseTransmissionFactor", 0) > 0,
                  "diffuseTransmissionFactor");
         if (m.isScattering()) nameWhen(color != vec3(1), "baseColorFactor of what light is scattered in");
         if (m.isRefractive()) nameWhen(color != vec3(1), "baseColorFactor of what light passes through");
-        nameTextures();
+        nameWhen(gltf_.occlusionTexture.index >= 0, "occlusionTexture");
+        nameWhen(property(kSpecular, "specularTexture"), "specularTexture");
+        nameWhen(property(kSpecular, "specularColorTexture"), "specularColorTexture");
+        nameWhen(property(kTransmission, "transmissionTexture"), "transmissionTexture");
+        nameWhen(property(kScatter, "multiscatterColorTexture"), "multiscatterColorTexture");
         nameWhen(gltf_.alphaMode != "OPAQUE", "alphaMode " + gltf_.alphaMode);
         return m;
     }
@@ -53,17 +69,36 @@ private:
         const tinygltf::PbrMetallicRoughness& pbr = gltf_.pbrMetallicRoughness;
         const float ior = number(kIor, "ior", 1.5f);
         if (ior == 0) return Mirror{vec3(1)}; // reflects everything: nothing gets inside
-        if (pbr.metallicFactor == 1 && pbr.roughnessFactor == 0) {
+        if (pbr.metallicFactor == 1 && pbr.roughnessFactor == 0 && !hasTextures(gltf_)) {
             if (color == vec3(0)) return Matt{};
             return Mirror{color};
         }
-        nameWhen(pbr.metallicFactor > 0 && !saysNothing(), "metallicFactor");
         if (const std::optional<Translucent> inside = readScattering(ior)) return *inside;
         const float transmission =
             number(kTransmission, "transmissionFactor", 0) * float(1 - pbr.metallicFactor);
-        nameWhen(transmission > 0 ? pbr.roughnessFactor > 0 : pbr.roughnessFactor < 1, "roughnessFactor");
-        if (transmission > 0) return readVolume(transmission, ior);
-        return Matt{};
+        if (transmission > 0) {
+            nameWhen(pbr.roughnessFactor > 0, "roughnessFactor of what light passes through");
+            nameWhen(pbr.metallicFactor > 0, "metallicFactor of what light passes through");
+            return readVolume(transmission, ior);
+        }
+        return isGlossy() ? readGloss(ior) : MaterialKinds(Matt{});
+    }
+
+    // What mirrors more than the rough surface of something that is no metal, which few files mean.
+    bool isGlossy() const {
+        const tinygltf::PbrMetallicRoughness& pbr = gltf_.pbrMetallicRoughness;
+        return pbr.metallicRoughnessTexture.index >= 0 || pbr.roughnessFactor < 1 ||
+               (pbr.metallicFactor > 0 && !saysNothing());
+    }
+
+    MaterialKinds readGloss(float ior) {
+        const tinygltf::PbrMetallicRoughness& pbr = gltf_.pbrMetallicRoughness;
+        nameWhen(number(kSpecular, "specularFactor", 1) != 1, "specularFactor where the view grazes");
+        return Glossy{.metallic = float(pbr.metallicFactor),
+                      .roughness = float(pbr.roughnessFactor),
+                      .ior = ior,
+                      .specular = number(kSpecular, "specularFactor", 1) *
+                                  color(kSpecular, "specularColorFactor", vec3(1))};
     }
 
     void nameWhen(bool found, const std::string& property) {
@@ -94,8 +129,7 @@ private:
     }
 
     void readEmission(Material& m) {
-        if (gltf_.emissiveTexture.index < 0)
-            m.base = rgb(gltf_.emissiveFactor, vec3(0)) * number(kStrength, "emissiveStrength", 1);
+        m.base = rgb(gltf_.emissiveFactor, vec3(0)) * number(kStrength, "emissiveStrength", 1);
     }
 
     // The thickness itself, and its texture, are of use to rasterisers alone: here light takes its true way.
@@ -135,21 +169,17 @@ private:
                            .roughness = float(gltf_.pbrMetallicRoughness.roughnessFactor)};
     }
 
-    void nameTextures() {
-        nameWhen(gltf_.pbrMetallicRoughness.baseColorTexture.index >= 0, "baseColorTexture");
-        nameWhen(gltf_.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0, "metallicRoughnessTexture");
-        nameWhen(gltf_.normalTexture.index >= 0, "normalTexture");
-        nameWhen(gltf_.occlusionTexture.index >= 0, "occlusionTexture");
-        nameWhen(gltf_.emissiveTexture.index >= 0, "emissiveTexture");
-        nameWhen(property(kTransmission, "transmissionTexture"), "transmissionTexture");
-        nameWhen(property(kScatter, "multiscatterColorTexture"), "multiscatterColorTexture");
-    }
-
     const tinygltf::Material& gltf_;
     std::set<std::string>& unread_;
 };
 
 } // namespace
+
+bool hasTextures(const tinygltf::Material& material) {
+    const auto& pbr = material.pbrMetallicRoughness;
+    return pbr.baseColorTexture.index >= 0 || pbr.metallicRoughnessTexture.index >= 0 ||
+           material.normalTexture.index >= 0 || material.emissiveTexture.index >= 0;
+}
 
 std::span<const std::string_view> knownGltfExtensions() { return kKnown; }
 

@@ -12,8 +12,12 @@ namespace lucent::scene {
 /// Names of extensions that readers understand wholly or in part.
 std::span<const std::string_view> knownGltfExtensions();
 
-/// Base colour, emission and the KHR extensions for transmission, ior, volume, dispersion, emissive strength,
-/// and the draft of volume scatter (2025).
+/// Whether it has one of the textures that are read: base colour, metallic-roughness, normal, emission.
+bool hasTextures(const tinygltf::Material& material);
+
+/// Base colour, metal and roughness, emission and the KHR extensions for transmission, ior, volume,
+/// dispersion, emissive strength, specular, and the draft of volume scatter (2025). Its textures are
+/// GltfTextures'.
 ///
 /// - Only what is not metal lets light through: the transmission is transmissionFactor (1 - metallicFactor).
 /// - An `ior` of 0 stands for an infinite one, whose Fresnel reflectance is 1 at every angle: a mirror.
@@ -27,8 +31,7 @@ std::span<const std::string_view> knownGltfExtensions();
 ///   attenuation is extinction then, and each channel's albedo of one collision that which gives a half space
 ///   the albedo of the color (Kulla, Conty 2017, by s² = (1 - albedo) / (1 - g albedo) for any anisotropy).
 ///   By which extension light enters makes no difference.
-/// - A colour beside a texture that is not read counts alone; emission beside one, which such a texture
-///   mostly blackens, counts nothing.
+/// - A rough surface (roughnessFactor 1) of no metal, or of which the file says nothing, is matt.
 ///
 /// @param unread  takes the names of properties that were found and not read
 Material materialOf(const tinygltf::Material& gltf, std::set<std::string>& unread);

@@ -54,6 +54,8 @@ std::string spelling(int type) {
     switch (type) {
     case TINYGLTF_TYPE_SCALAR:
         return "SCALAR";
+    case TINYGLTF_TYPE_VEC2:
+        return "VEC2";
     case TINYGLTF_TYPE_VEC3:
         return "VEC3";
     case TINYGLTF_TYPE_VEC4:

@@ -114,7 +114,11 @@ private:
     std::string error_;
 };
 
-using Materials = std::map<std::string, Material, std::less<>>;
+struct ObjMaterial {
+    Material values;
+    std::string color, emission, normal; // files of its textures, beside the scene
+};
+using Materials = std::map<std::string, ObjMaterial, std::less<>>;
 using Names = std::set<std::string>;
 
 // Keywords of the material format by their names. Others are not repeated: an .obj may name any file beside
@@ -128,10 +132,25 @@ std::string nameOf(std::string_view keyword) {
     return known ? std::string(keyword) : "lines of unknown kinds";
 }
 
+// Which of a material's textures a line names; null: none.
+std::string ObjMaterial::*textureNamed(std::string_view keyword) {
+    if (keyword == "map_Kd") return &ObjMaterial::color;
+    if (keyword == "map_Ke") return &ObjMaterial::emission;
+    return keyword == "norm" ? &ObjMaterial::normal : nullptr;
+}
+
+// Behind options the last word, else all of it, blanks included.
+std::string textureFile(std::string_view rest) {
+    rest = trimmed(rest);
+    const std::size_t blank = rest.find_last_of(kBlanks);
+    return std::string(rest.starts_with('-') && blank != rest.npos ? rest.substr(blank + 1) : rest);
+}
+
 // What Wavefront's material format says that means the same here.
 Status readMaterials(const std::string& name, std::span<const std::byte> bytes, Materials& materials,
                      Names& unread) {
     LineReader lines(name, bytes, false);
+    ObjMaterial* known = nullptr;
     Material* material = nullptr;
     Clear clear;
     const auto take = [&] {
@@ -140,7 +159,8 @@ Status readMaterials(const std::string& name, std::span<const std::byte> bytes, 
     std::string_view keyword, rest;
     while (lines.next(keyword, rest)) {
         if (keyword == "newmtl") {
-            material = &materials[std::string(trimmed(rest))];
+            known = &materials[std::string(trimmed(rest))];
+            material = &known->values;
             clear = {.transmission = 0, .ior = 1}; // the format's defaults
             take();
         } else if (!material) {
@@ -159,6 +179,9 @@ Status readMaterials(const std::string& name, std::span<const std::byte> bytes, 
                 lines.fail(std::string(keyword) + " is " + std::to_string(part) + "; must be in [0, 1]");
             clear.transmission = keyword == "d" ? 1 - part : part;
             take();
+        } else if (std::string ObjMaterial::*const texture = textureNamed(keyword)) {
+            known->*texture = resolvePath(name, textureFile(rest));
+            if (trimmed(rest).starts_with('-')) unread.insert("options of textures");
         } else if (keyword != "Ka" &&
                    keyword != "illum") { // light of renderers past, and their choice of terms
             unread.insert(nameOf(keyword));
@@ -205,8 +228,8 @@ std::vector<std::array<std::size_t, 3>> triangulate(const std::vector<dvec3>& co
 
 class ObjReader {
 public:
-    ObjReader(const std::string& name, std::span<const std::byte> bytes)
-        : name_(name), lines_(name, bytes, true) {}
+    ObjReader(const std::string& name, std::span<const std::byte> bytes, const ReadFile& read)
+        : name_(name), lines_(name, bytes, true), read_(read) {}
 
     Result<Mesh> read(Materials materials, Names unread) {
         unread_ = std::move(unread);
@@ -226,15 +249,17 @@ public:
 
 private:
     /// A vertex of ours: a position with a normal, -1 for none; then faces of one smoothing group share it,
-    /// and other faces have their own.
+    /// and other faces have their own. -1: without texture coordinates.
     struct Corner {
-        std::int64_t position = -1, normal = -1, group = 0;
+        std::int64_t position = -1, normal = -1, coordinate = -1, group = 0;
         bool operator==(const Corner&) const = default;
     };
     struct Hash {
         std::size_t operator()(const Corner& c) const {
-            return (std::size_t(c.position) * 1000003u ^ std::size_t(c.normal)) * 1000003u ^
-                   std::size_t(c.group);
+            std::size_t hash = std::size_t(c.position);
+            for (const std::int64_t other : {c.normal, c.coordinate, c.group})
+                hash = hash * 1000003u ^ std::size_t(other);
+            return hash;
         }
     };
 
@@ -245,6 +270,9 @@ private:
             if (!trimmed(rest).empty()) unread_.insert("colours of vertices");
         } else if (keyword == "vn") {
             normals_.push_back(lines_.vector(keyword, rest));
+        } else if (keyword == "vt") { // v points up there
+            const float u = lines_.number(keyword, rest);
+            coordinates_.emplace_back(u, 1 - (trimmed(rest).empty() ? 0 : lines_.number(keyword, rest)));
         } else if (keyword == "f") {
             readFace(rest);
         } else if (keyword == "usemtl") {
@@ -254,7 +282,7 @@ private:
             smoothing_ = groupOf(trimmed(rest));
         } else if (keyword == "p" || keyword == "l") {
             unread_.insert("points and lines");
-        } else if (keyword != "vt" && keyword != "g" && keyword != "o" && keyword != "mtllib") {
+        } else if (keyword != "g" && keyword != "o" && keyword != "mtllib") {
             unread_.insert(std::string(keyword));
         }
     }
@@ -283,7 +311,10 @@ private:
         for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
             const std::size_t first = std::min(word.find('/'), word.size()),
                               second = std::min(word.find('/', first + 1), word.size());
-            Corner corner{place(word.substr(0, first), positions_.size(), "position"), -1};
+            Corner corner{.position = place(word.substr(0, first), positions_.size(), "position")};
+            if (second > first + 1)
+                corner.coordinate = place(word.substr(first + 1, second - first - 1), coordinates_.size(),
+                                          "texture coordinate");
             if (second < word.size())
                 corner.normal = place(word.substr(second + 1), normals_.size(), "normal");
             if (!lines_.error().empty()) return;
@@ -319,6 +350,8 @@ private:
         if (isNew) {
             mesh_.positions.push_back(positions_[std::size_t(corner.position)]);
             mesh_.normals.push_back(corner.normal < 0 ? vec3(0) : normals_[std::size_t(corner.normal)]);
+            mesh_.coordinates.push_back(corner.coordinate < 0 ? vec2(0)
+                                                              : coordinates_[std::size_t(corner.coordinate)]);
         }
         return known->second;
     }
@@ -339,18 +372,48 @@ private:
     void finishParts(const Materials& materials) {
         for (const auto& [name, indices] : parts_) {
             if (indices.empty()) continue;
-            const auto material = materials.find(name);
+            const auto found = materials.find(name);
+            const ObjMaterial material =
+                found == materials.end() ? ObjMaterial{{.kind = Matt{}}, {}, {}, {}} : found->second;
             if (hasMaterials_)
-                mesh_.parts.push_back(
-                    {name, std::uint32_t(mesh_.indices.size()), std::uint32_t(indices.size()),
-                     material == materials.end() ? Material{.kind = Matt{}} : material->second});
+                mesh_.parts.push_back({name, std::uint32_t(mesh_.indices.size()),
+                                       std::uint32_t(indices.size()), material.values, texturesOf(material)});
             mesh_.indices.insert(mesh_.indices.end(), indices.begin(), indices.end());
         }
+        if (mesh_.images.empty()) mesh_.coordinates.clear();
+    }
+
+    Textures texturesOf(const ObjMaterial& material) {
+        if (!showsTextures(material.values)) return {};
+        return {.color = useOf(material.color, Encoding::Srgb),
+                .emission = useOf(material.emission, Encoding::Srgb),
+                .roughness = {},
+                .normal = useOf(material.normal, Encoding::Linear)};
+    }
+
+    TextureUse useOf(const std::string& file, Encoding encoding) {
+        if (file.empty()) return {};
+        const auto [known, isNew] = images_.emplace(std::pair(file, encoding), -1);
+        if (isNew) {
+            const Result<Bytes> bytes = read_(file);
+            Result<TextureImage> image =
+                bytes ? decodeTexture(*bytes, file, encoding) : Result<TextureImage>(bytes.error());
+            if (image) {
+                known->second = std::int32_t(mesh_.images.size());
+                mesh_.images.push_back(std::make_shared<const TextureImage>(std::move(*image)));
+            } else {
+                unread_.insert("a texture (" + image.error().message + ")");
+            }
+        }
+        return {.image = known->second};
     }
 
     const std::string& name_;
     LineReader lines_;
+    const ReadFile& read_;
     std::vector<vec3> positions_, normals_;
+    std::vector<vec2> coordinates_;
+    std::map<std::pair<std::string, Encoding>, std::int32_t> images_; // places in the mesh's; -1: not read
     std::unordered_map<Corner, std::uint32_t, Hash> vertices_;
     std::vector<std::pair<std::string, std::vector<std::uint32_t>>> parts_; // by material, as they come
     std::unordered_map<std::string, std::size_t> partNumbers_;              // in these, by name
@@ -366,19 +429,23 @@ private:
 } // namespace
 
 bool isObj(const std::string& name) { return name.ends_with(".obj") || name.ends_with(".OBJ"); }
+bool isMaterialFile(const std::string& name) { return name.ends_with(".mtl") || name.ends_with(".MTL"); }
 
-std::vector<std::string> materialFilesOf(std::span<const std::byte> bytes) {
+std::vector<std::string> filesNamedIn(std::span<const std::byte> bytes) {
     std::vector<std::string> files;
     Lines lines(bytes);
-    for (std::string_view line; lines.next(line);)
-        if (nextWord(line) == "mtllib") files.emplace_back(trimmed(line));
+    for (std::string_view line; lines.next(line);) {
+        const std::string_view keyword = nextWord(line);
+        if (keyword == "mtllib") files.emplace_back(trimmed(line));
+        if (textureNamed(keyword)) files.push_back(textureFile(line));
+    }
     return files;
 }
 
 Result<Mesh> readObj(const std::string& name, std::span<const std::byte> bytes, const ReadFile& read) {
     Materials materials;
     Names unread;
-    for (const std::string& file : materialFilesOf(bytes)) {
+    for (const std::string& file : filesNamedIn(bytes)) {
         const std::string path = resolvePath(name, file);
         const Result<Bytes> text = read(path);
         if (!text) {
@@ -387,7 +454,7 @@ Result<Mesh> readObj(const std::string& name, std::span<const std::byte> bytes, 
         }
         if (Status done = readMaterials(path, *text, materials, unread); !done) return done.error();
     }
-    return ObjReader(name, bytes).read(std::move(materials), std::move(unread));
+    return ObjReader(name, bytes, read).read(std::move(materials), std::move(unread));
 }
 
 Bytes encodeObj(const Mesh& mesh) {

@@ -1,0 +1,93 @@
+#include "scene/Textures.h"
+
+#include "base/Log.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lucent::scene {
+namespace {
+
+using Quad = std::array<std::uint8_t, 4>;
+
+float lightOf(std::uint8_t value, Encoding encoding) {
+    static const std::array<float, 256> kFromSrgb = [] {
+        std::array<float, 256> table{};
+        for (std::size_t i = 0; i < table.size(); ++i)
+            table[i] = linearFromSrgb(float(i) / 255);
+        return table;
+    }();
+    return encoding == Encoding::Srgb ? kFromSrgb[value] : float(value) / 255;
+}
+
+std::uint8_t valueOf(float light, Encoding encoding) {
+    const float code = encoding == Encoding::Srgb ? srgbFromLinear(light) : light;
+    return std::uint8_t(std::lround(255 * std::clamp(code, 0.0f, 1.0f)));
+}
+
+// Grey and alpha, or colour and alpha; what is not there is 1.
+Quad quadOf(const float* pixel, int channels) {
+    const bool grey = channels < 3;
+    const auto value = [&](int channel) { return valueOf(pixel[channel], Encoding::Linear); };
+    return {value(0), value(grey ? 0 : 1), value(grey ? 0 : 2),
+            channels % 2 == 0 ? value(channels - 1) : std::uint8_t(255)};
+}
+
+// The mean of each 2 x 2 texels, in linear light; an odd one at the end is its own neighbour.
+TextureImage halved(const TextureImage& fine) {
+    TextureImage half;
+    half.size = (fine.size + 1) / 2;
+    half.encoding = fine.encoding;
+    half.texels.reserve(std::size_t(4) * std::size_t(half.size.x) * std::size_t(half.size.y));
+    for (int y = 0; y < half.size.y; ++y)
+        for (int x = 0; x < half.size.x; ++x) {
+            vec4 sum(0);
+            for (const ivec2 beside : {ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(1, 1)})
+                sum += fine.texel(glm::min(2 * ivec2(x, y) + beside, fine.size - 1));
+            for (int c = 0; c < 4; ++c)
+                half.texels.push_back(valueOf(sum[c] / 4, c < 3 ? fine.encoding : Encoding::Linear));
+        }
+    return half;
+}
+
+std::string sizeText(ivec2 size) { return std::to_string(size.x) + " x " + std::to_string(size.y); }
+
+} // namespace
+
+vec4 TextureImage::texel(ivec2 at) const {
+    const std::uint8_t* from = &texels[4 * (std::size_t(at.y) * std::size_t(size.x) + std::size_t(at.x))];
+    return {lightOf(from[0], encoding), lightOf(from[1], encoding), lightOf(from[2], encoding),
+            lightOf(from[3], Encoding::Linear)};
+}
+
+void TextureImage::findLeast() {
+    std::uint8_t least = 255;
+    for (std::size_t i = 1; i < texels.size(); i += 4)
+        least = std::min(least, texels[i]);
+    leastGreen = lightOf(least, encoding);
+}
+
+Result<TextureImage> decodeTexture(std::span<const std::byte> bytes, const std::string& name,
+                                   Encoding encoding) {
+    const Result<Image> decoded = decodeImage(bytes, name, Encoding::Linear);
+    if (!decoded) return decoded.error();
+    TextureImage image;
+    image.size = decoded->size();
+    image.encoding = encoding;
+    image.texels.reserve(4 * decoded->pixels.size() / std::size_t(decoded->channels));
+    for (std::size_t i = 0; i < decoded->pixels.size(); i += std::size_t(decoded->channels)) {
+        const Quad quad = quadOf(&decoded->pixels[i], decoded->channels);
+        image.texels.insert(image.texels.end(), quad.begin(), quad.end());
+    }
+    while (std::max(image.size.x, image.size.y) > kMostTextureSide)
+        image = halved(image);
+    if (image.size != decoded->size())
+        warnOnce(name + ": has " + sizeText(decoded->size()) + " texels; is shown with " +
+                 sizeText(image.size) + ", as textures have at most " + std::to_string(kMostTextureSide) +
+                 " on a side");
+    image.findLeast();
+    return image;
+}
+
+} // namespace lucent::scene
