@@ -7,6 +7,7 @@
 //       uFlux       USE_FLUX: [W/m²] irradiance that caustics add
 //       uMirrored   USE_MIRRORED: brdf/lobe.frag
 //       uTable      MEASURED: brdf/table.glsl
+//       TEXTURED    brdf/textured.glsl
 // out   oSum.rgb    [W/(m² sr)], linear Rec. 709; SHOW_IRRADIANCE: [W/m²], whatever the colour; a: 1
 // model base + diffuse E / pi (Lambert), GLOSSY: or brdf/models.glsl, MEASURED: a table, on the side that is seen. Of
 //       caustics, whose directions are not known, the matt share of light from straight above. A sample of a lamp that has
@@ -15,6 +16,7 @@
 #pragma variants - USE_FLUX
 #pragma variants - SHOW_IRRADIANCE GLOSSY MEASURED
 #pragma variants - USE_MIRRORED if GLOSSY
+#pragma variants - TEXTURED unless MEASURED
 #include "views/view.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
@@ -23,8 +25,8 @@
 const int kMostMatter = 128; // objects of a draw
 
 struct Matter {
-    vec4 base;
-    vec4 diffuse;  // a: 0 for what is not shaded here
+    vec4 base;     // a: 1 where brdf/lobe.frag shows what narrow lobes mirror of the environment
+    vec4 diffuse;  // a: 0 for what is not shaded here, 2 for what has textures
     vec4 specular; // Reflector's; this and the rest of glossy surfaces
     vec4 lobe;     // its alpha, exponent, asPrinted, model
 };
@@ -48,6 +50,10 @@ uniform sampler2D uMirrored;
 #endif
 layout(location = 0) out vec4 oSum;
 
+#ifdef TEXTURED
+#include "brdf/textured.glsl"
+#endif
+
 #ifdef GLOSSY
 #include "brdf/models.glsl"
 
@@ -69,6 +75,12 @@ void main() {
     if (matter.diffuse.a == 0.0) discard;
     vec3 place = matt.view.eye.xyz + placeFrom(matt.view, gl_FragCoord.xy, pixel.z);
     vec3 normal = fromOctahedral(pixel.g);
+#ifdef TEXTURED
+    if (matter.diffuse.a > 1.5 && takeTextures(normal, matter.diffuse.rgb, matter.lobe.x, matter.lobe.y)) {
+        matter.base.rgb *= texelFetch(uEmission, ivec2(gl_FragCoord.xy), 0).rgb;
+        if (matter.lobe.x > kMostNarrow) matter.base.a = 0.0;
+    }
+#endif
 #ifdef SHOW_IRRADIANCE
     vec3 base = vec3(0.0), factor = vec3(1.0);
 #else

@@ -6,4 +6,6 @@ layout(std140) uniform MeshBlock {
     View view;
     int object;  // in the scene
     int firstCorner; // of a refractive mesh, among those of all
+    float normalScale; // of textured meshes, this and the rest
+    vec4 wraps; // of color, emission, roughness and normal: along u + 3 * along v, as scene::Wrap counts
 } mesh;

@@ -3,6 +3,7 @@
 // out   vNormal [1]  world, interpolated; not unit
 //       vDepth  [m]  along the view's forward
 //       vPaint  PAINTED: place on the atlas [texels]
+//       vCoordinate, vPlace [m]  TEXTURED: place on the textures, and in the world from the eye on
 #include "views/mesh_block.glsl"
 uniform sampler2D uPositions; // object space
 uniform sampler2D uNormals;
@@ -11,6 +12,11 @@ out float vDepth;
 #ifdef PAINTED
 uniform sampler2D uPlaces;
 out vec2 vPaint;
+#endif
+#ifdef TEXTURED
+uniform sampler2D uCoordinates;
+out vec2 vCoordinate;
+out vec3 vPlace;
 #endif
 
 void main() {
@@ -21,6 +27,10 @@ void main() {
     vDepth = dot(world.xyz - mesh.view.eye.xyz, mesh.view.forward.xyz);
 #ifdef PAINTED
     vPaint = texelFetch(uPlaces, texel, 0).xy;
+#endif
+#ifdef TEXTURED
+    vCoordinate = texelFetch(uCoordinates, texel, 0).xy;
+    vPlace = world.xyz - mesh.view.eye.xyz;
 #endif
     gl_Position = mesh.clipFromWorld * world;
 }

@@ -26,6 +26,8 @@ GlFormat glFormat(Format format) {
         return {GL_R8, GL_RED, GL_UNSIGNED_BYTE};
     case Format::RGBA8:
         return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+    case Format::SRGBA8:
+        return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
     case Format::R16F:
         return {GL_R16F, GL_RED, GL_HALF_FLOAT};
     case Format::RG16F:

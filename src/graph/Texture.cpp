@@ -11,11 +11,11 @@ struct FormatInfo {
     Kind kind;
 };
 constexpr FormatInfo kFormats[] = {
-    {"R8", 1, Kind::Fraction},    {"RGBA8", 4, Kind::Fraction},         {"R16F", 2, Kind::Half},
-    {"RG16F", 4, Kind::Half},     {"RGBA16F", 8, Kind::Half},           {"R32F", 4, Kind::Float},
-    {"RG32F", 8, Kind::Float},    {"RGBA32F", 16, Kind::Float},         {"R32UI", 4, Kind::Integer},
-    {"RG32UI", 8, Kind::Integer}, {"RGBA32UI", 16, Kind::Integer},      {"Depth24", 4, Kind::Depth},
-    {"Depth32F", 4, Kind::Depth}, {"Depth32FStencil8", 8, Kind::Depth},
+    {"R8", 1, Kind::Fraction},   {"RGBA8", 4, Kind::Fraction}, {"SRGBA8", 4, Kind::Fraction},
+    {"R16F", 2, Kind::Half},     {"RG16F", 4, Kind::Half},     {"RGBA16F", 8, Kind::Half},
+    {"R32F", 4, Kind::Float},    {"RG32F", 8, Kind::Float},    {"RGBA32F", 16, Kind::Float},
+    {"R32UI", 4, Kind::Integer}, {"RG32UI", 8, Kind::Integer}, {"RGBA32UI", 16, Kind::Integer},
+    {"Depth24", 4, Kind::Depth}, {"Depth32F", 4, Kind::Depth}, {"Depth32FStencil8", 8, Kind::Depth},
 };
 static_assert(std::size(kFormats) == std::size_t(Format::Depth32FStencil8) + 1);
 } // namespace

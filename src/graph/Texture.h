@@ -16,6 +16,7 @@ using glm::uvec4;
 enum class Format : std::uint8_t {
     R8,
     RGBA8,
+    SRGBA8, ///< colours as sRGB has them; read as linear light
     R16F,
     RG16F,
     RGBA16F,

@@ -317,10 +317,13 @@ std::optional<Intersection> intersectTriangle(const Triangles& triangles, unsign
     constexpr double kOver = 1e-3;
     if (!(u > -kOver && v > -kOver && u + v < 1 + kOver)) return {};
     const dvec3 normal = across / std::sqrt(area);
-    if (triangles.normals.empty()) return Intersection(distance, normal);
+    Intersection found(distance, normal);
+    found.triangle = int(number);
+    if (triangles.normals.empty()) return found;
     const dvec3 smooth = (1 - u - v) * triangles.normals[index[0]] + u * triangles.normals[index[1]] +
                          v * triangles.normals[index[2]];
-    return Intersection(distance, normal, glm::normalize(smooth));
+    found.smoothNormal = glm::normalize(smooth);
+    return found;
 }
 
 /// A corner, on an edge, or inside (Ericson, Real-Time Collision Detection, 2005, 5.1.5).

@@ -26,6 +26,7 @@ Stretch within(const Box& box, const WorldRay& ray);
 struct Intersection {
     double distance;
     dvec3 normal, smoothNormal;
+    int triangle = -1;
     Intersection(double distance, const dvec3& normal) : Intersection(distance, normal, normal) {}
     Intersection(double distance, const dvec3& normal, const dvec3& smoothNormal)
         : distance(distance), normal(normal), smoothNormal(smoothNormal) {}

@@ -4,6 +4,7 @@
 #include "truth/Gloss.h"
 #include "truth/Interface.h"
 #include "truth/LightPath.h"
+#include "truth/Textured.h"
 
 #include <algorithm>
 #include <cmath>
@@ -200,7 +201,25 @@ Emission Illumination::emit(std::size_t source, std::span<const Sphere> targets,
                         random); // a mean over 4 pi sr
 }
 
+namespace {
+/// Radiance of a material that receives an irradiance as a matt one does.
+dvec3 sentBy(const scene::Material& material, const Hit& hit, const dvec3& irradiance) {
+    const double matt = material.isRelief() ? 1 - double(material.relief().specularity) : 1;
+    dvec3 diffuse(material.diffuse);
+    // Where light comes from and goes to is not known here: straight from above, and back.
+    if (material.isGlossy())
+        diffuse =
+            std::numbers::pi * Gloss(material, hit.normal, hit.normal, Gloss::Part::Matt).share(hit.normal);
+    return matt * (dvec3(material.base) + diffuse * irradiance / std::numbers::pi);
+}
+} // namespace
+
 dvec3 Illumination::irradiance(const Hit& hit, const dvec3& viewer, Random& random, double ior) const {
+    const std::optional<Textured> textured = texturedAt(*optics_, hit);
+    return irradianceOf(textured ? textured->hit : hit, viewer, random, ior);
+}
+
+dvec3 Illumination::irradianceOf(const Hit& hit, const dvec3& viewer, Random& random, double ior) const {
     const Entering lobe{normalTowards(hit, viewer), ior};
     const dvec3 lamps = ofLamps(hit, lobe, random);
     return lamps + ofSky(hit, lobe, random);
@@ -215,8 +234,14 @@ dvec3 Illumination::radiance(const Hit& hit, const dvec3& viewer, double away, R
                              bool around) const {
     if (const auto* block = std::get_if<FieldBlock>(&optics_->rays().shape(hit.shape)))
         return ofRelief(*block, hit, viewer, away, random);
-    const scene::Material& material = optics_->object(hit.shape).material;
-    if (!material.isGlossy()) return shownBy(*optics_, hit, irradiance(hit, viewer, random));
+    const std::optional<Textured> textured = texturedAt(*optics_, hit);
+    if (textured) return ofMaterial(textured->material, textured->hit, viewer, random, around);
+    return ofMaterial(optics_->object(hit.shape).material, hit, viewer, random, around);
+}
+
+dvec3 Illumination::ofMaterial(const scene::Material& material, const Hit& hit, const dvec3& viewer,
+                               Random& random, bool around) const {
+    if (!material.isGlossy()) return sentBy(material, hit, irradianceOf(hit, viewer, random, 1));
     const dvec3 normal = normalTowards(hit, viewer);
     const Gloss all(material, normal, viewer);
     const dvec3 sum = dvec3(material.base) + ofLamps(hit, all, random);
@@ -315,19 +340,15 @@ dvec3 Illumination::ofSky(const Hit& hit, const auto& lobe, Random& random) cons
 
 dvec3 shownBy(const Optics& optics, const Hit& hit, const dvec3& irradiance) {
     const scene::Material& material = optics.object(hit.shape).material;
-    dvec3 base(material.base), diffuse(material.diffuse);
-    double matt = 1;
-    if (const auto* block = std::get_if<FieldBlock>(&optics.rays().shape(hit.shape))) {
-        const dvec2 place = block->field->placeOnMap(block->placement.pointFromWorld(hit.position));
-        base *= sampleMap(material.baseMap.get(), place);
-        diffuse *= sampleMap(material.diffuseMap.get(), place);
-    }
-    if (material.isRelief()) matt = 1 - double(material.relief().specularity);
-    // Where light comes from and goes to is not known here: straight from above, and back.
-    if (material.isGlossy())
-        diffuse =
-            std::numbers::pi * Gloss(material, hit.normal, hit.normal, Gloss::Part::Matt).share(hit.normal);
-    return matt * (base + diffuse * irradiance / std::numbers::pi);
+    if (const std::optional<Textured> textured = texturedAt(optics, hit))
+        return sentBy(textured->material, hit, irradiance);
+    const auto* block = std::get_if<FieldBlock>(&optics.rays().shape(hit.shape));
+    if (!block) return sentBy(material, hit, irradiance);
+    const dvec2 place = block->field->placeOnMap(block->placement.pointFromWorld(hit.position));
+    scene::Material here = material;
+    here.base *= vec3(sampleMap(material.baseMap.get(), place));
+    here.diffuse *= vec3(sampleMap(material.diffuseMap.get(), place));
+    return sentBy(here, hit, irradiance);
 }
 
 dvec3 normalTowards(const Hit& hit, const dvec3& viewer) {

@@ -122,6 +122,9 @@ private:
     };
     dvec3 passed(const Hit& hit, const LightPath& way) const;
     dvec3 radiance(const Hit& hit, const dvec3& viewer, double away, Random& random, bool around) const;
+    dvec3 irradianceOf(const Hit& hit, const dvec3& viewer, Random& random, double ior) const;
+    dvec3 ofMaterial(const scene::Material& material, const Hit& hit, const dvec3& viewer, Random& random,
+                     bool around) const;
     dvec3 ofAround(const Hit& hit, const Gloss& lobe, Random& random) const;
     dvec3 ofRelief(const FieldBlock& block, const Hit& hit, const dvec3& viewer, double away,
                    Random& random) const;

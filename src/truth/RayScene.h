@@ -86,7 +86,8 @@ struct Hit {
     dvec3 normal; ///< unit, outward; of a triangle to the side from which its corners run counter-clockwise
     dvec3 smoothNormal; ///< unit: interpolated between a mesh's vertices, elsewhere the same as `normal`
     int shape;
-    double distance; ///< m from the ray's origin
+    double distance;   ///< m from the ray's origin
+    int triangle = -1; ///< of Triangles
 };
 
 /// Surfaces that a ray meets at one place, nearest first: faces that lie on each other. A shape appears once

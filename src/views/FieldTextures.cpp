@@ -141,6 +141,16 @@ std::vector<graph::Binding> FieldTextures::bindings() const {
 
 // --- cache
 
+template <class Self, class Each>
+void ImageCache::forEachCache(Self& self, const Each& each) {
+    each(self.fields_);
+    each(self.images_);
+    each(self.meshes_);
+    each(self.paints_);
+    each(self.places_);
+    each(self.textures_);
+}
+
 Status ImageCache::checkSize(const Image& image) const {
     const int limit = context_.caps().maxTextureSize;
     if (image.width <= limit && image.height <= limit) return Done{};
@@ -171,6 +181,37 @@ Result<const MeshTextures*> ImageCache::mesh(const std::shared_ptr<const scene::
     if (refractive) entry.value->addTriangles(context_);
     entry.used = true;
     return entry.value.get();
+}
+
+Textured ImageCache::textured(const scene::Mesh& mesh, const scene::Textures& textures) {
+    static const auto kWhite = [] {
+        auto white = std::make_shared<scene::TextureImage>();
+        white->size = {1, 1};
+        white->texels.assign(4, 255);
+        return std::shared_ptr<const scene::TextureImage>(white);
+    }();
+    const auto handleOf = [&](const scene::TextureUse& use) {
+        const auto& image = use.image < 0 ? kWhite : mesh.images[std::size_t(use.image)];
+        auto& entry = textures_[image.get()];
+        if (!entry.value) {
+            entry.value = std::make_unique<graph::Texture>(textureOf(context_.device(), *image));
+            entry.source = image;
+        }
+        entry.used = true;
+        return entry.value->handle();
+    };
+    MeshTextures& vertices = *meshes_.at(&mesh).value;
+    vertices.addCoordinates(context_);
+    const auto wrap = [](const scene::TextureUse& use) { return float(int(use.u) + 3 * int(use.v)); };
+    return {.coordinates = vertices.coordinates().handle(),
+            .color = handleOf(textures.color),
+            .emission = handleOf(textures.emission),
+            .roughness = handleOf(textures.roughness),
+            .normal = handleOf(textures.normal),
+            .wraps = {wrap(textures.color), wrap(textures.emission), wrap(textures.roughness),
+                      wrap(textures.normal)},
+            // a white texel is no normal: of none x and y count nothing
+            .normalScale = textures.normal.image < 0 ? 0 : textures.normalScale};
 }
 
 Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image>& image) {
@@ -226,43 +267,27 @@ Result<Paint> ImageCache::paint(const scene::Painting& painting,
 }
 
 void ImageCache::trim() {
-    std::erase_if(fields_, [](const auto& entry) { return !entry.second.used; });
-    std::erase_if(images_, [](const auto& entry) { return !entry.second.used; });
-    std::erase_if(meshes_, [](const auto& entry) { return !entry.second.used; });
-    std::erase_if(paints_, [](const auto& entry) { return !entry.second.used; });
-    std::erase_if(places_, [](const auto& entry) { return !entry.second.used; });
-    for (auto& [key, entry] : fields_)
-        entry.used = false;
-    for (auto& [key, entry] : images_)
-        entry.used = false;
-    for (auto& [key, entry] : meshes_)
-        entry.used = false;
-    for (auto& [key, entry] : paints_)
-        entry.used = false;
-    for (auto& [key, entry] : places_)
-        entry.used = false;
+    forEachCache(*this, [](auto& cache) {
+        std::erase_if(cache, [](const auto& entry) { return !entry.second.used; });
+        for (auto& [key, entry] : cache)
+            entry.used = false;
+    });
 }
 
 void ImageCache::clear() {
-    fields_.clear();
-    images_.clear();
-    meshes_.clear();
-    paints_.clear();
-    places_.clear();
+    forEachCache(*this, [](auto& cache) { cache.clear(); });
 }
 
 std::size_t ImageCache::bytes() const {
     std::size_t sum = 0;
-    for (const auto& [key, entry] : fields_)
-        sum += entry.value->bytes();
-    for (const auto& [key, entry] : images_)
-        sum += entry.value->desc().bytes();
-    for (const auto& [key, entry] : meshes_)
-        sum += entry.value->bytes();
-    for (const auto& [key, entry] : paints_)
-        sum += entry.value->bytes();
-    for (const auto& [key, entry] : places_)
-        sum += entry.value->desc().bytes();
+    forEachCache(*this, [&](const auto& cache) {
+        for (const auto& [key, entry] : cache) {
+            if constexpr (requires { entry.value->desc(); })
+                sum += entry.value->desc().bytes();
+            else
+                sum += entry.value->bytes();
+        }
+    });
     return sum;
 }
 

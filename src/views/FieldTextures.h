@@ -57,6 +57,8 @@ public:
     ///
     /// @param refractive  whether its triangles are needed
     Result<const MeshTextures*> mesh(const std::shared_ptr<const scene::Mesh>& mesh, bool refractive);
+    /// What a mesh that mesh() knows is drawn with, of whose images these are.
+    Textured textured(const scene::Mesh& mesh, const scene::Textures& textures);
     /// A colour map or alpha: 1 channel becomes R32F, 3 become RGBA16F filtered.
     Result<graph::TextureHandle> image(const std::shared_ptr<const Image>& image);
     /// The maps of a painting, each uploaded once: one that changes is another image. Error (Fault::Machine)
@@ -68,6 +70,8 @@ public:
     std::size_t bytes() const;
 
 private:
+    template <class Self, class Each>
+    static void forEachCache(Self& self, const Each& each);
     template <class Value, class Source = Image>
     struct Entry {
         std::unique_ptr<Value> value;
@@ -82,6 +86,7 @@ private:
     std::map<const scene::Mesh*, Entry<MeshTextures, scene::Mesh>> meshes_;
     std::map<const Image*, Entry<PaintMap>> paints_;
     std::map<const scene::Atlas*, Entry<graph::Texture, scene::Atlas>> places_;
+    std::map<const scene::TextureImage*, Entry<graph::Texture, scene::TextureImage>> textures_;
 };
 
 } // namespace lucent::views

@@ -59,9 +59,14 @@ void MeshTextures::addTriangles(gl::Context& context) {
     if (!triangles_) triangles_.emplace(context, *source_);
 }
 
+void MeshTextures::addCoordinates(gl::Context& context) {
+    if (!coordinates_) coordinates_ = coordinateTexture(context.device(), source_->coordinates);
+}
+
 std::size_t MeshTextures::bytes() const {
-    return positions_.desc().bytes() + normals_.desc().bytes() + 4 * std::size_t(indices_.count()) +
-           (pose_ ? pose_->bytes() : 0) + (triangles_ ? triangles_->bytes() : 0);
+    return positions_.desc().bytes() + normals_.desc().bytes() + coordinates_.desc().bytes() +
+           4 * std::size_t(indices_.count()) + (pose_ ? pose_->bytes() : 0) +
+           (triangles_ ? triangles_->bytes() : 0);
 }
 
 Result<Drawable::Ptr> DrawnMesh::create(const scene::Object& object, int index, ImageCache& images,
@@ -79,6 +84,8 @@ Result<Drawable::Ptr> DrawnMesh::create(const scene::Object& object, int index, 
     Result<const MeshTextures*> textures = images.mesh(source, object.material.isRefractive());
     if (!textures) return textures.error();
     drawn->textures = *textures;
+    if (const scene::Textures* pictures = texturesOf(object))
+        drawn->textured = images.textured(*source, *pictures);
     if (waters) drawn->water = waters->of(index);
     return Ptr(drawn);
 }
@@ -124,7 +131,9 @@ void setMesh(graph::Draw& draw, const gl::Program& program, const graph::Indices
                            .normalFromObject = mat4(rotationFromDegrees(transform.rotate)),
                            .view = viewBlock(eye, size),
                            .object = number,
-                           .firstCorner = mesh.firstCorner};
+                           .firstCorner = mesh.firstCorner,
+                           .normalScale = mesh.textured ? mesh.textured->normalScale : 0,
+                           .wraps = mesh.textured ? mesh.textured->wraps : vec4(0)};
 }
 
 // With its numbered triangles (shaders/views/peel.vert).

@@ -5,6 +5,7 @@
 #include "views/Drawable.h"
 #include "views/Paint.h"
 #include "views/Pose.h"
+#include "views/Textured.h"
 #include "views/Triangles.h"
 #include "views/Water.h"
 
@@ -25,6 +26,9 @@ public:
     const graph::Texture& positions() const { return positions_; } ///< as vertexTexture() has them
     const graph::Texture& normals() const { return normals_; }
     const graph::Indices& indices() const { return indices_; }
+    /// Makes coordinates() once: only textures need them.
+    void addCoordinates(gl::Context& context);
+    const graph::Texture& coordinates() const { return coordinates_; } ///< as coordinateTexture() has them
     /// Null for a mesh that does not move.
     const PoseTextures* pose() const { return pose_ ? &*pose_ : nullptr; }
     /// Makes triangles() once: only refractive objects need them.
@@ -34,7 +38,7 @@ public:
 
 private:
     std::shared_ptr<const scene::Mesh> source_; // its address is the cache's key: it must not be reused
-    graph::Texture positions_, normals_;
+    graph::Texture positions_, normals_, coordinates_;
     graph::Indices indices_;
     std::optional<PoseTextures> pose_;
     std::optional<TriangleTextures> triangles_;
@@ -49,6 +53,7 @@ struct DrawnMesh final : Drawable {
     const MeshTextures* textures = nullptr;
     const WaterSheet* water = nullptr; ///< of water that moves
     std::optional<Paint> paint{};      ///< of painted objects, whose mesh is their atlas'
+    std::optional<Textured> textured{};
 
     // as it stands in this frame; see posed()
     graph::TextureId positions, normals; ///< object space

@@ -3,6 +3,7 @@
 #include "scene/ReflectanceTable.h"
 #include "shaders/brdf/Blocks.h"
 #include "techniques/brdf/Reflector.h"
+#include "views/Meshes.h"
 #include "views/Paint.h"
 
 #include <algorithm>
@@ -10,6 +11,8 @@
 namespace lucent::brdf {
 
 namespace {
+
+bool isTextured(const views::Drawable& solid) { return solid.mesh() && solid.mesh()->textured; }
 
 // Of the objects [first, first + kMostMatter) of the scene.
 MattBlock mattBlock(const Inputs& in, int first) {
@@ -26,8 +29,9 @@ MattBlock mattBlock(const Inputs& in, int first) {
         const float matt = material.isRelief() ? 1 - material.relief().specularity : 1;
         const ReflectorValues values = reflectorOf(material);
         if (std::holds_alternative<scene::MeasuredBrdf>(material.kind)) continue;
-        block.matter[std::size_t(place)] = {vec4(matt * material.base, showsObjects(material) ? 1 : 0),
-                                            vec4(matt * material.diffuse, 1), values.specular, values.lobe};
+        block.matter[std::size_t(place)] = {vec4(matt * material.base, showsObjects(*solid->object) ? 1 : 0),
+                                            vec4(matt * material.diffuse, isTextured(*solid) ? 2 : 1),
+                                            values.specular, values.lobe};
     }
     return block;
 }
@@ -90,6 +94,7 @@ LobeBlock lobeBlock(const Inputs& in, const views::Drawable& glossy) {
                     .alpha = facetAlphaOf(material),
                     .directions = in.lobeDirections,
                     .object = glossy.index,
+                    .isTextured = isTextured(glossy),
                     .cube = cubeOf(in.surroundings, glossy.index)};
     setSky(block, in);
     return block;
@@ -139,16 +144,18 @@ std::optional<std::string> Brdf::need(const scene::Scene& scene) {
 }
 
 // What narrow lobes mirror of what is around; none where there is nothing.
-graph::TextureId Brdf::recordLobes(graph::FrameGraph& graph, const Inputs& in) const {
+graph::TextureId Brdf::recordLobes(graph::FrameGraph& graph, const Inputs& in,
+                                   const views::TexturedImages& textured) const {
     const bool hasSky = in.environment != graph::TextureHandle::None;
     const bool hasCubes = in.surroundings && in.surroundings->hasCubes();
     std::vector<graph::Block> blocks;
     for (const auto& solid : in.solids)
-        if (showsObjects(solid->object->material)) blocks.push_back(lobeBlock(in, *solid));
+        if (showsObjects(*solid->object)) blocks.push_back(lobeBlock(in, *solid));
     if (blocks.empty() || (!hasSky && !hasCubes)) return {};
     std::vector<std::string> defines;
     if (hasSky) defines.push_back("USE_SKY");
     if (hasCubes) defines.push_back("USE_AROUND");
+    if (textured) defines.push_back("TEXTURED");
     const gl::Program* program = context_.program("brdf/lobe", defines);
     std::vector<graph::Binding> kept;
     if (hasSky) kept.push_back({"uEnvironment", in.environment});
@@ -161,11 +168,13 @@ graph::TextureId Brdf::recordLobes(graph::FrameGraph& graph, const Inputs& in) c
         pass.reason("what " + std::to_string(blocks.size()) + " glossy object(s) mirror of what is around, " +
                     std::to_string(in.lobeDirections) + " directions a pixel");
         pass.sample(in.surface);
+        views::sampleTextured(pass, textured);
         mirrored = pass.createColor("brdf.lobe", {.size = in.size, .format = graph::Format::RGBA32F});
         pass.clear(mirrored, vec4(0));
         return [=, surface = in.surface](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures = kept;
             textures.push_back({"uSurface", resources[surface]});
+            views::bindTextured(textures, resources, textured);
             for (const graph::Block& block : blocks)
                 commands.draw({.program = program, .block = block, .textures = textures});
         };
@@ -178,7 +187,12 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
     const bool isGlossy = in.show == scene::Aov::Color &&
                           std::any_of(in.solids.begin(), in.solids.end(),
                                       [](const auto& one) { return one->object->material.isGlossy(); });
-    const graph::TextureId mirrored = isGlossy && in.first == 0 ? recordLobes(graph, in) : graph::TextureId{};
+    std::vector<views::DrawnMesh> pictured = meshesOf(in.solids);
+    std::erase_if(pictured, [](const views::DrawnMesh& mesh) { return !mesh.textured; });
+    const views::TexturedImages textured =
+        recordTextured(graph, context_, in.eye, pictured, in.surface, in.size);
+    const graph::TextureId mirrored =
+        isGlossy && in.first == 0 ? recordLobes(graph, in, textured) : graph::TextureId{};
     const graph::TextureId surface = in.surface, table = in.lightTable, target = in.target;
     const graph::TextureId occlusion = in.occlusion.texture;
     const graph::TextureId flux = in.first == 0 ? in.flux : graph::TextureId{};
@@ -189,6 +203,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
     if (in.show == scene::Aov::Irradiance) defines.push_back("SHOW_IRRADIANCE");
     if (isGlossy) defines.push_back("GLOSSY");
     if (mirrored) defines.push_back("USE_MIRRORED");
+    if (textured) defines.push_back("TEXTURED");
     const gl::Program* program = context_.program("brdf/light", defines);
     std::vector<graph::Block> blocks;
     for (int first = 0; first < int(in.scene.objects.size()); first += kMostMatter)
@@ -210,6 +225,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
     if (!measured.empty()) {
         std::erase(defines, "GLOSSY");
         std::erase(defines, "USE_MIRRORED");
+        std::erase(defines, "TEXTURED");
         if (hasTable) defines.push_back("MEASURED");
         lookup = context_.program("brdf/light", defines);
     }
@@ -221,6 +237,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
         pass.sample(table);
         for (const graph::TextureId id : {occlusion, flux, sum, mirrored})
             if (id) pass.sample(id);
+        views::sampleTextured(pass, textured);
         pass.write(target);
         if (in.clears) pass.clear(target, vec4(0));
         return [=](const graph::Resources& resources, graph::Commands& commands) {
@@ -231,6 +248,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
             if (sum) textures.push_back({"uSum", resources[sum]});
             const std::vector<graph::Binding> shared = textures;
             if (mirrored) textures.push_back({"uMirrored", resources[mirrored]});
+            views::bindTextured(textures, resources, textured);
             for (const graph::Block& block : blocks)
                 commands.draw({.program = program, .block = block, .textures = textures});
             for (const Measured& one : measured) {

@@ -6,6 +6,7 @@
 #include "scene/Scene.h"
 #include "views/Drawable.h"
 #include "views/Surroundings.h"
+#include "views/Textured.h"
 
 #include <functional>
 #include <optional>
@@ -79,7 +80,8 @@ public:
     Status recordMirrors(graph::FrameGraph& graph, const MirrorInputs& in) const;
 
 private:
-    graph::TextureId recordLobes(graph::FrameGraph& graph, const Inputs& in) const;
+    graph::TextureId recordLobes(graph::FrameGraph& graph, const Inputs& in,
+                                 const views::TexturedImages& textured) const;
     gl::Context& context_;
 };
 

@@ -1,5 +1,7 @@
 #include "techniques/brdf/Reflector.h"
 
+#include "scene/Mesh.h"
+
 #include "base/Overloaded.h"
 #include "scene/ReflectanceTable.h"
 
@@ -70,8 +72,12 @@ bool hasLobe(const scene::Material& material) {
            !std::holds_alternative<scene::MeasuredBrdf>(material.kind);
 }
 
-bool showsObjects(const scene::Material& material) {
-    return hasLobe(material) && facetAlphaOf(material) <= squared(scene::kMostMirroringRoughness);
+bool showsObjects(const scene::Object& object) {
+    const scene::Textures* textures = scene::texturesOf(object);
+    const int image = textures ? textures->roughness.image : -1;
+    const float least = image < 0 ? 1 : scene::meshOf(object)->images[std::size_t(image)]->leastGreen;
+    return hasLobe(object.material) &&
+           facetAlphaOf(object.material) * squared(least) <= squared(scene::kMostMirroringRoughness);
 }
 
 namespace {

@@ -17,8 +17,8 @@ ReflectorValues reflectorOf(const scene::Material& material);
 float facetAlphaOf(const scene::Material& material);
 /// Whether a surface mirrors in a lobe at all: Oren and Nayar's does not.
 bool hasLobe(const scene::Material& material);
-/// Whether it shows the objects around in what it mirrors (scene::kMostMirroringRoughness).
-bool showsObjects(const scene::Material& material);
+/// Whether it shows the objects around in what it mirrors, somewhere (scene::kMostMirroringRoughness).
+bool showsObjects(const scene::Object& object);
 
 /// BRDF times the light's cosine, 1/sr of each colour.
 ///

@@ -31,7 +31,7 @@ bool looks(const scene::Object& object) {
 }
 bool isAnything(const scene::Object&) { return true; }
 bool isGlossy(const scene::Object& object) { return object.visible && object.material.isGlossy(); }
-bool showsAround(const scene::Object& object) { return object.visible && showsObjects(object.material); }
+bool showsAround(const scene::Object& object) { return object.visible && showsObjects(object); }
 
 template <class Is>
 int countVisible(const scene::Scene& scene, Is is) {
@@ -190,7 +190,7 @@ const technique::NotDrawn kLimits[] = {
      "above a roughness of 0.5 they only stand in the way of the light",
      [](const scene::Scene& scene) {
          const auto isRough = [](const scene::Object& object) {
-             return hasLobe(object.material) && !showsObjects(object.material);
+             return hasLobe(object.material) && !showsObjects(object);
          };
          return !isAlone(scene) && countVisible(scene, isRough) > 0;
      }},

@@ -1,0 +1,72 @@
+#include "views/Textured.h"
+
+#include "views/Meshes.h"
+
+#include <string>
+
+namespace lucent::views {
+
+using graph::Format;
+
+graph::Texture textureOf(gl::Device& device, const scene::TextureImage& image) {
+    const bool srgb = image.encoding == Encoding::Srgb;
+    graph::Texture texture(device, {.size = image.size, .format = srgb ? Format::SRGBA8 : Format::RGBA8},
+                           "views.texture");
+    device.upload(texture.handle(), 0, image.texels);
+    return texture;
+}
+
+graph::Texture coordinateTexture(gl::Device& device, const std::vector<vec2>& coordinates) {
+    const ivec2 size = vertexImageSize(coordinates.size());
+    std::vector<vec2> rows = coordinates;
+    rows.resize(std::size_t(size.x) * std::size_t(size.y)); // the last row filled up
+    graph::Texture texture(device, {.size = size, .format = Format::RG32F}, "views.coordinates");
+    device.upload(texture.handle(), 0, rows);
+    return texture;
+}
+
+TexturedImages recordTextured(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                              const std::vector<DrawnMesh>& meshes, graph::TextureId surface, ivec2 size) {
+    TexturedImages images;
+    if (meshes.empty()) return images;
+    const gl::Program* program = context.program("views/textured", {"TEXTURED"});
+    graph.addPass("views.textured", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("textures of " + std::to_string(meshes.size()) + " object(s)");
+        pass.sample(surface);
+        for (const DrawnMesh& mesh : meshes)
+            mesh.sampleFrom(pass);
+        images = {pass.createColor("views.factors", {.size = size, .format = Format::RGBA16F}),
+                  pass.createColor("views.facets", {.size = size, .format = Format::RGBA32F}),
+                  pass.createColor("views.emission", {.size = size, .format = Format::RGBA16F})};
+        for (const graph::TextureId image : {images.factors, images.facets, images.emission})
+            pass.clear(image, vec4(0));
+        pass.clear(pass.createDepth("views.depth", size), 1.0f);
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            for (const DrawnMesh& mesh : meshes) {
+                const Textured& textured = *mesh.textured;
+                graph::Draw draw{.depthTest = graph::DepthTest::Less};
+                draw.textures = {{"uSurface", resources[surface]},   {"uCoordinates", textured.coordinates},
+                                 {"uColor", textured.color},         {"uEmission", textured.emission},
+                                 {"uRoughness", textured.roughness}, {"uNormal", textured.normal}};
+                drawMesh(commands, *program, resources, mesh, eye, size, mesh.index, std::move(draw));
+            }
+        };
+    });
+    return images;
+}
+
+void sampleTextured(graph::PassBuilder& pass, const TexturedImages& images) {
+    if (!images) return;
+    for (const graph::TextureId image : {images.factors, images.facets, images.emission})
+        pass.sample(image);
+}
+
+void bindTextured(std::vector<graph::Binding>& bindings, const graph::Resources& resources,
+                  const TexturedImages& images) {
+    if (!images) return;
+    bindings.push_back({"uFactors", resources[images.factors]});
+    bindings.push_back({"uFacets", resources[images.facets]});
+    bindings.push_back({"uEmission", resources[images.emission]});
+}
+
+} // namespace lucent::views

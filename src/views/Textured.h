@@ -1,0 +1,46 @@
+#pragma once
+/// Textures of meshes (scene/Textures.h) on the GPU, and what they say where a view shows these meshes.
+
+#include "gl/Context.h"
+#include "graph/FrameGraph.h"
+#include "scene/Mesh.h"
+#include "views/Eye.h"
+
+#include <array>
+#include <vector>
+
+namespace lucent::views {
+
+struct DrawnMesh;
+
+/// A texture on the GPU, or a white one of one texel.
+graph::Texture textureOf(gl::Device& device, const scene::TextureImage& image);
+
+/// Mesh::coordinates as a texture of vertexImageSize(), RG32F.
+graph::Texture coordinateTexture(gl::Device& device, const std::vector<vec2>& coordinates);
+
+/// What a mesh with textures is drawn with.
+struct Textured {
+    graph::TextureHandle coordinates, color, emission, roughness, normal;
+    vec4 wraps; ///< of shaders/views/mesh_block.glsl
+    float normalScale;
+};
+
+/// Images of a view (shaders/views/textured.glsl).
+struct TexturedImages {
+    graph::TextureId factors, facets, emission;
+    explicit operator bool() const { return bool(factors); }
+};
+
+/// Draws what the textures of some meshes say where a surface image shows them; no pass without such meshes.
+///
+/// @param eye, size  of the surface image
+TexturedImages recordTextured(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                              const std::vector<DrawnMesh>& meshes, graph::TextureId surface, ivec2 size);
+
+/// What shaders/views/textured.glsl samples; nothing without images.
+void sampleTextured(graph::PassBuilder& pass, const TexturedImages& images);
+void bindTextured(std::vector<graph::Binding>& bindings, const graph::Resources& resources,
+                  const TexturedImages& images);
+
+} // namespace lucent::views

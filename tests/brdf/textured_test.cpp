@@ -1,0 +1,255 @@
+// Pictures of textured surfaces in closed form and against exact solutions.
+#include "frame/Renderer.h"
+#include "scene/Mesh.h"
+#include "technique/Technique.h"
+#include "tests/support/Gl.h"
+#include "truth/Glass.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace lucent::brdf {
+namespace {
+
+using Texel = std::array<std::uint8_t, 4>;
+
+std::shared_ptr<const scene::TextureImage> imageOf(ivec2 size, Encoding encoding,
+                                                   const std::function<Texel(int, int)>& texel) {
+    auto image = std::make_shared<scene::TextureImage>();
+    image->size = size;
+    image->encoding = encoding;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const Texel one = texel(x, y);
+            image->texels.insert(image->texels.end(), one.begin(), one.end());
+        }
+    image->findLeast();
+    return image;
+}
+
+// A ball with u around it and v from its top down, all four textures to be set.
+scene::Mesh texturedBall() {
+    scene::Mesh mesh = meshOf(scene::Sphere{0.5f}, 48);
+    for (const vec3& p : mesh.positions)
+        mesh.coordinates.emplace_back(std::atan2(p.z, p.x) / std::numbers::pi_v<float>,
+                                      std::acos(std::clamp(2 * p.y, -1.0f, 1.0f)) /
+                                          std::numbers::pi_v<float>);
+    mesh.parts = {{"ball", 0, std::uint32_t(mesh.indices.size()), {}}};
+    return mesh;
+}
+
+// The plane y = 0 of side 2: u to the right and v towards the eye, once from edge to edge.
+scene::Mesh texturedPlane() {
+    scene::Mesh mesh = meshOf(scene::Plane{{2, 2}});
+    for (const vec3& p : mesh.positions)
+        mesh.coordinates.emplace_back(0.5f + 0.5f * p.x, 0.5f + 0.5f * p.z);
+    mesh.parts = {{"plane", 0, std::uint32_t(mesh.indices.size()), {}}};
+    return mesh;
+}
+
+struct TexturedTest : support::GlTest {
+    scene::Scene scene;
+
+    TexturedTest() {
+        scene.size = {48, 48};
+        technique::addSettings(scene);
+    }
+    scene::Object& add(const scene::Mesh& mesh, scene::MaterialKinds kind) {
+        scene::Object object;
+        object.name = "object " + std::to_string(scene.objects.size());
+        object.shape = scene::MeshShape{
+            .source = "a.mesh", .part = "", .mesh = std::make_shared<const scene::Mesh>(mesh)};
+        object.material.diffuse = {1, 0.5f, 1};
+        object.material.kind = std::move(kind);
+        return scene.objects.emplace_back(std::move(object));
+    }
+    void lookDown() {
+        scene.camera.eye = {0, 2, 0};
+        scene.camera.up = {0, 0, -1};
+        scene.camera.height = 2;
+    }
+    // Bright above on one side, and dim elsewhere.
+    void addSky() {
+        auto map = std::make_shared<Image>(64, 32, 3);
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 64; ++x)
+                for (int c = 0; c < 3; ++c)
+                    map->at(x, y)[c] =
+                        0.3f + 2 * std::exp(-0.02f * float((x - 40) * (x - 40) + 2 * (y - 9) * (y - 9)));
+        scene.environment.emplace().map = std::move(map);
+    }
+    Image picture() {
+        frame::Renderer renderer(*context);
+        const Status done = renderer.finish(scene, 1, scene.size);
+        EXPECT_TRUE(done.ok()) << done.error().message;
+        return std::move(*renderer.read(scene, scene.view.show));
+    }
+    // Of the finished picture, whose pixels are means, where they are as the middle: away from edges.
+    vec3 at(const Image& image, vec2 place) {
+        const ivec2 pixel((place * 0.5f + 0.5f) * vec2(scene.size));
+        const float* value = image.at(pixel.x, pixel.y);
+        return {value[0], value[1], value[2]};
+    }
+    // Summed differences over the sum of what is exact, 3x3 pixels at a time.
+    double misplaced(int samples) {
+        const Image found = picture();
+        const auto exact =
+            truth::GlassEstimator::create(scene, scene.size, scene::Aov::Color, {.samples = samples});
+        double apart = 0, sum = 0;
+        for (int y = 0; y + 3 <= scene.size.y; y += 3)
+            for (int x = 0; x + 3 <= scene.size.x; x += 3) {
+                dvec3 cell(0), light(0);
+                for (int i = 0; i < 9; ++i) {
+                    const float* pixel = found.at(x + i % 3, y + i / 3);
+                    const truth::Pixel solved = exact->solve({x + i % 3, y + i / 3});
+                    if (solved.coverage == 0) continue;
+                    cell += dvec3(pixel[0], pixel[1], pixel[2]) - solved.value;
+                    light += solved.value;
+                }
+                for (int c = 0; c < 3; ++c) {
+                    apart += std::abs(cell[c]);
+                    sum += light[c];
+                }
+            }
+        return apart / sum;
+    }
+};
+
+TEST_F(TexturedTest, ColoursMultiplyTheMaterialInLinearLight) {
+    scene::Mesh mesh = texturedPlane();
+    // Two by two: white, middle grey; black, red.
+    mesh.images = {imageOf({2, 2}, Encoding::Srgb, [](int x, int y) {
+        const std::uint8_t left = y == 0 ? 255 : 0, right = y == 0 ? 128 : 255;
+        return x == 0 ? Texel{left, left, left, 255}
+                      : Texel{right, y == 0 ? right : left, y == 0 ? right : left, 255};
+    })};
+    scene::Textures& textures = mesh.parts[0].textures;
+    textures.color = {.image = 0, .u = scene::Wrap::Clamp, .v = scene::Wrap::Clamp};
+    lookDown();
+    scene.lights = {scene::DistantLight{.direction = {0, -1, 0}, .irradiance = std::numbers::pi_v<float>}};
+    add(mesh, scene::Matt{});
+    const Image image = picture();
+    // Outside of the middles of texels a clamped texture is of one colour; upper left in the picture: u, v =
+    // 0.
+    const float grey = linearFromSrgb(128 / 255.0f);
+    const auto expectColor = [&](vec2 place, vec3 color) {
+        EXPECT_LT(glm::distance(at(image, place), color * vec3(1, 0.5f, 1)),
+                  2e-3f) // half a code: drivers decode so
+            << place.x << " " << place.y;
+    };
+    expectColor({-0.75f, -0.75f}, vec3(1));
+    expectColor({0.75f, -0.75f}, vec3(grey));
+    expectColor({-0.75f, 0.75f}, vec3(0));
+    expectColor({0.75f, 0.75f}, vec3(1, 0, 0));
+    // Between texels light is mixed, not codes: half way from white to black.
+    EXPECT_NEAR(at(image, {-0.75f, 0.02f}).r, 0.48f, 0.02f);
+}
+
+TEST_F(TexturedTest, ANormalsSlopeTiltsTheSurface) {
+    // x along u, y against v, which points to the eye here: up in the picture.
+    const auto brightness = [&](Texel normal, vec3 direction) {
+        scene::Mesh mesh = texturedPlane();
+        mesh.images = {imageOf({1, 1}, Encoding::Linear, [&](int, int) { return normal; })};
+        mesh.parts[0].textures.normal = {.image = 0};
+        lookDown();
+        scene.objects.clear();
+        add(mesh, scene::Matt{});
+        scene.lights = {
+            scene::DistantLight{.direction = -direction, .irradiance = std::numbers::pi_v<float>}};
+        return at(picture(), {0.3f, 0.2f}).r;
+    };
+    // (0.6, 0, 0.8) as 8 bits, against light from the right, from above the picture, from the eye.
+    const Texel right{204, 128, 230, 255}, up{128, 204, 230, 255};
+    const vec3 fromRight(1, 0, 0), fromUp(0, 0, -1), fromEye(0, 1, 0);
+    EXPECT_NEAR(brightness(right, glm::normalize(fromRight + fromEye)), 1.4 / std::sqrt(2), 0.006); // 8 bits
+    EXPECT_NEAR(brightness(up, glm::normalize(fromUp + fromEye)), 1.4 / std::sqrt(2), 0.006);
+    EXPECT_NEAR(brightness(up, glm::normalize(-fromUp + fromEye)), 0.2 / std::sqrt(2), 0.006);
+    EXPECT_NEAR(brightness(right, fromEye), 0.8, 0.004);
+}
+
+// A ball with all four textures, which repeat and mirror.
+scene::Mesh fullBall() {
+    scene::Mesh mesh = texturedBall();
+    mesh.images = {imageOf({8, 4}, Encoding::Srgb,
+                           [](int x, int y) {
+                               return Texel{std::uint8_t(90 + 20 * x), std::uint8_t(60 * y + 60), 200, 255};
+                           }),
+                   imageOf({4, 4}, Encoding::Srgb,
+                           [](int x, int y) {
+                               return (x + y) % 4 ? Texel{0, 0, 0, 255} : Texel{255, 120, 0, 255};
+                           }),
+                   imageOf({4, 8}, Encoding::Linear,
+                           [](int x, int y) {
+                               return Texel{0, std::uint8_t(130 + 15 * y), std::uint8_t(80 * x), 255};
+                           }),
+                   imageOf({16, 16}, Encoding::Linear, [](int x, int y) {
+                       return Texel{std::uint8_t(128 + 40 * std::sin(0.8 * x)),
+                                    std::uint8_t(128 + 40 * std::cos(0.8 * y)), 240, 255};
+                   })};
+    scene::Textures& textures = mesh.parts[0].textures;
+    textures.color = {.image = 0};
+    textures.emission = {.image = 1, .u = scene::Wrap::Mirror};
+    textures.roughness = {.image = 2, .u = scene::Wrap::Mirror, .v = scene::Wrap::Clamp};
+    textures.normal = {.image = 3};
+    textures.normalScale = 0.8f;
+    return mesh;
+}
+
+TEST_F(TexturedTest, AllTexturesTogetherAreTheTruths) {
+    scene.camera.type = scene::Camera::Type::Perspective;
+    scene.camera.eye = {0.3f, 0.5f, 1.6f};
+    scene.lights = {scene::PointLight{.position = {0.8f, 0.9f, 0.7f}, .intensity = 3},
+                    scene::DistantLight{.direction = {1, -0.7f, -0.6f}, .irradiance = 2}};
+    for (const scene::MaterialKinds& kind :
+         {scene::MaterialKinds(scene::Matt{}),
+          scene::MaterialKinds(scene::Glossy{.metallic = 1, .roughness = 0.9f})}) {
+        scene.objects.clear();
+        add(fullBall(), kind).material.base = vec3(0.3f);
+        EXPECT_LE(misplaced(16), 0.01) << kind.index(); // the matrix' target for direct light
+    }
+}
+
+TEST_F(TexturedTest, TheEnvironmentIsSeenInWhatATextureMakesSmooth) {
+    scene.camera.type = scene::Camera::Type::Perspective;
+    scene.camera.eye = {0.3f, 0.5f, 1.6f};
+    addSky();
+    add(fullBall(), scene::Glossy{.metallic = 1, .roughness = 0.7f});
+    EXPECT_LE(misplaced(256), 0.02); // as in mirrors
+}
+
+TEST_F(TexturedTest, OthersSeeThemInMirrorsAndThroughGlass) {
+    scene.camera.type = scene::Camera::Type::Perspective;
+    scene.camera.eye = {0, 0.6f, 2.4f};
+    addSky(); // which throws no caustics
+    add(fullBall(), scene::Matt{}).transform.translate = {-0.55f, 0, 0};
+    scene::Object mirror;
+    mirror.name = "mirror";
+    mirror.shape = scene::Plane{{3, 3}};
+    mirror.material.kind = scene::Mirror{};
+    mirror.transform.translate = {0, -0.6f, 0};
+    scene.objects.push_back(mirror);
+    EXPECT_LE(misplaced(64), 0.02);
+    scene.objects[1].shape = scene::Sphere{0.4f};
+    scene.objects[1].material.kind = scene::Clear{.ior = 1.3f};
+    scene.objects[1].transform.translate = {-0.2f, 0.1f, 0.9f};
+    EXPECT_LE(misplaced(64), 0.02);
+}
+
+TEST_F(TexturedTest, WithoutTexturesItIsTheMaterialAlone) {
+    scene.camera.eye = {0, 0, 2};
+    scene.lights = {scene::DistantLight{}};
+    scene::Mesh bare = texturedBall();
+    add(bare, scene::Matt{});
+    const Image expected = picture();
+    scene.objects.clear();
+    std::get<scene::MeshShape>(add(fullBall(), scene::Matt{}).shape).textured = false;
+    EXPECT_EQ(picture().pixels, expected.pixels);
+}
+
+} // namespace
+} // namespace lucent::brdf
