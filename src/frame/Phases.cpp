@@ -106,6 +106,8 @@ Result<views::Drawables> Renderer::State::poseKeeping(graph::FrameGraph& graph, 
     std::vector<views::ObjectKey> standing;
     for (const auto& one : refractive(picture.drawables))
         standing.push_back(views::objectKey(*one->object, picture.scene.view.time));
+    if (standing.empty()) // the next picture with some finds its own
+        return views::recordPose(graph, context, picture.drawables, picture.scene.view.time);
     if (standing != triangled || watersThen != waters.changes()) triangles.current = false;
     triangled = std::move(standing);
     watersThen = waters.changes();
