@@ -3,6 +3,7 @@
 // in    uFirst    SECOND: views/second.glsl
 // out   oSurface  see surface_pixel.glsl; normals face the eye; SECOND: of what the first object hides
 #pragma variants - SECOND
+#pragma variants - CUT
 #include "views/mesh_block.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
@@ -17,7 +18,9 @@ void main() {
 #ifdef SECOND
     if (isFirst(mesh.object)) discard;
 #endif
+#ifdef CUT
     if (isCut(mesh.view, placeFrom(mesh.view, gl_FragCoord.xy, vDepth))) discard;
+#endif
     vec3 n = gl_FrontFacing ? vNormal : -vNormal;
     oSurface = vec4(octahedralFrom(normalize(n)), vDepth, packSurface(mesh.object, kMeshFace, 1.0));
 }

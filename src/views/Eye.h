@@ -22,6 +22,7 @@ struct Eye {
     bool second =
         false; ///< of each pixel the object that it meets first is left out: what that hides is shown
 
+    bool isCut() const { return vec3(cut) != vec3(0); }
     /// Where eye rays come from in the space of an object: the position with w = 1, or with w = 0 the unit
     /// direction that all of them share. This is what shaders call `eye`.
     vec4 inObject(const mat4& worldFromObject) const;

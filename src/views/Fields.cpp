@@ -23,6 +23,7 @@ Result<Drawable::Ptr> DrawnField::create(const scene::Object& object, int index,
 
 Drawing DrawnField::drawing(gl::Context& context, graph::PassBuilder&, ViewKind kind, int number,
                             std::vector<std::string> defines) const {
+    std::erase(defines, "CUT"); // rays begin at the plane
     if (kind == ViewKind::Shadow) defines.push_back("AS_SHADOW");
     const gl::Program* program = context.program("views/surface", defines);
     return [drawn = *this, program, number](const graph::Resources&, graph::Commands& commands,

@@ -29,7 +29,9 @@ int arrayLayers(int count) { return std::max(2, count); }
 Status recordPeel(graph::FrameGraph& graph, gl::Context& context, const Eye& eye, const Drawables& glass,
                   ivec2 size, const Layers& layers, int layer, TextureId& done, graph::Query* query) {
     const bool first = layer == 0;
-    const std::vector<std::string> defines(first ? 1 : 0, "PEEL_FIRST");
+    std::vector<std::string> defines;
+    if (first) defines.push_back("PEEL_FIRST");
+    if (eye.isCut()) defines.push_back("CUT");
     const TextureId before = done, images = layers.images;
     graph.addPass("views.peel", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("surface " + std::to_string(layer + 1) + " of the refractive objects behind each pixel");

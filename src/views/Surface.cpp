@@ -12,9 +12,10 @@ void drawSurface(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
     graph.addPass("views.surface", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason((first ? "behind the first object the first point of " : "the first point of ") +
                     std::to_string(drawables.size()) + " visible object(s) that each pixel meets");
-        std::vector<Drawing> drawings =
-            drawingsOf(context, pass, drawables, ViewKind::Surface,
-                       first ? std::vector<std::string>{"SECOND"} : std::vector<std::string>{});
+        std::vector<std::string> defines;
+        if (first) defines.push_back("SECOND");
+        if (eye.isCut()) defines.push_back("CUT");
+        std::vector<Drawing> drawings = drawingsOf(context, pass, drawables, ViewKind::Surface, defines);
         if (first) pass.sample(first);
         pass.write(target);
         pass.clear(target, vec4(0));
