@@ -141,6 +141,11 @@ std::vector<graph::Binding> FieldTextures::bindings() const {
 
 // --- cache
 
+namespace {
+std::size_t bytesOf(const graph::Texture& texture) { return texture.desc().bytes(); }
+std::size_t bytesOf(const auto& textures) { return textures.bytes(); }
+} // namespace
+
 template <class Self, class Each>
 void ImageCache::forEachCache(Self& self, const Each& each) {
     each(self.fields_);
@@ -281,12 +286,8 @@ void ImageCache::clear() {
 std::size_t ImageCache::bytes() const {
     std::size_t sum = 0;
     forEachCache(*this, [&](const auto& cache) {
-        for (const auto& [key, entry] : cache) {
-            if constexpr (requires { entry.value->desc(); })
-                sum += entry.value->desc().bytes();
-            else
-                sum += entry.value->bytes();
-        }
+        for (const auto& entry : cache)
+            sum += bytesOf(*entry.second.value);
     });
     return sum;
 }
