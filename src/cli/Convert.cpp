@@ -5,6 +5,7 @@
 #include "cli/Files.h"
 
 #include "base/ImageSize.h"
+#include "base/Log.h"
 #include "scene/HeightSource.h"
 #include "scene/Mesh.h"
 #include "scene/readers/Obj.h"
@@ -62,6 +63,8 @@ void describe(const std::string& path, const scene::Mesh& mesh, std::size_t open
                 open == 0 ? "closed" : (std::to_string(open) + " open edges").c_str());
     for (const scene::Mesh::Part& part : mesh.parts)
         std::printf("part \"%s\": %u triangles\n", part.material.c_str(), part.indexCount / 3);
+    for (const auto& image : mesh.images)
+        std::printf("texture: %d x %d texels\n", image->size.x, image->size.y);
     if (mesh.moves()) std::printf("moves for %g s\n", double(mesh.rig.duration));
 }
 
@@ -75,7 +78,10 @@ Status convertMesh(const ConvertOptions& options) {
     const Result<scene::Mesh> mesh = scene::decodeMesh(*bytes, options.input);
     if (!mesh) return mesh.error();
     const scene::Mesh still = scene::posed(*mesh, scene::poseAt(mesh->rig, 0)); // OBJ knows no motion
-    Bytes encoded = endingOf(options.output) == ".obj" ? scene::encodeObj(still) : *bytes;
+    const bool isObj = endingOf(options.output) == ".obj";
+    if (isObj && !mesh->images.empty())
+        logInfo(options.output + ": is written without its textures; a .mesh keeps them");
+    Bytes encoded = isObj ? scene::encodeObj(still) : *bytes;
     if (Status written = writeAll({{options.output, std::move(encoded)}}); !written) return written;
     describe(options.output, *mesh, scene::openEdges(still));
     return Done{};
