@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Makes the gallery from what scripts/setup installed: assets/generated/gallery/, and meshes/ and fields/ beside it.
 
-    make_assets.py [--program PATH | --first]
+    make_assets.py [--program PATH] [--first | --tests]
 
---first makes only what the page needs to open: scenes, and what they name as far as no program makes it. The list of
-the gallery says what is missing, and is written anew as that comes.
+--first makes only what the page needs to open: scenes, and what they name as far as no program makes it. --tests makes
+what tests use: of pictures and truths only those of single reliefs. The list of the gallery says what is missing, and
+is written anew as that comes.
 
 A file is made again only when what it comes from has changed: its sources, or the code that makes or renders it.
 Everything is the same to the byte on every run on one machine.
@@ -38,6 +39,7 @@ import projected
 import reflectance
 import strokes
 import terrain
+import vase
 import weave
 
 MODULES = ROOT / "build/asset-modules/node_modules"
@@ -55,7 +57,7 @@ SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-back
           "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff", "glass-dragon",
           "glass-sphere", "glass-relief", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave",
           "prism", "skin", "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup", "makeup",
-          "checkerboards", "projector", "brdf-models", "brushed"]
+          "checkerboards", "projector", "brdf-models", "brushed", "vase"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
 RENDERING = ["shaders", "src/scene", "src/views", "src/light", "src/diffusion", "src/technique", "src/techniques",
@@ -126,6 +128,7 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(meshes.tiles, [], [GALLERY / "tiles.glb"])
     stamps.make(flame.flame, [], [GALLERY / "flame.glb"], [Path(meshes.__file__)])
     stamps.make(head.head, [], [GALLERY / "head.glb"], [Path(meshes.__file__)])
+    stamps.make(vase.vase, [], [GALLERY / "vase.glb"], [Path(meshes.__file__)])
     stamps.make(projected.checkerboard, [], [GALLERY / "checkerboard.png"])
     stamps.make(reflectance.brushed, [], [GALLERY / "brushed.hdr"])
     stamps.make(strokes.checkerboard, [], [GALLERY / "checkerboard-strokes.json"])
@@ -173,29 +176,31 @@ def write_index(stamps: Stamps, scenes: list[Path]) -> None:
         stamps.made += 1
 
 
-def make_gallery(stamps: Stamps, scenes: list[Path]) -> None:
-    """Pictures and truths of the scenes."""
+def make_gallery(stamps: Stamps, all_scenes: list[Path], some: list[Path]) -> None:
+    """Pictures and truths of some of the scenes."""
     def draw(scene: Path) -> None:
         names = gallery.picture_names(scene)
         stamps.make_with_program(gallery.pictures_of, [scene],
                                  [scene.with_name(names["poster"]), scene.with_name(names["thumbnail"])],
                                  gallery.files_of(scene))
-        write_index(stamps, scenes)
+        write_index(stamps, all_scenes)
 
     def solve(scene: Path) -> None:
         truth = scene.with_name(gallery.truth_name(scene))
         stamps.make_with_program(gallery.truth_of, [scene], [truth, truth.with_name(truth.name + ".json")],
                                  gallery.files_of(scene), TRUTH)
-        write_index(stamps, scenes)
+        write_index(stamps, all_scenes)
 
-    at_once([(draw, scene) for scene in scenes] + [(solve, scene) for scene in scenes])
+    at_once([(draw, scene) for scene in some] + [(solve, scene) for scene in some])
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description="Makes the gallery: height maps, light probes, scenes, posters.")
     parser.add_argument("--program", type=Path, default=ROOT / "build/native/lucent",
                         help="the lucent program [build/native/lucent]")
-    parser.add_argument("--first", action="store_true", help="only what the page needs to open")
+    some = parser.add_mutually_exclusive_group()
+    some.add_argument("--first", action="store_true", help="only what the page needs to open")
+    some.add_argument("--tests", action="store_true", help="only what tests use")
     options = parser.parse_args()
     for folder in (GALLERY, MESHES, FIELDS):
         folder.mkdir(parents=True, exist_ok=True)
@@ -207,7 +212,8 @@ def main() -> int:
         if not options.first:
             make_more_data(stamps)
             write_index(stamps, scenes)
-            make_gallery(stamps, scenes)
+            make_gallery(stamps, scenes, [scene for scene in scenes if gallery.is_single_relief(scene)]
+                         if options.tests else scenes)
     except (FileNotFoundError, ValueError, subprocess.CalledProcessError) as error:
         print(f"assets: {error}", file=sys.stderr)
         return 1

@@ -50,14 +50,28 @@ def is_relief(content: dict) -> bool:
     return all(thing["shape"]["type"] == "heightfield" for thing in content["objects"])
 
 
+def is_single_relief(scene: Path) -> bool:
+    content = json.loads(scene.read_text())
+    return is_relief(content) and len(content["objects"]) == 1
+
+
 def scatters(content: dict) -> bool:
     """Whether light goes on inside some of its things."""
     materials = [thing.get("material", {}) for thing in content["objects"]]
     return any("preset" in material or "scattering" in material for material in materials)
 
 
+def throws(content: dict) -> bool:
+    """Whether some of its things throw light on others: mirrors, glass, water."""
+    materials = [thing.get("material", {}) for thing in content["objects"]]
+    return any(material.get("reflectance") or material.get("transmission") for material in materials) or \
+        any(thing["shape"]["type"] == "water" for thing in content["objects"])
+
+
 def is_glossy(content: dict) -> bool:
-    return any(thing.get("material", {}).get("kind") in GLOSSY for thing in content["objects"])
+    """Whether some of its things are; what brings its materials along is taken for glossy."""
+    return any(thing.get("material", {}).get("kind") in GLOSSY or
+               (thing["shape"]["type"] == "mesh" and "material" not in thing) for thing in content["objects"])
 
 
 def save_small(picture: Image.Image, side: int, out: Path) -> None:
@@ -94,7 +108,7 @@ def truth_of(program: Path, scene: Path, truth: Path, _facts: Path) -> None:
         side, directions = TRUTH_UNDER_SKY if "environment" in content else TRUTH_UNDER_LAMPS
         alone = len(content["objects"]) == 1 # others are solved with what each keeps from the others
         options = ["--directions" if alone else "--samples", directions]
-    elif is_glossy(content):
+    elif is_glossy(content) and not throws(content):
         side, samples = TRUTH_OF_GLOSS
         options = ["--samples", samples]
     elif scatters(content):
