@@ -43,7 +43,7 @@ build() {
   say "$preset: built in $((SECONDS - start)) s"
 }
 
-# make_assets [--first]
+# make_assets [--first | --tests]
 make_assets() { /usr/bin/python3 scripts/make_assets.py "$@" || fail "assets: cannot be made; see the lines above"; }
 
 # The page with its modules, gallery and documentation, in build/web/site.
