@@ -262,6 +262,31 @@ test('an OBJ without its materials is a scene all the same', async () => {
   await page.leave();
 });
 
+test('the pictures that a model names lie on it, and can be switched off', async () => {
+  const page = await open();
+  const text = ['mtllib sheet.mtl', 'v 0 0 0', 'v 1 0 0', 'v 1 1 0', 'v 0 1 0', 'vt 0 0', 'vt 1 0', 'vt 1 1', 'vt 0 1'];
+  await dropAndLoad(page, {
+    'sheet.obj': Buffer.from([...text, 'usemtl flag', 'f 1/1 2/2 3/3 4/4'].join('\n')),
+    'sheet.mtl': Buffer.from('newmtl flag\nKd 1 1 1\nmap_Kd flag.png\n'),
+    'flag.png': colorPng(16, 16, (x, y, channel) => (channel === (x < 8 ? 0 : 2) ? 255 : 0)),
+  });
+  await complete(page);
+  // Mean of red and of blue left and right of the picture's middle, on the sheet.
+  const colors = async () => {
+    const { width, height, pixels } = await pictureOf(page);
+    return [0.42, 0.58].map((share) => {
+      const at = 4 * (width * Math.round(0.45 * height) + Math.round(share * width));
+      return [pixels[at], pixels[at + 2]];
+    });
+  };
+  const [left, right] = await colors();
+  assert.ok(left[0] > 100 && left[1] < 20 && right[0] < 20 && right[1] > 100, `red and blue: ${left}; ${right}`);
+  await page.evaluate(() => document.querySelector('lucent-viewer').set('objects.sheet/flag.shape.textured', false));
+  await complete(page);
+  for (const [red, blue] of await colors()) assert.ok(Math.min(red, blue) > 100, `red and blue: ${red}, ${blue}`);
+  await page.leave();
+});
+
 // ---- photographs
 
 /** A bump under a lamp, as a matt surface shows it. */
