@@ -64,8 +64,8 @@ void MeshTextures::addCoordinates(gl::Context& context) {
 }
 
 std::size_t MeshTextures::bytes() const {
-    return positions_.desc().bytes() + normals_.desc().bytes() + coordinates_.desc().bytes() +
-           4 * std::size_t(indices_.count()) + (pose_ ? pose_->bytes() : 0) +
+    return positions_.desc().bytes() + normals_.desc().bytes() + 4 * std::size_t(indices_.count()) +
+           (coordinates_ ? coordinates_.desc().bytes() : 0) + (pose_ ? pose_->bytes() : 0) +
            (triangles_ ? triangles_->bytes() : 0);
 }
 

@@ -1,6 +1,7 @@
 #include "views/Paint.h"
 
 #include "views/Meshes.h"
+#include "views/Textured.h"
 
 #include <algorithm>
 #include <string>
@@ -22,12 +23,7 @@ PaintMap::PaintMap(gl::Device& device, const Image& map)
 }
 
 graph::Texture placeTexture(gl::Device& device, const scene::Atlas& atlas) {
-    const ivec2 size = vertexImageSize(atlas.places.size());
-    std::vector<vec2> rows = atlas.places;
-    rows.resize(std::size_t(size.x) * std::size_t(size.y)); // the last row filled up
-    graph::Texture texture(device, {.size = size, .format = Format::RG32F}, "views.paintPlaces");
-    device.upload(texture.handle(), 0, rows);
-    return texture;
+    return coordinateTexture(device, atlas.places);
 }
 
 std::vector<graph::Binding> enteringBindings(const Paint& paint) {
