@@ -5,6 +5,7 @@
 #include "measure/Metrics.h"
 #include "measure/SubsurfaceTruth.h"
 #include "measure/TruthModel.h"
+#include "scene/Mesh.h"
 #include "technique/Technique.h"
 #include "truth/Glass.h"
 #include "truth/LightTracer.h"
@@ -12,6 +13,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 namespace lucent::measure {
 
@@ -20,7 +22,7 @@ namespace {
 constexpr std::string_view kLamps[] = {"point", "spot", "distant", "area", "environment"};
 constexpr std::string_view kBetween[] = {"nothing",    "matt box",        "relief 2.5 %", "mirror",
                                          "glass ball", "absorbing glass", "marble ball",  "water"};
-constexpr std::string_view kReceivers[] = {"matt plane",          "matt mesh",        "glossy mesh",
+constexpr std::string_view kReceivers[] = {"matt plane",          "matt mesh",        "textured mesh",
                                            "relief 3 %",          "relief 0",         "marble slab",
                                            "floor through glass", "floor in a mirror"};
 constexpr int kSize = 64;                 // pixels a side
@@ -130,13 +132,50 @@ void seeInMirror(scene::Scene& scene) {
     scene.camera.up = {0, 1, 0};
 }
 
+// Waves between two colours.
+std::shared_ptr<const scene::TextureImage> wavyTexture(Encoding encoding, vec3 low, vec3 high) {
+    constexpr int kTexels = 16;
+    auto image = std::make_shared<scene::TextureImage>();
+    image->size = {kTexels, kTexels};
+    image->encoding = encoding;
+    for (int i = 0; i < kTexels * kTexels; ++i) {
+        const vec2 angle = 2 * std::numbers::pi_v<float> / kTexels * vec2(i % kTexels, i / kTexels);
+        const vec3 share =
+            0.5f + 0.5f * vec3(std::sin(angle.x), std::sin(angle.y), std::cos(angle.x - angle.y));
+        for (int c = 0; c < 3; ++c)
+            image->texels.push_back(std::uint8_t(std::lround(255 * glm::mix(low[c], high[c], share[c]))));
+        image->texels.push_back(255);
+    }
+    image->findLeast();
+    return image;
+}
+
+// A glossy ring whose colour, roughness, share of metal and normals are pictures.
+void makeTextured(scene::Object& object) {
+    scene::Mesh mesh = meshOf(scene::Torus{0.35f, 0.15f});
+    for (const vec3& p : mesh.positions) {
+        const float across = std::atan2(p.y, glm::length(vec2(p.x, p.z)) - 0.35f);
+        mesh.coordinates.push_back(vec2(5 * std::atan2(p.z, p.x), 2 * across) /
+                                   (2 * std::numbers::pi_v<float>));
+    }
+    mesh.images = {wavyTexture(Encoding::Srgb, vec3(0.5f), vec3(1)),
+                   wavyTexture(Encoding::Linear, {0, 0.55f, 0}, {0, 1, 0.6f}),
+                   wavyTexture(Encoding::Linear, {0.4f, 0.4f, 0.9f}, {0.6f, 0.6f, 1})};
+    scene::Mesh::Part& part = mesh.parts.emplace_back();
+    part.material = "ring";
+    part.indexCount = std::uint32_t(mesh.indices.size());
+    part.textures.color.image = 0;
+    part.textures.roughness.image = 1;
+    part.textures.normal.image = 2;
+    object.shape = scene::MeshShape{
+        .source = "ring.mesh", .part = "", .mesh = std::make_shared<const scene::Mesh>(std::move(mesh))};
+    object.material.kind = scene::Glossy{.metallic = 1, .roughness = 0.95f, .ior = 2};
+}
+
 void addReceiver(scene::Scene& scene, std::string_view receiver) {
     scene::Object object = objectOf("receiver", scene::Plane{{2, 2}});
     if (receiver == "matt mesh") object.shape = scene::Torus{0.35f, 0.15f};
-    if (receiver == "glossy mesh") {
-        object.shape = scene::Torus{0.35f, 0.15f};
-        object.material.kind = scene::Glossy{.roughness = 0.6f, .ior = 2};
-    }
+    if (receiver == "textured mesh") makeTextured(object);
     if (receiver == "relief 3 %") object = reliefOf("receiver", 1.3f, 0.08f, 0.039f);
     if (receiver == "relief 0") object = reliefOf("receiver", 1.3f, 0.08f, 1e-6f);
     if (receiver == "marble slab") {
