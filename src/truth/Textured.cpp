@@ -13,7 +13,7 @@ namespace {
 int wrapped(double at, int size, scene::Wrap wrap) {
     if (wrap == scene::Wrap::Clamp) return int(std::clamp(at, 0.0, double(size - 1)));
     const double period = wrap == scene::Wrap::Mirror ? 2.0 * size : size;
-    const double inside = at - period * std::floor(at / period);
+    const double rest = std::fmod(at, period), inside = rest < 0 ? rest + period : rest; // exact, however far
     return int(inside < size ? inside : period - 1 - inside);
 }
 

@@ -252,6 +252,26 @@ TEST_F(TexturedTest, TheyAreSeenThroughGlass) {
     EXPECT_LE(misplaced(1), 0.02);
 }
 
+TEST_F(TexturedTest, CoordinatesFarOutsideFindTexelsAllTheSame) {
+    scene::Mesh mesh = texturedPlane();
+    for (vec2& coordinate : mesh.coordinates)
+        coordinate = 1e30f * (coordinate - 0.3f);
+    mesh.images = fullBall().images;
+    lookDown();
+    scene.lights = {scene::DistantLight{.direction = {0, -1, 0}}};
+    for (const scene::Wrap wrap : {scene::Wrap::Repeat, scene::Wrap::Mirror, scene::Wrap::Clamp}) {
+        mesh.parts[0].textures.color = {.image = 0, .u = wrap, .v = wrap};
+        scene.objects.clear();
+        add(mesh, scene::Matt{});
+        const auto exact =
+            truth::GlassEstimator::create(scene, scene.size, scene::Aov::Color, {.samples = 1});
+        for (int i = 0; i < scene.size.x; ++i) {
+            const dvec3 light = exact->solve({i, i}).value;
+            EXPECT_TRUE(light.r >= 0 && light.r <= 1) << int(wrap) << " " << i;
+        }
+    }
+}
+
 TEST_F(TexturedTest, WithoutTexturesItIsTheMaterialAlone) {
     scene.camera.eye = {0, 0, 2};
     scene.lights = {scene::DistantLight{}};
