@@ -61,13 +61,6 @@ def scatters(content: dict) -> bool:
     return any("preset" in material or "scattering" in material for material in materials)
 
 
-def throws(content: dict) -> bool:
-    """Whether some of its things throw light on others: mirrors, glass, water."""
-    materials = [thing.get("material", {}) for thing in content["objects"]]
-    return any(material.get("reflectance") or material.get("transmission") for material in materials) or \
-        any(thing["shape"]["type"] == "water" for thing in content["objects"])
-
-
 def is_glossy(content: dict) -> bool:
     """Whether some of its things are; what brings its materials along is taken for glossy."""
     return any(thing.get("material", {}).get("kind") in GLOSSY or
@@ -108,12 +101,12 @@ def truth_of(program: Path, scene: Path, truth: Path, _facts: Path) -> None:
         side, directions = TRUTH_UNDER_SKY if "environment" in content else TRUTH_UNDER_LAMPS
         alone = len(content["objects"]) == 1 # others are solved with what each keeps from the others
         options = ["--directions" if alone else "--samples", directions]
-    elif is_glossy(content) and not throws(content):
-        side, samples = TRUTH_OF_GLOSS
-        options = ["--samples", samples]
     elif scatters(content):
         side, lines = TRUTH_OF_DIPOLES
         options = ["--estimator", "dipole", "--samples", lines]
+    elif is_glossy(content):
+        side, samples = TRUTH_OF_GLOSS
+        options = ["--samples", samples]
     else:
         side, rays, points = TRUTH_WITH_LIGHT_RAYS
         options = ["--estimator", "light", "--photons", rays, "--samples", points]
