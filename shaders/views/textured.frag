@@ -22,7 +22,7 @@ layout(location = 1) out vec4 oFacets;
 layout(location = 2) out vec4 oEmission;
 const float kSame = 1e-4; // of a depth: what two programs may differ by
 
-// The texel that stands for one beyond the edges. By floats: what is far outside is as many texels wrong.
+// The texel that stands for one beyond the edges. Far outside floats no longer tell texels apart.
 int wrapped(int at, int size, int wrap) {
     if (wrap == 1) return clamp(at, 0, size - 1);
     int period = wrap == 2 ? 2 * size : size;

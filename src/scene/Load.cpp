@@ -496,17 +496,20 @@ private:
         const Place member = place.at(*source, "source");
         if (!readFileName(member, shape.source)) return false;
         std::shared_ptr<const Mesh>& whole = meshes_[{shape.source, ""}];
-        if (!whole && !(readFile(member, shape.source, whole, decodeShape) && spendTextures(place, *whole)))
+        if (!whole && !(readFile(member, shape.source, whole, decodeShape) &&
+                        spendTextures(place, shape.source, *whole)))
             return false;
         shape.mesh = whole;
         return optional(place, "part", &Loader::readPart, shape);
     }
     // Once here and once on the GPU.
-    bool spendTextures(const Place& place, const Mesh& mesh) {
+    bool spendTextures(const Place& place, const std::string& source, const Mesh& mesh) {
         double texels = 0;
         for (const auto& image : mesh.images)
             texels += double(image->texels.size());
-        return spend(place, "source", "has textures of " + std::to_string(std::lround(texels / 1e6)) + " MB",
+        return spend(place, "source",
+                     inQuotes(source) + " with " + std::to_string(std::lround(texels / 1e6)) +
+                         " MB of textures",
                      2 * texels);
     }
     bool readPart(const Place& place, MeshShape& shape) {

@@ -13,7 +13,7 @@ namespace lucent::views {
 
 struct DrawnMesh;
 
-/// A texture on the GPU, or a white one of one texel.
+/// A picture on the GPU; shaders read linear light, whatever its encoding.
 graph::Texture textureOf(gl::Device& device, const scene::TextureImage& image);
 
 /// Mesh::coordinates as a texture of vertexImageSize(), RG32F.
