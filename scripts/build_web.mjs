@@ -58,12 +58,14 @@ const cssAsText = {
 
 const common = { minify: true, format: 'esm', target: 'es2022', legalComments: 'none', logLevel: 'warning' };
 
-const kFirst = ['lucent', 'lucent-relief', 'lucent-readers'];
-const kLater = ['lucent-truth', 'lucent-check', 'lucent-bench'];
+const kFirst = ['lucent', 'lucent-readers'];
+const kLater = ['lucent-relief', 'lucent-truth', 'lucent-check', 'lucent-bench'];
 const isThere = (module) => existsSync(wasm(`${module}.mjs`)) && existsSync(wasm(`${module}.wasm`));
 const modules = [...kFirst, ...kLater.filter((module) => !options.first || isThere(module))];
 for (const module of modules)
   if (!isThere(module)) fail(`${wasm(module)}: .mjs or .wasm is not there; the preset "web" builds both`);
+// Of reliefs the whole module draws the same: it stands in until theirs is there.
+const reliefs = modules.includes('lucent-relief') ? 'lucent-relief' : 'lucent';
 /** Bundles what a module belongs to. */
 const bundleOf = (module, bundle) => modules.includes(module) && build({ ...common, ...bundle });
 mkdirSync(options.out, { recursive: true });
@@ -73,7 +75,7 @@ await build({
   bundle: true,
   entryPoints: [web('lucent-viewer.js')],
   outfile: out('lucent-viewer.js'),
-  alias: { 'lucent-relief-wasm': wasm('lucent-relief.mjs') },
+  alias: { 'lucent-relief-wasm': wasm(`${reliefs}.mjs`) },
   external: ['./export.js', './selfcheck.js', './zip.js'], // fetched when asked for
   plugins: [cssAsText],
 });
@@ -156,7 +158,7 @@ const sizeOf = (name) => gzipSync(readFileSync(out(name)), { level: 9 }).length;
 for (const name of readdirSync(options.out).filter((name) => /\.(js|css|html|wasm)$/.test(name)))
   console.log(`build_web: ${name}: ${readFileSync(out(name)).length} bytes, ${sizeOf(name)} compressed`);
 const first = ['index.html', 'page.css', 'page.js', 'lucent-viewer.js'];
-for (const [scene, more] of Object.entries({ relief: ['lucent-relief.wasm'], glass: ['lucent.js', 'lucent.wasm'] })) {
+for (const [scene, more] of Object.entries({ relief: [`${reliefs}.wasm`], glass: ['lucent.js', 'lucent.wasm'] })) {
   const bytes = [...first, ...more].reduce((sum, name) => sum + sizeOf(name), 0);
   console.log(`build_web: before a scene of ${scene} is interactive: ${bytes} bytes compressed`);
 }
