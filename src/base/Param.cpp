@@ -118,8 +118,8 @@ std::vector<double> parse(const Param& param, std::string_view text) {
 
 std::string_view name(Group group) {
     constexpr std::string_view names[] = {
-        "",         "Mode",        "Light",        "Material", "Falloff", "Subsurface", "Refraction",
-        "Caustics", "Environment", "Height field", "Shape",    "Waves",   "View"};
+        "",         "Mode",        "Light",        "Material", "Falloff",      "Subsurface", "Refraction",
+        "Caustics", "Environment", "Height field", "Shape",    "Displacement", "Waves",      "View"};
     return names[int(group)];
 }
 

@@ -43,6 +43,7 @@ enum class Group {
     Environment,
     HeightField,
     Shape,
+    Displacement,
     Waves,
     View
 };

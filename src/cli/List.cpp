@@ -5,6 +5,7 @@
 #include "base/Param.h"
 #include "base/Text.h"
 #include "frame/Renderer.h"
+#include "scene/Displacement.h"
 #include "scene/Keys.h"
 #include "scene/Scene.h"
 #include "scene/Translucency.h"
@@ -49,6 +50,8 @@ std::vector<Section> sections() {
     all.push_back({"material: oren-nayar", material, &scene::orenNayarParams()});
     all.push_back({"material: measured", material, &scene::measuredParams()});
     all.push_back({"transform", "objects.NAME.transform", &scene::transformParams()});
+    all.push_back({"displacement of planes, spheres, tori and meshes", "objects.NAME.displacement",
+                   &scene::displacementParams()});
     all.push_back({"wave, not of height fields and water", "objects.NAME.wave", &scene::waveParams()});
     for (const scene::TypeKeys& light : scene::lightTypes())
         for (const ParamTable* table : light.keys.tables)

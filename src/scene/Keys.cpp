@@ -1,5 +1,6 @@
 #include "scene/Keys.h"
 
+#include "scene/Displacement.h"
 #include "scene/Painting.h"
 #include "scene/Translucency.h"
 
@@ -41,6 +42,9 @@ constexpr Key kObject[] = {
     {"material", KeyType::Content, "What the surface does with light."},
     {"transform", KeyType::Content, "Where the object stands: scaled, turned, then moved."},
     {"wave", KeyType::Content, "A wave that runs through it; not through height fields and water."},
+    {"displacement", KeyType::Content,
+     "Heights that lift the surface along its normals; of planes, spheres, tori and meshes that stand still "
+     "and have texture coordinates."},
     {"paint", KeyType::Content, "What is painted on it, where its material scatters."},
     {"bake", KeyType::File, "What lucent bake wrote for it, where its material is precomputed."},
     {"visible", KeyType::Toggle, "False hides it from the camera only."},
@@ -58,6 +62,7 @@ constexpr Key kHeightField[] = {
     {"alphaIsSolid", KeyType::Toggle,
      "False makes a hole where alpha is below 0.5, as deep as the field is wide."},
 };
+constexpr std::span<const Key> kHeightSource = std::span(kHeightField).subspan(1, 4);
 constexpr Key kMesh[] = {
     {"type", KeyType::Constant, "Triangles of a file.", R"("mesh")"},
     {"source", KeyType::File,
@@ -248,6 +253,15 @@ std::string whyIdle(const Object& object, std::string_view key) {
         return " does nothing on height fields and water; must stand on another shape";
     if (key == "paint" && isHeightField)
         return " does nothing on a height field; must stand on another shape";
+    if ((key == "wave" || key == "paint") && object.displacement)
+        return " does nothing on a displaced surface; must stand without displacement";
+    const bool canBeDisplaced =
+        std::holds_alternative<Plane>(object.shape) || std::holds_alternative<Sphere>(object.shape) ||
+        std::holds_alternative<Torus>(object.shape) || std::holds_alternative<MeshShape>(object.shape);
+    if (key == "displacement" && !canBeDisplaced)
+        return " does nothing on a " + std::string(typeOf(object.shape).type) +
+               "; must stand on a plane, sphere, torus or mesh";
+    if (key == "displacement") return {};
     if (key.starts_with("layers.")) key = "layers";
     if (holds({{&choiceParams()}, {}}, key) || holds(materialKeysOf(object), key)) return {};
     std::vector<std::string_view> others;
@@ -270,6 +284,11 @@ const KeySet& layerKeys() {
 
 const KeySet& waveKeys() {
     static const KeySet keys{{&waveParams()}, {}};
+    return keys;
+}
+
+const KeySet& displacementKeys() {
+    static const KeySet keys{{&displacementParams(), &heightSourceParams()}, kHeightSource};
     return keys;
 }
 

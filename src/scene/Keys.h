@@ -63,6 +63,7 @@ const KeySet& materialKeys(); ///< of all kinds together
 const KeySet& layerKeys();
 const KeySet& transformKeys();
 const KeySet& waveKeys();
+const KeySet& displacementKeys();
 const KeySet& qualityKeys();
 const KeySet& paintKeys();  ///< of an object's "paint"
 const KeySet& strokeKeys(); ///< of one stroke
@@ -136,7 +137,7 @@ auto dataOf(Variant& variant) {
     return std::visit([](auto& value) -> Void* { return &value; }, variant);
 }
 
-/// Why a key of the material is none of its kind, or "wave" or "paint" none of the shape: " is no key of ...;
+/// Why a key of the material is none of its kind, or "wave", "paint" or "displacement" none of the shape: " is no key of ...;
 /// must stand ...". Empty where it may stand. Such keys are refused in files, not bound and not written.
 std::string whyIdle(const Object& object, std::string_view key);
 

@@ -1,6 +1,7 @@
 #include "scene/Load.h"
 
 #include "base/Text.h"
+#include "scene/Displacement.h"
 #include "scene/Environment.h"
 #include "scene/HeightSource.h"
 #include "scene/ImageUse.h"
@@ -253,6 +254,7 @@ private:
         return optional(place, "visible", &Loader::readBool, object.visible) &&
                optional(place, "transform", &Loader::readTransform, object.transform) &&
                optional(place, "shape", &Loader::readShape, object) &&
+               optional(place, "displacement", &Loader::readDisplacement, object) &&
                optional(place, "paint", &Loader::readPaint, object) &&
                optional(place, "material", &Loader::readMaterial, object) &&
                optional(place, "wave", &Loader::readWave, object) &&
@@ -585,11 +587,28 @@ private:
                keepStatus(place, check(object.shape)) &&
                (!water || spend(place, "cells", std::to_string(water->cells), bytesOf(*water)));
     }
-    bool readHeightField(const Place& place, HeightField& field) {
-        return readKeys(place, shapeTypes()[0].keys, {&field, &field.source}) && readHeights(place, field) &&
-               readAlpha(place, field);
+    bool readDisplacement(const Place& place, Object& object) {
+        if (const std::string why = whyIdle(object, "displacement"); !why.empty()) return fail(place, why);
+        Displacement displacement;
+        SourcedHeights sourced;
+        if (!readKeys(place, displacementKeys(), {&displacement, &displacement.source}) ||
+            !readHeights(place, displacement.source, sourced))
+            return false;
+        displacement.heights = sourced.image;
+        object.displacement = std::move(displacement);
+        return keepStatus(place, checkDisplacement(object));
     }
-    bool readHeights(const Place& place, HeightField& field) {
+    bool readHeightField(const Place& place, HeightField& field) {
+        SourcedHeights sourced;
+        if (!readKeys(place, shapeTypes()[0].keys, {&field, &field.source}) ||
+            !readHeights(place, field.source, sourced))
+            return false;
+        field.heights = sourced.image;
+        if (field.source.kind == HeightSource::Kind::NormalMap && !place.json.find("heightScale"))
+            field.heightScale = sourced.texelsPerHeight * field.texelSize();
+        return readAlpha(place, field);
+    }
+    bool readHeights(const Place& place, HeightSource& source, SourcedHeights& sourced) {
         constexpr std::string_view kKeys[] = {"heights", "normalMap",
                                               "mesh"}; // in the order of HeightSource::Kind
         const Json* found = nullptr;
@@ -602,30 +621,24 @@ private:
                                        "; must have one of heights, normalMap, mesh");
             found = json;
             foundKey = kKeys[kind];
-            field.source.kind = HeightSource::Kind(kind);
+            source.kind = HeightSource::Kind(kind);
         }
         if (!found) return fail(place, " has no heights; must have one of heights, normalMap, mesh");
-        if (!refuseMeshKeys(place, field.source.kind) ||
-            !optional(place, "resolution", &Loader::readSize, field.source.resolution))
+        if (!refuseMeshKeys(place, source.kind) ||
+            !optional(place, "resolution", &Loader::readSize, source.resolution))
             return false;
 
-        const ivec2 resolution = field.source.resolution;
-        if (field.source.kind == HeightSource::Kind::Mesh &&
+        const ivec2 resolution = source.resolution;
+        if (source.kind == HeightSource::Kind::Mesh &&
             !spend(place, "resolution", std::to_string(resolution.x) + " x " + std::to_string(resolution.y),
                    bytesOfHeights(resolution)))
             return false;
 
         const Place member = place.at(*found, foundKey);
-        SourcedHeights sourced;
         const auto decode = [&](std::span<const std::byte> bytes, const std::string& name) {
-            return loadHeights(field.source, bytes, name);
+            return loadHeights(source, bytes, name);
         };
-        if (!readFileName(member, field.source.file) || !readFile(member, field.source.file, sourced, decode))
-            return false;
-        field.heights = sourced.image;
-        if (field.source.kind == HeightSource::Kind::NormalMap && !place.json.find("heightScale"))
-            field.heightScale = sourced.texelsPerHeight * field.texelSize();
-        return true;
+        return readFileName(member, source.file) && readFile(member, source.file, sourced, decode);
     }
     // Keys that only a mesh's depth uses would otherwise be ignored in silence.
     bool refuseMeshKeys(const Place& place, HeightSource::Kind kind) {
@@ -695,6 +708,7 @@ Result<std::vector<std::string>> dependencies(const std::string& path, std::span
             for (std::size_t k = 0; k < object.keys.size(); ++k) {
                 if (object.keys[k] == "material") collect(object.items[k], materialKeys());
                 if (object.keys[k] == "paint") collect(object.items[k], paintKeys());
+                if (object.keys[k] == "displacement") collect(object.items[k], displacementKeys());
                 if (object.keys[k] != "shape") continue;
                 for (const TypeKeys& type : shapeTypes())
                     collect(object.items[k], type.keys);

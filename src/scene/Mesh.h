@@ -119,7 +119,8 @@ ivec2 waterCells(const Water& water);
 
 /// The triangles of an object that is no relief (Object::isField()), as all draw it: those of its file, or
 /// such as lie on its shape, made once for the same shape. With a wave flat sides are cut into small squares;
-/// with flat normals no two triangles share a vertex. Water lies still.
+/// with flat normals no two triangles share a vertex. Water lies still. What is displaced is
+/// displacedMesh().
 std::shared_ptr<const Mesh> meshOf(const Object& object);
 
 /// Whether a material's textures are shown: it is matt or glossy.

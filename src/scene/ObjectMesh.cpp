@@ -1,5 +1,7 @@
 #include "scene/Mesh.h"
 
+#include "scene/Displacement.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -82,6 +84,7 @@ Mesh flattened(const Mesh& mesh) {
 struct Source {
     Shape shape;
     bool isWaved, isClear;
+    std::optional<Displacement> displacement;
     bool operator==(const Source&) const = default;
 };
 
@@ -89,10 +92,12 @@ struct Source {
 
 std::shared_ptr<const Mesh> meshOf(const Object& object) {
     const auto* file = std::get_if<MeshShape>(&object.shape);
-    if (file && !file->flatNormals) return file->mesh;
+    if (file && !file->flatNormals && !object.displacement) return file->mesh;
     return object.kept.of<std::shared_ptr<const Mesh>>(
-        Source{object.shape, isWaved(object), isClear(object)},
-        [&] { return std::make_shared<const Mesh>(file ? flattened(*file->mesh) : generated(object)); });
+        Source{object.shape, isWaved(object), isClear(object), object.displacement}, [&] {
+            if (object.displacement) return std::make_shared<const Mesh>(displacedMesh(object));
+            return std::make_shared<const Mesh>(file ? flattened(*file->mesh) : generated(object));
+        });
 }
 
 bool showsTextures(const Material& material) {
@@ -103,7 +108,7 @@ const Textures* texturesOf(const Object& object) {
     const auto* file = std::get_if<MeshShape>(&object.shape);
     if (!file || !file->textured || file->mesh->parts.size() != 1) return nullptr;
     const Textures& textures = file->mesh->parts.front().textures;
-    return showsTextures(object.material) && textures.any() ? &textures : nullptr;
+    return !object.displacement && showsTextures(object.material) && textures.any() ? &textures : nullptr;
 }
 
 } // namespace lucent::scene

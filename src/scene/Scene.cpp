@@ -2,6 +2,7 @@
 #include "scene/ReflectanceTable.h"
 
 #include "base/Text.h"
+#include "scene/Displacement.h"
 #include "scene/Keys.h"
 #include "scene/Memory.h"
 #include "scene/Mesh.h"
@@ -17,7 +18,8 @@ constexpr std::string_view kCameraNames[] = {"orthographic", "perspective"};
 constexpr std::string_view kAovNames[] = {
     "color",       "d",         "visibility", "normal", "depth",       "position",     "iterations",
     "irradiance",  "direction", "layers",     "lost",   "layer-depth", "layer-normal", "layer-object",
-    "caustic-map", "radiosity"};
+    "caustic-map", "radiosity",
+    "misses"};
 
 } // namespace
 
@@ -274,6 +276,9 @@ struct Binder {
             for (std::size_t i = start; i < bound.size(); ++i)
                 bound[i].shown = object.wave.amplitude != vec3(0);
         }
+        if (object.displacement)
+            add(path + ".displacement", first ? "displacement" : "", displacementParams(),
+                &*object.displacement);
         add(path + ".transform", first ? "transform" : "", transformParams(), &object.transform);
     }
 };
@@ -459,6 +464,7 @@ std::string whyUnbound(const Scene& scene, std::string_view path) {
         const std::string_view rest = path.substr(owner.size());
         const std::size_t dot = rest.find('.');
         if (rest.substr(0, dot) == "wave") return whyIdle(object, "wave");
+        if (rest.substr(0, dot) == "displacement") return whyIdle(object, "displacement");
         return rest.substr(0, dot) == "material" ? whyIdle(object, rest.substr(dot + 1)) : std::string();
     }
     return {};

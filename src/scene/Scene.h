@@ -288,6 +288,21 @@ struct Transform {
     mat4 worldFromObject() const;
 };
 
+/// How an eye ray finds the first place where it meets displaced heights.
+enum class DisplacementMethod : int { Parallax, Linear, Relief, Interval, Quadtree };
+
+/// Heights that lift a surface along its normals (Displacement.h).
+struct Displacement {
+    float scale = 0.05f; ///< m for a height of 1, >= 0
+    vec2 repeat{1};      ///< tiles along u and v, > 0
+    DisplacementMethod method = DisplacementMethod::Quadtree;
+    int searchSteps = 32;                 ///< of linear, relief and interval, from the highest height down
+    int refineSteps = 8;                  ///< most of relief and interval
+    std::shared_ptr<const Image> heights; ///< 1 channel, [0,1]; never null once loaded
+    HeightSource source{};                ///< of the heights
+    bool operator==(const Displacement&) const = default;
+};
+
 struct Painting;
 
 struct Object {
@@ -295,7 +310,8 @@ struct Object {
     Shape shape;
     Material material;
     Transform transform;
-    Wave wave;           ///< not for height fields and water
+    Wave wave;           ///< not for height fields, water and what is displaced
+    std::optional<Displacement> displacement{}; ///< of planes, spheres, tori and meshes that stand still
     bool visible = true; ///< false: hidden from the camera only
     /// What an artist painted on it; null: nothing. Acts where the material scatters.
     std::shared_ptr<const Painting> painting;
@@ -307,6 +323,11 @@ struct Object {
     /// A height field that is a relief, whose heights rays walk along. Of other materials it is a mesh, the
     /// body of its heights (Mesh.h).
     bool isField() const { return std::holds_alternative<HeightField>(shape) && material.isRelief(); }
+    /// Displaced and opaque: rays are cast through the space above its triangles. Of what light passes
+    /// through, displaced triangles are drawn instead (Displacement.h).
+    bool isDisplaced() const {
+        return displacement && !material.isRefractive() && !material.isScattering();
+    }
     /// The shape, which must be a height field.
     HeightField& field() { return std::get<HeightField>(shape); }
     const HeightField& field() const { return std::get<HeightField>(shape); }
@@ -406,7 +427,8 @@ enum class Aov : int {
     LayerObject, ///< a colour for each object, darker where its inside faces the eye
     CausticMap,  ///< light that refractive objects and mirrors throw, as one point of a lamp sees it; 1: what
                  ///< it leaves there undisturbed
-    Radiosity    ///< W/m² that leave where light was scattered inside
+    Radiosity,   ///< W/m² that leave where light was scattered inside
+    Misses       ///< 1 where the ray cast of a displaced surface finds another place than the exact one
 };
 
 /// Whether it is one of several images, which View::layer chooses.

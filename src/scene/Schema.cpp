@@ -194,7 +194,10 @@ private:
             writeObject(transformKeys());
         else if (id == "wave")
             writeObject(waveKeys(), {"amplitude"});
-        else if (id == "paint")
+        else if (id == "displacement") {
+            writeObject(displacementKeys());
+            writeHeightSources();
+        } else if (id == "paint")
             writeObject(paintKeys());
         else if (id == "dabs")
             writeDabs();
@@ -247,8 +250,11 @@ private:
     void writeType(const TypeKeys& one) {
         if (one.type == "mesh") return writeObject(one.keys, {"type", "source"});
         writeObject(one.keys, {"type"});
-        if (one.type != "heightfield") return;
-        json_.key("oneOf").beginArray(); // exactly one source of heights
+        if (one.type == "heightfield") writeHeightSources();
+    }
+    // Exactly one of them.
+    void writeHeightSources() {
+        json_.key("oneOf").beginArray();
         for (const std::string_view source : {"heights", "normalMap", "mesh"})
             json_.beginObject().key("required").beginArray().value(source).end().end();
         json_.end();

@@ -1,5 +1,6 @@
 // A Scene back to its file.
 #include "base/JsonWriter.h"
+#include "scene/Displacement.h"
 #include "scene/Keys.h"
 #include "scene/Load.h"
 #include "scene/Strokes.h"
@@ -56,14 +57,16 @@ void writeSize(JsonWriter& json, std::string_view key, ivec2 size) {
     json.key(key).value(std::span<const float>(sides));
 }
 
-void writeHeightField(JsonWriter& json, const HeightField& field) {
-    const HeightSource& source = field.source;
+void writeHeightSource(JsonWriter& json, const HeightSource& source) {
     constexpr std::string_view kKeys[] = {"heights", "normalMap", "mesh"};
     json.key(kKeys[int(source.kind)]).value(source.file);
-    if (source.kind == HeightSource::Kind::Mesh) {
-        writeSize(json, "resolution", source.resolution);
-        writeParams(json, heightSourceParams(), &source);
-    }
+    if (source.kind != HeightSource::Kind::Mesh) return;
+    writeSize(json, "resolution", source.resolution);
+    writeParams(json, heightSourceParams(), &source);
+}
+
+void writeHeightField(JsonWriter& json, const HeightField& field) {
+    writeHeightSource(json, field.source);
     writeParams(json, heightFieldParams(), &field, "heightScale"); // a normal map has its own default
     writeText(json, "alpha", field.alphaFile);
     if (!field.alphaIsSolid) json.key("alphaIsSolid").value(false);
@@ -117,6 +120,14 @@ void writeWave(JsonWriter& json, const Object& object) {
     json.end();
 }
 
+void writeDisplacement(JsonWriter& json, const Object& object) {
+    if (!object.displacement) return;
+    json.key("displacement").beginObject();
+    writeHeightSource(json, object.displacement->source);
+    writeParams(json, displacementParams(), &*object.displacement);
+    json.end();
+}
+
 // Strokes were measured in the world: radii grow with the object.
 std::vector<Stroke> strokesNow(const Object& object) {
     std::vector<Stroke> strokes = object.painting->strokes;
@@ -152,6 +163,7 @@ void writeObject(JsonWriter& json, const Object& object) {
     writeParams(json, transformParams(), &object.transform);
     json.end();
     writeWave(json, object);
+    writeDisplacement(json, object);
     writePaint(json, object);
     writeText(json, "bake", object.bakeFile);
     if (!object.visible) json.key("visible").value(false);
