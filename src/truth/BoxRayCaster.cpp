@@ -7,7 +7,7 @@ namespace lucent::truth {
 
 namespace {
 
-/// What a leaf of the tree holds: a shape, or one triangle of it.
+/// What a leaf of the tree holds: a part of a shape, such as one triangle of it.
 struct Part {
     Box box;
     int shape;
@@ -76,7 +76,7 @@ public:
             const Entry& entry = entryOf(part);
             const Stretch open = query.open(part.shape);
             if (!std::holds_alternative<Triangles>(entry.shape))
-                return query.asksFor(entry) && blocks(entry.shape, query.ray(), open);
+                return query.asksFor(entry) && blocks(entry.shape, part.triangle, query.ray(), open);
             const auto intersection = intersectionOf(part, query, line);
             return intersection && intersection->distance > open.from && intersection->distance < open.to;
         });
@@ -99,7 +99,10 @@ private:
     void addParts(int shape, double room) {
         const Entry& entry = entries_[std::size_t(shape)];
         const auto* mesh = std::get_if<Triangles>(&entry.shape);
-        if (!mesh) parts_.push_back({entry.box, shape, 0});
+        for (unsigned i = 0; !mesh && i < partsOf(entry.shape); ++i) {
+            const Box box = boxOf(entry.shape, i);
+            parts_.push_back({{box.low - room, box.high + room}, shape, i});
+        }
         for (unsigned i = 0; mesh && i < mesh->indices.size() / 3; ++i) {
             Box box;
             for (unsigned corner = 0; corner < 3; ++corner)
@@ -162,7 +165,7 @@ private:
         const Entry& entry = entryOf(part);
         if (!query.asksFor(entry)) return {};
         const auto* mesh = std::get_if<Triangles>(&entry.shape);
-        if (!mesh) return intersect(entry.shape, query.ray(), query.open(part.shape));
+        if (!mesh) return intersect(entry.shape, part.triangle, query.ray(), query.open(part.shape));
         if (!line.pierces(*mesh, part.triangle)) return {};
         return intersectTriangle(*mesh, part.triangle, query.ray());
     }

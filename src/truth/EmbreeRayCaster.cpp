@@ -32,11 +32,13 @@ struct Passed {
 struct Known {
     const Entry* entry;
     dvec3 middle;
+    double room;
 };
 
 void reportBox(const RTCBoundsFunctionArguments* given) {
     const Known& known = *static_cast<const Known*>(given->geometryUserPtr);
-    const Box box{known.entry->box.low - known.middle, known.entry->box.high - known.middle};
+    const Box part = boxOf(known.entry->shape, given->primID);
+    const Box box{part.low - known.room - known.middle, part.high + known.room - known.middle};
     *given->bounds_o = {float(box.low.x),  float(box.low.y),  float(box.low.z),  0,
                         float(box.high.x), float(box.high.y), float(box.high.z), 0};
 }
@@ -47,7 +49,8 @@ void intersectShape(const RTCIntersectFunctionNArguments* given) {
     const Entry& entry = *static_cast<const Known*>(given->geometryUserPtr)->entry;
     if (!passed.query.asksFor(entry)) return;
     const int shape = int(given->geomID);
-    const auto intersection = intersect(entry.shape, passed.query.ray(), passed.query.open(shape));
+    const auto intersection =
+        intersect(entry.shape, given->primID, passed.query.ray(), passed.query.open(shape));
     if (!intersection || !passed.query.offer(shape, *intersection)) return;
     auto* found = reinterpret_cast<RTCRayHit*>(given->rayhit);
     found->ray.tfar = passed.reach();
@@ -59,7 +62,7 @@ void occludeShape(const RTCOccludedFunctionNArguments* given) {
     const Query& query = Passed::of(given->context).query;
     const Entry& entry = *static_cast<const Known*>(given->geometryUserPtr)->entry;
     if (!query.asksFor(entry)) return;
-    if (blocks(entry.shape, query.ray(), query.open(int(given->geomID))))
+    if (blocks(entry.shape, given->primID, query.ray(), query.open(int(given->geomID))))
         reinterpret_cast<RTCRay*>(given->ray)->tfar = -float(kInfinity);
 }
 
@@ -97,7 +100,7 @@ public:
         scene_ = rtcNewScene(device_);
         rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
         for (const Entry& entry : entries_)
-            known_.push_back({&entry, middle_});
+            known_.push_back({&entry, middle_, room_});
         for (std::size_t i = 0; i < entries_.size(); ++i)
             add(i);
         rtcCommitScene(scene_);
@@ -148,7 +151,7 @@ private:
 
     void add(std::size_t number) {
         const auto* mesh = std::get_if<Triangles>(&entries_[number].shape);
-        const RTCGeometry geometry = mesh ? triangles(*mesh) : shape();
+        const RTCGeometry geometry = mesh ? triangles(*mesh) : shape(partsOf(entries_[number].shape));
         rtcSetGeometryUserData(geometry, &known_[number]);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene_, geometry, unsigned(number));
@@ -168,9 +171,9 @@ private:
         rtcSetGeometryOccludedFilterFunction(geometry, filterTriangle);
         return geometry;
     }
-    RTCGeometry shape() const {
+    RTCGeometry shape(unsigned parts) const {
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(geometry, 1);
+        rtcSetGeometryUserPrimitiveCount(geometry, parts);
         rtcSetGeometryBoundsFunction(geometry, reportBox, nullptr);
         rtcSetGeometryIntersectFunction(geometry, intersectShape);
         rtcSetGeometryOccludedFunction(geometry, occludeShape);

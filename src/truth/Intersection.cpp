@@ -41,6 +41,13 @@ Box boxOf(const Ripple& ripple) {
     return box;
 }
 
+Box boxOf(const Displaced& displaced) {
+    Box box;
+    for (unsigned part = 0; part < displaced.body->parts(); ++part)
+        box.add(displaced.body->boxOf(part));
+    return box;
+}
+
 Box boxOf(const Waves& waves) {
     Box box;
     const auto [low, high] = waves.basin->range();
@@ -254,8 +261,9 @@ std::optional<Intersection> intersect(const FieldBlock& block, const WorldRay& w
     return Intersection{distance * block.placement.scale, block.placement.directionInWorld(hit->normal)};
 }
 
-/// Triangles are met one by one.
+/// Triangles and displaced triangles are met one by one.
 std::optional<Intersection> intersect(const Triangles&, const WorldRay&, Stretch) { return {}; }
+std::optional<Intersection> intersect(const Displaced&, const WorldRay&, Stretch) { return {}; }
 
 /// Whether a ray meets the block from its surface to its bottom. Field knows no bottom: what enters below it
 /// is in the way only when it climbs into the block afterwards. A ray that leaves this block's own surface (a
@@ -280,6 +288,16 @@ Box boxOf(const Shape& shape) {
     return std::visit([](const auto& known) { return boxOf(known); }, shape);
 }
 
+unsigned partsOf(const Shape& shape) {
+    const auto* displaced = std::get_if<Displaced>(&shape);
+    return displaced ? displaced->body->parts() : 1;
+}
+
+Box boxOf(const Shape& shape, unsigned part) {
+    const auto* displaced = std::get_if<Displaced>(&shape);
+    return displaced ? displaced->body->boxOf(part) : boxOf(shape);
+}
+
 Stretch within(const Box& box, const WorldRay& ray) {
     Stretch stretch{ray.begin, ray.length};
     for (int axis = 0; axis < 3; ++axis) {
@@ -294,11 +312,15 @@ Stretch within(const Box& box, const WorldRay& ray) {
     return stretch;
 }
 
-std::optional<Intersection> intersect(const Shape& shape, const WorldRay& ray, Stretch stretch) {
+std::optional<Intersection> intersect(const Shape& shape, unsigned part, const WorldRay& ray,
+                                      Stretch stretch) {
+    if (const auto* displaced = std::get_if<Displaced>(&shape))
+        return displaced->body->firstHit(part, ray, stretch);
     return std::visit([&](const auto& known) { return intersect(known, ray, stretch); }, shape);
 }
 
-bool blocks(const Shape& shape, const WorldRay& ray, Stretch stretch) {
+bool blocks(const Shape& shape, unsigned part, const WorldRay& ray, Stretch stretch) {
+    if (std::holds_alternative<Displaced>(shape)) return intersect(shape, part, ray, stretch).has_value();
     return std::visit([&](const auto& known) { return blocks(known, ray, stretch); }, shape);
 }
 

@@ -175,7 +175,8 @@ bool contains(const Triangles& triangles, const dvec3& place) {
         sum += solidAngle(corner(i), corner(i + 1), corner(i + 2));
     return sum > kTwoPi;
 }
-bool contains(const FieldBlock&, const dvec3&) { return false; }
+bool contains(const FieldBlock&, const dvec3&) { return false; } // never clear
+bool contains(const Displaced&, const dvec3&) { return false; }
 } // namespace
 
 void Media::enter(int object) {
@@ -200,6 +201,7 @@ double iorOf(const scene::Clear& material, int channel) {
 Shape surfaceOf(const scene::Object& object, double time) {
     const Placement placement(object.transform);
     const bool waved = object.wave.amplitude != vec3(0);
+    if (object.displacement) return inWorld(trianglesOf(*scene::meshOf(object)), placement);
     if (const auto* water = std::get_if<scene::Water>(&object.shape)) return waterOf(*water, placement, time);
     if (const auto* sphere = std::get_if<scene::Sphere>(&object.shape); sphere && !waved)
         return Sphere{placement.translate, double(sphere->radius) * placement.scale};
@@ -224,6 +226,8 @@ Result<Optics> Optics::create(const scene::Scene& scene) {
         if (object.isField())
             shapes.push_back(
                 FieldBlock{std::make_shared<Field>(object.field()), Placement(object.transform)});
+        else if (object.isDisplaced())
+            shapes.push_back(Displaced{std::make_shared<DisplacedBody>(object)});
         else
             shapes.push_back(surfaceOf(object, double(scene.view.time)));
     }

@@ -4,12 +4,13 @@
 /// Embree (3.13) finds the candidates where there is one, a tree of boxes elsewhere. Embree's numbers are
 /// floats. Every hit is therefore solved again in double precision: height fields by their exact cut, spheres
 /// and tori in closed form, ripples between the places where they turn, water cell by cell of its grid,
-/// triangles by their plane. Rays start where they enter the scene's box, so that a distant eye or lamp costs
+/// displaced surfaces above each of their triangles, triangles by their plane. Rays start where they enter the scene's box, so that a distant eye or lamp costs
 /// no digits, and Embree's begin a little earlier, so that it misses no layer close by.
 
 #include "base/Math.h"
 #include "base/Result.h"
 #include "truth/Basin.h"
+#include "truth/Displaced.h"
 #include "truth/Field.h"
 #include "truth/Sight.h"
 
@@ -63,8 +64,13 @@ struct Waves {
     std::shared_ptr<const Basin> basin;
 };
 
+/// A surface that heights lift along its normals.
+struct Displaced {
+    std::shared_ptr<const DisplacedBody> body;
+};
+
 /// A shape's number is its place in the list that the scene was made of.
-using Shape = std::variant<Triangles, FieldBlock, Sphere, Torus, Ripple, Waves>;
+using Shape = std::variant<Triangles, FieldBlock, Sphere, Torus, Ripple, Waves, Displaced>;
 
 /// A ray in world space.
 struct WorldRay {
