@@ -1,5 +1,6 @@
 #include "views/Drawable.h"
 
+#include "views/Displaced.h"
 #include "views/Fields.h"
 #include "views/Meshes.h"
 
@@ -9,8 +10,9 @@ Result<Drawables> drawablesOf(const scene::Scene& scene, ImageCache& images, con
     Drawables list;
     for (int i = 0; i < int(scene.objects.size()); ++i) {
         const scene::Object& object = scene.objects[std::size_t(i)];
-        Result<Drawable::Ptr> one = object.isField() ? DrawnField::create(object, i, images)
-                                                     : DrawnMesh::create(object, i, images, waters);
+        Result<Drawable::Ptr> one = object.isField()       ? DrawnField::create(object, i, images)
+                                    : object.isDisplaced() ? DrawnDisplaced::create(object, i, images)
+                                                           : DrawnMesh::create(object, i, images, waters);
         if (!one) return one.error();
         list.push_back(std::move(*one));
     }

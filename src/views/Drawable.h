@@ -17,6 +17,7 @@ namespace lucent::views {
 
 class ImageCache;
 class Waters;
+struct DrawnDisplaced;
 struct DrawnField;
 struct DrawnMesh;
 struct KeptTriangles;
@@ -49,6 +50,7 @@ struct Drawable {
     /// For who shades one kind of things alone; null: it is another.
     virtual const DrawnField* field() const { return nullptr; }
     virtual const DrawnMesh* mesh() const { return nullptr; }
+    virtual const DrawnDisplaced* displaced() const { return nullptr; }
 
     /// The same as it stands at `time` [s].
     ///
@@ -61,6 +63,8 @@ struct Drawable {
     /// @param defines  switches of the view's shaders
     virtual Drawing drawing(gl::Context& context, graph::PassBuilder& pass, ViewKind kind, int number,
                             std::vector<std::string> defines) const = 0;
+    /// Whether views show where rays leave it: what rays are cast at themselves shows only where they come in.
+    virtual bool hasBack() const { return true; }
     /// Whether it draws only the nearest of its points on a ray: alone it needs no depth test.
     virtual bool drawsNearest() const { return false; }
     /// Draws a quantity of its pixels of a surface image (a switch of views/geometry.frag), where these do

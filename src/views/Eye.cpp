@@ -1,5 +1,6 @@
 #include "views/Eye.h"
 
+#include "scene/Displacement.h"
 #include "views/FieldTextures.h"
 #include "views/Meshes.h"
 #include "views/Water.h"
@@ -34,9 +35,24 @@ Bounds waterBounds(const scene::Water& water) {
     return bounds;
 }
 
+Bounds displacedBounds(const scene::Object& object) {
+    const auto base = scene::baseOf(object);
+    const float reach = base->reach(*object.displacement);
+    Bounds bounds;
+    for (const scene::DisplacedTriangle& triangle : base->triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            bounds.add(triangle.places[i]);
+            bounds.add(triangle.places[i] + reach * triangle.directions[i]);
+        }
+    return bounds;
+}
+
 Bounds localBounds(const scene::Object& object) {
     if (object.isField()) return fieldBounds(object.field(), object.kept);
     if (const auto* water = std::get_if<scene::Water>(&object.shape)) return waterBounds(*water);
+    if (object.isDisplaced())
+        return object.kept.of<Bounds>(std::pair(scene::baseOf(object), object.displacement->scale),
+                                      [&] { return displacedBounds(object); });
     const std::shared_ptr<const scene::Mesh> mesh = meshOf(object);
     Bounds bounds = object.kept.of<Bounds>(mesh, [&] { return meshBounds(*mesh); });
     bounds.low -= glm::abs(object.wave.amplitude);

@@ -151,6 +151,7 @@ void ImageCache::forEachCache(Self& self, const Each& each) {
     each(self.fields_);
     each(self.images_);
     each(self.meshes_);
+    each(self.prisms_);
     each(self.paints_);
     each(self.places_);
     each(self.textures_);
@@ -184,6 +185,22 @@ Result<const MeshTextures*> ImageCache::mesh(const std::shared_ptr<const scene::
         entry.source = mesh;
     }
     if (refractive) entry.value->addTriangles(context_);
+    entry.used = true;
+    return entry.value.get();
+}
+
+Result<const Prisms*> ImageCache::prisms(const std::shared_ptr<const scene::DisplacedBase>& base) {
+    auto& entry = prisms_[base.get()];
+    if (!entry.value) {
+        const ivec2 size = Prisms::sizeFor(base->triangles.size());
+        if (const int most = context_.caps().maxTextureSize; std::max(size.x, size.y) > most)
+            return Error{"displacement of " + std::to_string(base->triangles.size()) +
+                             " triangles: too many for this GPU; must be at most " +
+                             std::to_string(base->triangles.size() / std::size_t(size.y) * std::size_t(most)),
+                         Fault::Machine};
+        entry.value = std::make_unique<Prisms>(context_.device(), *base);
+        entry.source = base;
+    }
     entry.used = true;
     return entry.value.get();
 }

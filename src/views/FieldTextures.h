@@ -6,6 +6,7 @@
 #include "scene/Scene.h"
 #include "shaders/views/Blocks.h"
 #include "views/Meshes.h"
+#include "views/Prisms.h"
 
 #include <cstdint>
 #include <map>
@@ -57,6 +58,8 @@ public:
     ///
     /// @param refractive  whether its triangles are needed
     Result<const MeshTextures*> mesh(const std::shared_ptr<const scene::Mesh>& mesh, bool refractive);
+    /// Of displaced surfaces (Displaced.h). Error (Fault::Machine) where they have too many triangles.
+    Result<const Prisms*> prisms(const std::shared_ptr<const scene::DisplacedBase>& base);
     /// What a mesh that mesh() knows is drawn with, of whose images these are.
     Textured textured(const scene::Mesh& mesh, const scene::Textures& textures);
     /// A colour map or alpha: 1 channel becomes R32F, 3 become RGBA16F filtered.
@@ -84,6 +87,7 @@ private:
     std::map<const Image*, Entry<FieldTextures>> fields_;
     std::map<const Image*, Entry<graph::Texture>> images_;
     std::map<const scene::Mesh*, Entry<MeshTextures, scene::Mesh>> meshes_;
+    std::map<const scene::DisplacedBase*, Entry<Prisms, scene::DisplacedBase>> prisms_;
     std::map<const Image*, Entry<PaintMap>> paints_;
     std::map<const scene::Atlas*, Entry<graph::Texture, scene::Atlas>> places_;
     std::map<const scene::TextureImage*, Entry<graph::Texture, scene::TextureImage>> textures_;

@@ -24,6 +24,7 @@ struct DrawnField final : Drawable {
     }
     Drawing drawing(gl::Context& context, graph::PassBuilder&, ViewKind kind, int number,
                     std::vector<std::string> defines) const override;
+    bool hasBack() const override { return false; }
     bool drawsNearest() const override { return true; }
     std::optional<graph::Draw> geometry(gl::Context& context, const Eye& eye,
                                         const char* quantity) const override;

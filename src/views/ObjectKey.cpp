@@ -1,5 +1,6 @@
 #include "views/ObjectKey.h"
 
+#include "scene/Displacement.h"
 #include "views/Meshes.h"
 
 namespace lucent::views {
@@ -9,6 +10,10 @@ ObjectKey objectKey(const scene::Object& object, float time) {
     if (object.isField()) {
         const scene::HeightField& field = object.field();
         key.own = {.shape = field.heights, .mask = field.alpha, .field = {field.width, field.heightScale}};
+        return key;
+    }
+    if (object.isDisplaced()) {
+        key.own = {.shape = scene::baseOf(object), .mask = nullptr, .displacement = object.displacement};
         return key;
     }
     const std::shared_ptr<const scene::Mesh> mesh = scene::meshOf(object);

@@ -14,6 +14,7 @@ struct ObjectKey {
         vec2 field{0}; ///< of a height field: width and height scale
         bool isRefractive = false;
         scene::Wave wave{}; ///< where it acts
+        std::optional<scene::Displacement> displacement{}; ///< of what is displaced
         float time = 0;     ///< s, where the object moves by itself
         bool operator==(const Own&) const = default;
     };

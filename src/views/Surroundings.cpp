@@ -46,7 +46,7 @@ ParamText aroundText() {
 }
 
 bool isFlat(const scene::Object& object) {
-    return !sidesOf(object.shape).empty() && object.wave.amplitude == vec3(0);
+    return !sidesOf(object.shape).empty() && object.wave.amplitude == vec3(0) && !object.displacement;
 }
 
 Outlook outlookFrom(const scene::Scene& scene, int object) {
@@ -61,7 +61,8 @@ Outlook outlookFrom(const scene::Scene& scene, int object) {
 std::vector<Outlook> outlooksFromMirror(const scene::Scene& scene, int object) {
     const scene::Object& mirror = scene.objects[std::size_t(object)];
     std::vector<Outlook> outlooks{outlookFrom(scene, object)};
-    if (isFlat(mirror) || std::holds_alternative<scene::Sphere>(mirror.shape)) return outlooks;
+    const bool isBall = std::holds_alternative<scene::Sphere>(mirror.shape) && !mirror.displacement;
+    if (isFlat(mirror) || isBall) return outlooks; // shows nothing of itself
     Outlook itself{.name = mirror.name, .place = outlooks[0].place, .object = -2, .hidden = {}};
     for (int i = 0; i < int(scene.objects.size()); ++i)
         if (i != object) itself.hidden.push_back(i);

@@ -376,9 +376,9 @@ Status LightPasses::weighOnce(Sheet& sheet, bool sharpen) {
 Status LightPasses::recordBack() {
     graph_.addPass("caustics.back", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how thick what the light sees is, past which it may come");
-        std::vector<views::Drawing> drawings = // fields have no back
-            drawingsOf(context_, pass, filtered(receivers_, std::not_fn(&views::Drawable::field)),
-                       views::ViewKind::Shadow, {"BEHIND", "BACK"});
+        std::vector<views::Drawing> drawings =
+            drawingsOf(context_, pass, filtered(receivers_, &views::Drawable::hasBack), views::ViewKind::Shadow,
+                       {"BEHIND", "BACK"});
         pass.sample(depths_);
         const ivec2 size = light_.receivers.imageSize();
         back_ = pass.createColor("caustics.back", {.size = size, .format = Format::R32F});
