@@ -1,7 +1,7 @@
 # The techniques that are built in: a folder of src/techniques and a name in this list, in the order in which the frame
 # calls them. Others can be left out: cmake -DLUCENT_TECHNIQUES=relief
 if(NOT LUCENT_TECHNIQUES) # kept in no cache: a folder that was configured before has new ones too
-  set(LUCENT_TECHNIQUES relief brdf caustics subsurface throughput refract)
+  set(LUCENT_TECHNIQUES relief brdf displacement caustics subsurface throughput refract)
 endif()
 
 # lucent_list(LIBRARY HEADER TYPE FUNCTION CONSTANT NAME...): a library in which FUNCTION() answers with the CONSTANT of

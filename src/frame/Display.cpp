@@ -37,6 +37,7 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
         block.scale = vec4(1.0f / 16);
         break;
     case Aov::Lost:
+    case Aov::Misses:
     case Aov::LayerObject:
         break;
     case Aov::CausticMap: // in false colours, by doublings
