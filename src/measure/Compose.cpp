@@ -22,9 +22,9 @@ namespace {
 constexpr std::string_view kLamps[] = {"point", "spot", "distant", "area", "environment"};
 constexpr std::string_view kBetween[] = {"nothing",    "matt box",        "relief 2.5 %", "mirror",
                                          "glass ball", "absorbing glass", "marble ball",  "water"};
-constexpr std::string_view kReceivers[] = {"matt plane",          "matt mesh",        "textured mesh",
-                                           "relief 3 %",          "relief 0",         "marble slab",
-                                           "floor through glass", "floor in a mirror"};
+constexpr std::string_view kReceivers[] = {"matt plane",     "matt mesh",           "textured mesh",
+                                           "displaced mesh", "relief 3 %",          "relief 0",
+                                           "marble slab",    "floor through glass", "floor in a mirror"};
 constexpr int kSize = 64;                 // pixels a side
 constexpr int kSamples = 512;             // of the truth, a pixel
 constexpr int kSkySamples = 10240;        // where an environment shines: noise of a quarter of 1 %
@@ -172,10 +172,24 @@ void makeTextured(scene::Object& object) {
     object.material.kind = scene::Glossy{.metallic = 1, .roughness = 0.95f, .ior = 2};
 }
 
+// A ring with hills that go on from tile to tile.
+void displace(scene::Object& object) {
+    object.shape = scene::Torus{0.35f, 0.12f};
+    auto heights = std::make_shared<Image>(64, 64, 1);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const vec2 angle = 2 * std::numbers::pi_v<float> / 64 * (vec2(x, y) + 0.5f);
+            *heights->at(x, y) = 0.5f + 0.4f * std::sin(angle.x) * std::cos(angle.y);
+        }
+    object.displacement =
+        scene::Displacement{.scale = 0.06f, .repeat = {8, 3}, .heights = std::move(heights)};
+}
+
 void addReceiver(scene::Scene& scene, std::string_view receiver) {
     scene::Object object = objectOf("receiver", scene::Plane{{2, 2}});
     if (receiver == "matt mesh") object.shape = scene::Torus{0.35f, 0.15f};
     if (receiver == "textured mesh") makeTextured(object);
+    if (receiver == "displaced mesh") displace(object);
     if (receiver == "relief 3 %") object = reliefOf("receiver", 1.3f, 0.08f, 0.039f);
     if (receiver == "relief 0") object = reliefOf("receiver", 1.3f, 0.08f, 1e-6f);
     if (receiver == "marble slab") {
