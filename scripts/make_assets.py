@@ -27,6 +27,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts/assets"))
 
 import cast_glass
+import cobbles
 import coin
 import dragon
 import flame
@@ -57,7 +58,7 @@ SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-back
           "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff", "glass-dragon",
           "glass-sphere", "glass-relief", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave",
           "prism", "skin", "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup", "makeup",
-          "checkerboards", "projector", "brdf-models", "brushed", "vase"]
+          "checkerboards", "projector", "brdf-models", "brushed", "vase", "cobbles"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
 RENDERING = ["shaders", "src/scene", "src/views", "src/light", "src/diffusion", "src/technique", "src/techniques",
@@ -129,6 +130,7 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(flame.flame, [], [GALLERY / "flame.glb"], [Path(meshes.__file__)])
     stamps.make(head.head, [], [GALLERY / "head.glb"], [Path(meshes.__file__)])
     stamps.make(vase.vase, [], [GALLERY / "vase.glb"], [Path(meshes.__file__)])
+    stamps.make(cobbles.height_map, [], [GALLERY / "cobbles.png"])
     stamps.make(projected.checkerboard, [], [GALLERY / "checkerboard.png"])
     stamps.make(reflectance.brushed, [], [GALLERY / "brushed.hdr"])
     stamps.make(strokes.checkerboard, [], [GALLERY / "checkerboard-strokes.json"])

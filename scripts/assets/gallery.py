@@ -139,7 +139,9 @@ def kind_of(scene: dict) -> str:
         return "Subsurface"
     if any(material.get("transmission") for material in materials):
         return "Refraction"
-    return "Reflectance" if is_glossy(scene) else "Relief"
+    if any("displacement" in thing for thing in scene["objects"]):
+        return "Displacement"
+    return "BRDF" if is_glossy(scene) else "Relief"
 
 
 def index_of(scenes: list[Path]) -> str:
