@@ -18,8 +18,7 @@ constexpr std::string_view kCameraNames[] = {"orthographic", "perspective"};
 constexpr std::string_view kAovNames[] = {
     "color",       "d",         "visibility", "normal", "depth",       "position",     "iterations",
     "irradiance",  "direction", "layers",     "lost",   "layer-depth", "layer-normal", "layer-object",
-    "caustic-map", "radiosity",
-    "misses"};
+    "caustic-map", "radiosity", "misses"};
 
 } // namespace
 
