@@ -32,8 +32,8 @@ uniform sampler2D uFirst;
 #endif
 const float kSame = 1e-5; // of a depth: what rounding may part
 const float kStraight = 1.0 / 16384.0; // of the heights: a stretch that bends no more is straight
-const float kStraightTexels = 1.0 / 1024.0;
-const int kMostStretches = 32;
+const float kStraightTexels = 1.0 / 4096.0;
+const int kMostStretches = 64;
 
 vec3 onMap(Prism prism, vec3 q) {
     return vec3(coordinateAt(prism, q.xy) * (displaced.field.texels - 2.0), q.z);

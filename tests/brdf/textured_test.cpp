@@ -3,6 +3,7 @@
 #include "scene/Mesh.h"
 #include "technique/Technique.h"
 #include "tests/support/Gl.h"
+#include "tests/support/Misplaced.h"
 #include "truth/Glass.h"
 
 #include <gtest/gtest.h>
@@ -95,29 +96,7 @@ struct TexturedTest : support::GlTest {
         const float* value = image.at(pixel.x, pixel.y);
         return {value[0], value[1], value[2]};
     }
-    // Summed differences over the sum of what is exact, 3x3 pixels at a time.
-    double misplaced(int samples) {
-        const Image found = picture();
-        const auto exact =
-            truth::GlassEstimator::create(scene, scene.size, scene::Aov::Color, {.samples = samples});
-        double apart = 0, sum = 0;
-        for (int y = 0; y + 3 <= scene.size.y; y += 3)
-            for (int x = 0; x + 3 <= scene.size.x; x += 3) {
-                dvec3 cell(0), light(0);
-                for (int i = 0; i < 9; ++i) {
-                    const float* pixel = found.at(x + i % 3, y + i / 3);
-                    const truth::Pixel solved = exact->solve({x + i % 3, y + i / 3});
-                    if (solved.coverage == 0) continue;
-                    cell += dvec3(pixel[0], pixel[1], pixel[2]) - solved.value;
-                    light += solved.value;
-                }
-                for (int c = 0; c < 3; ++c) {
-                    apart += std::abs(cell[c]);
-                    sum += light[c];
-                }
-            }
-        return apart / sum;
-    }
+    double misplaced(int samples) { return support::misplaced(scene, picture(), samples); }
 };
 
 TEST_F(TexturedTest, ColoursMultiplyTheMaterialInLinearLight) {
