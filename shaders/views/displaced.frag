@@ -39,12 +39,15 @@ vec3 onMap(Prism prism, vec3 q) {
     return vec3(coordinateAt(prism, q.xy) * (displaced.field.texels - 2.0), q.z);
 }
 
-// Of the surface where the map says z and slope [m a texel], outward.
+// Of the surface where the map says z and slope [m a texel], outward. The base leans as its normals between corners do:
+// its triangles would show.
 vec3 displacedNormal(Prism prism, vec3 q, vec2 slope) {
     vec2 texels = displaced.field.texels - 2.0;
     vec3 up = directionAt(prism, q.xy);
     vec3 along1 = prism.place[1] - prism.place[0] + q.z * (prism.direction[1] - prism.direction[0]);
     vec3 along2 = prism.place[2] - prism.place[0] + q.z * (prism.direction[2] - prism.direction[0]);
+    along1 -= dot(along1, up) / dot(up, up) * up;
+    along2 -= dot(along2, up) / dot(up, up) * up;
     along1 += dot(slope, (prism.coordinate[1] - prism.coordinate[0]) * texels) * up;
     along2 += dot(slope, (prism.coordinate[2] - prism.coordinate[0]) * texels) * up;
     return normalize(cross(along1, along2));

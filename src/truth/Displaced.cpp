@@ -210,14 +210,17 @@ dvec2 DisplacedBody::smoothSlopeAt(const dvec2& texel) const {
     return 0.5 * scale_ * glm::mix(upper, lower, f.y);
 }
 
-dvec3 DisplacedBody::normalAt(const Triangle& triangle, const Place& place, const dvec2& slope) const {
+dvec3 DisplacedBody::normalAt(const Triangle& triangle, const Place& place, const dvec2& slope,
+                              bool isSmooth) const {
     dvec3 up(0);
     for (std::size_t i = 0; i < 3; ++i)
         up += place.weights[int(i)] * triangle.directions[i];
+    const dvec3 unit = glm::normalize(up);
     const auto along = [&](std::size_t corner) {
-        return triangle.places[corner] - triangle.places[0] +
-               place.height * (triangle.directions[corner] - triangle.directions[0]) +
-               glm::dot(slope, triangle.coordinates[corner] - triangle.coordinates[0]) * up;
+        const dvec3 level = triangle.places[corner] - triangle.places[0] +
+                            place.height * (triangle.directions[corner] - triangle.directions[0]);
+        const double rise = glm::dot(slope, triangle.coordinates[corner] - triangle.coordinates[0]);
+        return (isSmooth ? level - glm::dot(level, unit) * unit : level) + rise * up;
     };
     return glm::normalize(glm::cross(along(1), along(2)));
 }
@@ -247,8 +250,8 @@ std::optional<Intersection> DisplacedBody::firstHit(unsigned part, const WorldRa
 
     const auto surfaceAt = [&](double at, const Place& place) {
         const dvec2 texel = texelOf(place);
-        return hitAt(at, normalAt(triangle, place, slopeAt(texel)),
-                     normalAt(triangle, place, smoothSlopeAt(texel)));
+        return hitAt(at, normalAt(triangle, place, slopeAt(texel), false),
+                     normalAt(triangle, place, smoothSlopeAt(texel), true));
     };
     Place here = ray.placeAt(from, {dvec3(1.0 / 3), 0});
     double height = above(here);

@@ -38,8 +38,9 @@ struct Intersection {
 };
 
 /// What scene/Displacement.h defines, in the world. Between texels heights are bilinear; smooth normals
-/// follow their central differences, which are bilinear too. Where a triangle has no neighbour the solid ends
-/// in a wall, and in a floor where the base is open.
+/// follow their central differences, which are bilinear too, over a base that leans as its normals between
+/// corners do. Where a triangle has no neighbour the solid ends in a wall, and in a floor where the base is
+/// open.
 class DisplacedBody {
 public:
     /// @param object  displaced
@@ -70,7 +71,8 @@ private:
     dvec2 slopeAt(const dvec2& texel) const;       ///< of the bilinear surface, m a texel
     dvec2 smoothSlopeAt(const dvec2& texel) const; ///< of central differences
     double stored(int x, int y) const;
-    dvec3 normalAt(const Triangle& triangle, const Place& place, const dvec2& slope) const;
+    /// @param isSmooth  whether the base leans as its directions do, not as its triangle
+    dvec3 normalAt(const Triangle& triangle, const Place& place, const dvec2& slope, bool isSmooth) const;
 
     std::vector<Triangle> triangles_;
     std::shared_ptr<const Image> heights_;

@@ -75,7 +75,7 @@ const technique::Technique kTechnique{
     .need = need,
     .aovs = kAovs,
     .limits = kLimits,
-    .mode = technique::Mode{.name = "displacement", .place = 5, .first = kFirst},
+    .mode = technique::Mode{.name = "displacement", .place = 5, .first = kFirst, .leads = any<isShown>},
     .make = [](const technique::Store& store) -> std::unique_ptr<technique::Guest> {
         return std::make_unique<DisplacementGuest>(store);
     },
