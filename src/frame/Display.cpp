@@ -21,6 +21,7 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
     case Aov::Color:
     case Aov::Irradiance:
     case Aov::Radiosity:
+    case Aov::Atlas:
         block.scale = vec4(std::exp2(scene.view.exposure));
         block.encode = 1;
         break;

@@ -356,8 +356,13 @@ void Canvas::fill(const Stroke::Fill& fill) {
     const auto isIn = [&](const vec3& p) {
         return glm::all(glm::greaterThanEqual(p, fill.low)) && glm::all(glm::lessThanEqual(p, fill.high));
     };
-    for (const PaintSurface::Texel& texel : surface_->texels())
-        if (isIn(texel.place) || (brush_.symmetric && isIn(texel.place * kMirror))) cover(texel.number, 1);
+    const auto cover = [&](std::uint32_t texel, const vec3& p) {
+        if (isIn(p)) this->cover(texel, fill.veins > 0 ? veinAt(p * (scale_ / fill.veins)) : 1);
+    };
+    for (const PaintSurface::Texel& texel : surface_->texels()) {
+        cover(texel.number, texel.place);
+        if (brush_.symmetric) cover(texel.number, texel.place * kMirror);
+    }
 }
 
 // What a texel becomes depends on its largest coverage alone.

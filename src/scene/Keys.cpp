@@ -117,7 +117,8 @@ constexpr Key kStroke[] = {
     {"dabs", KeyType::Content,
      "Touches of the brush, [x, y, z, normal x, y, z, pressure] each, in the object's space at rest."},
     {"fill", KeyType::Content,
-     "Instead of dabs: all between low and high, whose numbers may be null for no bound."},
+     "Instead of dabs: all between low and high, whose numbers may be null for no bound; with veins, in m "
+     "from one to the next, along veins of marble."},
 };
 
 } // namespace

@@ -339,7 +339,8 @@ const ParamTable& translucentParams() {
                  .label = "Precomputed",
                  .group = Group::Material,
                  .doc = "What leaves of light is worked out once for the body, which must keep its shape and "
-                        "be unpainted: each picture then takes less, of light from anywhere."}),
+                        "have no paint but on what leaves: each picture then takes less, of light from "
+                        "anywhere."}),
     };
     static const ParamTable table = tableOf<Translucent>("material", params);
     return table;

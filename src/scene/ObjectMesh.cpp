@@ -17,6 +17,10 @@ constexpr int kWavedCells = 128; // along an edge that a wave bends
 // needs those.
 constexpr int kClearSphere = 160, kClearTorus = 240;
 
+// Where what light does inside is worked out once, the work grows with the square of the vertices, and
+// between them light from far inside is linear: once around, and along an edge.
+constexpr int kBakedSphere = 120, kBakedTorus = 160, kBakedCells = 24;
+
 bool isWaved(const Object& object) { return object.wave.amplitude != vec3(0); }
 
 bool isClear(const Object& object) { return object.material.isRefractive() && !isWaved(object); }
@@ -40,8 +44,18 @@ Mesh clearMesh(const Torus& torus) {
     return meshOf(Torus{torus.major * outside(around), torus.minor * outside(across)}, kClearTorus);
 }
 
+Mesh bakedMesh(const Shape& shape) {
+    if (const auto* plane = std::get_if<Plane>(&shape)) return meshOf(*plane, kBakedCells);
+    if (const auto* box = std::get_if<Box>(&shape)) return meshOf(*box, kBakedCells);
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return meshOf(*sphere, kBakedSphere);
+    if (const auto* torus = std::get_if<Torus>(&shape)) return meshOf(*torus, kBakedTorus);
+    if (const auto* field = std::get_if<HeightField>(&shape)) return meshOf(*field);
+    return meshOf(std::get<Cylinder>(shape), kBakedSphere);
+}
+
 Mesh generated(const Object& object) {
     const Shape& shape = object.shape;
+    if (isPrecomputed(object)) return bakedMesh(shape);
     const int cells = isWaved(object) ? kWavedCells : 1;
     if (const auto* plane = std::get_if<Plane>(&shape)) return meshOf(*plane, cells);
     if (const auto* box = std::get_if<Box>(&shape)) return meshOf(*box, cells);
@@ -83,7 +97,7 @@ Mesh flattened(const Mesh& mesh) {
 // What a mesh of an object depends on.
 struct Source {
     Shape shape;
-    bool isWaved, isClear;
+    bool isWaved, isClear, isPrecomputed;
     std::optional<Displacement> displacement;
     bool operator==(const Source&) const = default;
 };
@@ -94,7 +108,8 @@ std::shared_ptr<const Mesh> meshOf(const Object& object) {
     const auto* file = std::get_if<MeshShape>(&object.shape);
     if (file && !file->flatNormals && !object.displacement) return file->mesh;
     return object.kept.of<std::shared_ptr<const Mesh>>(
-        Source{object.shape, isWaved(object), isClear(object), object.displacement}, [&] {
+        Source{object.shape, isWaved(object), isClear(object), isPrecomputed(object), object.displacement},
+        [&] {
             if (object.displacement) return std::make_shared<const Mesh>(displacedMesh(object));
             return std::make_shared<const Mesh>(file ? flattened(*file->mesh) : generated(object));
         });

@@ -3,7 +3,9 @@
 #include "base/Text.h"
 #include "scene/Canvas.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace lucent::scene {
 namespace {
@@ -54,11 +56,54 @@ Result<std::shared_ptr<const Image>> decodeLeaving(std::span<const std::byte> by
     return decodeMap(bytes, name, kTranslucency);
 }
 
+namespace {
+
+// In [0,1), of the corner of a lattice.
+float valueAt(glm::ivec3 corner) {
+    std::uint32_t n = std::uint32_t(corner.x) * 0x8da6b343u ^ std::uint32_t(corner.y) * 0xd8163841u ^
+                      std::uint32_t(corner.z) * 0xcb1ab31fu;
+    n = (n ^ n >> 15) * 0x2c1b3c6du;
+    n = (n ^ n >> 12) * 0x297a2d39u;
+    return float((n ^ n >> 15) >> 8) / float(1 << 24);
+}
+
+// Smooth between corners, in [-1,1].
+float noiseAt(vec3 place) {
+    const vec3 corner = glm::floor(place), part = place - corner;
+    const vec3 share = part * part * (3.0f - 2.0f * part);
+    float sum = 0;
+    for (int i = 0; i < 8; ++i) {
+        const glm::ivec3 step(i & 1, i >> 1 & 1, i >> 2);
+        const vec3 weight = glm::mix(1.0f - share, share, vec3(step));
+        sum += weight.x * weight.y * weight.z * valueAt(glm::ivec3(corner) + step);
+    }
+    return 2 * sum - 1;
+}
+
+} // namespace
+
+float veinAt(vec3 place) {
+    constexpr int kOctaves = 5;
+    constexpr float kBend = 0.8f; // of the first octave, in units
+    float bent = place.x, size = kBend;
+    for (int i = 0; i < kOctaves; ++i, size /= 2)
+        bent += size * noiseAt(place * (kBend / size) + vec3(float(17 * i)));
+    const float away = 2 * std::abs(bent - std::floor(bent + 0.5f)); // from the nearest sheet, [0,1]
+    const float near = 1 - away, third = near * near * near;
+    return third * third;
+}
+
+bool Painting::isOnTop() const {
+    return enteringFile.empty() && leavingFile.empty() &&
+           std::all_of(strokes.begin(), strokes.end(),
+                       [](const Stroke& stroke) { return stroke.brush.map == PaintMap::Outgoing; });
+}
+
 float startOf(std::span<const Stroke> strokes) {
     if (strokes.empty() || !strokes.front().fill) return kUnpainted.a;
     const Brush& brush = strokes.front().brush;
     const Stroke::Fill& fill = *strokes.front().fill;
-    const bool whole = glm::all(glm::isinf(fill.low)) && glm::all(glm::isinf(fill.high));
+    const bool whole = glm::all(glm::isinf(fill.low)) && glm::all(glm::isinf(fill.high)) && fill.veins == 0;
     const bool starts = whole && !brush.erase && brush.map == PaintMap::Translucency && brush.strength == 1;
     return starts ? brush.value.x : kUnpainted.a;
 }

@@ -48,7 +48,9 @@ struct Stroke {
     Brush brush;
     std::vector<Dab> dabs;
     struct Fill {
-        vec3 low, high; ///< object's space
+        vec3 low, high;  ///< object's space
+        float veins = 0; ///< m in the world from one to the next: where the brush is as strong as veinAt()
+                         ///< says; 0: it is so everywhere
     };
     std::optional<Fill> fill;
 };
@@ -69,7 +71,13 @@ struct Painting {
     float scale = 1;             ///< of the object when they were painted
 
     int side() const { return entering->width; }
+    /// Whether all of it lies on top: it changes what leaves and nothing of what enters.
+    bool isOnTop() const;
 };
+
+/// Veins of marble at a place, [0,1]: sheets across x, one unit apart and bent by noise (Perlin 1985), 1 in
+/// their middle and thin.
+float veinAt(vec3 place);
 
 /// What nobody painted changes nothing: the material as it is.
 inline constexpr vec4 kUnpainted{1};

@@ -6,6 +6,7 @@
 #include "scene/Keys.h"
 #include "scene/Memory.h"
 #include "scene/Mesh.h"
+#include "scene/Painting.h"
 #include "scene/Translucency.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ constexpr std::string_view kCameraNames[] = {"orthographic", "perspective"};
 constexpr std::string_view kAovNames[] = {
     "color",       "d",         "visibility", "normal", "depth",       "position",     "iterations",
     "irradiance",  "direction", "layers",     "lost",   "layer-depth", "layer-normal", "layer-object",
-    "caustic-map", "radiosity", "misses"};
+    "caustic-map", "radiosity", "misses",     "atlas"};
 
 } // namespace
 
@@ -424,8 +425,8 @@ bool moves(const Object& object) {
 }
 
 bool isPrecomputed(const Object& object) {
-    return object.material.isScattering() && object.material.translucent().precomputed && !object.painting &&
-           !moves(object);
+    return object.material.isScattering() && object.material.translucent().precomputed &&
+           (!object.painting || object.painting->isOnTop()) && !moves(object);
 }
 
 namespace {

@@ -310,9 +310,9 @@ struct Object {
     Shape shape;
     Material material;
     Transform transform;
-    Wave wave;           ///< not for height fields, water and what is displaced
+    Wave wave;                                  ///< not for height fields, water and what is displaced
     std::optional<Displacement> displacement{}; ///< of planes, spheres, tori and meshes that stand still
-    bool visible = true; ///< false: hidden from the camera only
+    bool visible = true;                        ///< false: hidden from the camera only
     /// What an artist painted on it; null: nothing. Acts where the material scatters.
     std::shared_ptr<const Painting> painting;
     /// What was worked out of it beforehand, as the technique that wrote it reads it; null: nothing.
@@ -325,9 +325,7 @@ struct Object {
     bool isField() const { return std::holds_alternative<HeightField>(shape) && material.isRelief(); }
     /// Displaced and opaque: rays are cast through the space above its triangles. Of what light passes
     /// through, displaced triangles are drawn instead (Displacement.h).
-    bool isDisplaced() const {
-        return displacement && !material.isRefractive() && !material.isScattering();
-    }
+    bool isDisplaced() const { return displacement && !material.isRefractive() && !material.isScattering(); }
     /// The shape, which must be a height field.
     HeightField& field() { return std::get<HeightField>(shape); }
     const HeightField& field() const { return std::get<HeightField>(shape); }
@@ -428,7 +426,8 @@ enum class Aov : int {
     CausticMap,  ///< light that refractive objects and mirrors throw, as one point of a lamp sees it; 1: what
                  ///< it leaves there undisturbed
     Radiosity,   ///< W/m² that leave where light was scattered inside
-    Misses       ///< 1 where the ray cast of a displaced surface finds another place than the exact one
+    Misses,      ///< 1 where the ray cast of a displaced surface finds another place than the exact one
+    Atlas        ///< W/m², the charts of a precomputed object beside each other, over the whole picture
 };
 
 /// Whether it is one of several images, which View::layer chooses.
@@ -528,7 +527,7 @@ std::vector<BoundParam> bindParams(Scene& scene);
 bool moves(const Object& object);
 
 /// Whether what its body does with light is worked out once, as its material asks for: a body that keeps its
-/// shape, unpainted.
+/// shape, with no paint but on what leaves.
 bool isPrecomputed(const Object& object);
 
 /// What no single range can say: the camera looks somewhere, a direction has a length, a torus has a hole or

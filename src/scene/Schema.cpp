@@ -228,6 +228,7 @@ private:
             json_.key("type").beginArray().value("number").value("null").end().end();
             json_.key("minItems").value(3).key("maxItems").value(3).end();
         }
+        json_.key("veins").beginObject().key("type").value("number").key("exclusiveMinimum").value(0).end();
         json_.end().key("additionalProperties").value(false);
     }
 

@@ -18,6 +18,7 @@ constexpr Key kScript[] = {
 constexpr Key kFill[] = {
     {"low", KeyType::Content, "Lower corner of the box."},
     {"high", KeyType::Content, "Upper corner of the box."},
+    {"veins", KeyType::Content, "Of marble: metres from one to the next."},
 };
 
 bool isScalar(PaintMap map) { return map == PaintMap::Translucency || map == PaintMap::Blur; }
@@ -37,6 +38,12 @@ const Param& valueParam(PaintMap map) {
         &Value::three, {.id = "value", .label = "", .min = 0, .max = kMostPaint, .doc = "", .color = true});
     if (map == PaintMap::Translucency) return share;
     return map == PaintMap::Blur ? blur : color;
+}
+
+const Param& veinsParam() {
+    static const Param veins = declare(
+        &Stroke::Fill::veins, {.id = "veins", .label = "", .min = kAboveZero, .max = kLargest, .doc = ""});
+    return veins;
 }
 
 class StrokeReading : JsonReading {
@@ -125,7 +132,11 @@ private:
         static const KeySet keys{{}, kFill};
         constexpr float kEndless = std::numeric_limits<float>::infinity();
         return readKeys(place, keys, {}) && readCorner(place, "low", -kEndless, fill.low) &&
-               readCorner(place, "high", kEndless, fill.high);
+               readCorner(place, "high", kEndless, fill.high) && readVeins(place, fill.veins);
+    }
+    bool readVeins(const Place& place, float& veins) {
+        const Json* json = place.json.find("veins");
+        return !json || readParam(place.at(*json, "veins"), veinsParam(), &veins);
     }
     bool readCorner(const Place& place, std::string_view key, float endless, vec3& corner) {
         corner = vec3(endless);
@@ -179,6 +190,7 @@ void writeStroke(JsonWriter& json, const Stroke& stroke) {
         json.key("fill").beginObject();
         writeCorner(json, "low", stroke.fill->low);
         writeCorner(json, "high", stroke.fill->high);
+        if (stroke.fill->veins > 0) json.key("veins").value(stroke.fill->veins);
         json.end();
     } else {
         json.key("dabs").beginArray();

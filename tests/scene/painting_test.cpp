@@ -6,9 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 
 namespace lucent::scene {
@@ -135,6 +137,52 @@ TEST(Canvas, ValuesBlendAsTheirMapsDo) {
     EXPECT_EQ(filled({.map = PaintMap::Translucency, .value = vec3(0)}).second[2], 0);
 }
 
+TEST(Canvas, AFillFollowsVeins) {
+    const Object object = ball();
+    const auto filled = [&](float veins) {
+        Canvas canvas = canvasOn(object, 128);
+        canvas.add(
+            {{.map = PaintMap::Outgoing, .value = vec3(0)}, {}, Stroke::Fill{vec3(-2), vec3(2), veins}});
+        std::vector<float> values;
+        for (const PaintSurface::Texel& texel : surfaceOf(object, 128)->texels())
+            values.push_back(canvas.leaving()->pixels[4 * texel.number]);
+        return values;
+    };
+    const std::vector<float> wide = filled(0.5f), fine = filled(0.1f);
+    for (const std::vector<float>& values : {wide, fine}) {
+        const auto [least, most] = std::minmax_element(values.begin(), values.end());
+        EXPECT_LT(*least, 0.1f); // in the middle of a vein
+        EXPECT_GT(*most, 0.99f); // between two
+        // Along a line across sheets the strength is the mean of (1 - x)^6 over [0,1], 1/7; noise bends
+        // sheets and changes no share of them by more than half.
+        const float mean = std::accumulate(values.begin(), values.end(), 0.0f) / float(values.size());
+        EXPECT_NEAR(1 - mean, 1.0f / 7, 0.07f);
+    }
+    EXPECT_NE(wide, fine);
+    EXPECT_EQ(filled(0), std::vector<float>(wide.size(), 0.0f));
+}
+
+TEST(Canvas, VeinsAreSmooth) {
+    // The steepest place: 12 of the sheet's own slope, times that of the noise that bends it, 1 + 5 octaves
+    // of 3.
+    for (int i = 0; i < 1000; ++i) {
+        const vec3 place(0.37f * float(i), 0.11f * float(i), -0.23f * float(i));
+        EXPECT_NEAR(veinAt(place), veinAt(place + vec3(1e-4f)), 12 * 16 * 2e-4f);
+    }
+}
+
+TEST(Painting, LiesOnTopWhereEveryStrokeDoes) {
+    Painting painting;
+    EXPECT_TRUE(painting.isOnTop());
+    painting.strokes = {{{.map = PaintMap::Outgoing}, {}, Stroke::Fill{vec3(-1), vec3(1), 0.1f}}};
+    EXPECT_TRUE(painting.isOnTop());
+    painting.strokes.push_back({{.map = PaintMap::Glow}, {}, {}});
+    EXPECT_FALSE(painting.isOnTop());
+    painting.strokes.clear();
+    painting.leavingFile = "leaving.png"; // whose alpha says how much goes inside
+    EXPECT_FALSE(painting.isOnTop());
+}
+
 TEST(Canvas, UndoAndRedoComeBackToTheBitWhateverRoomThereIs) {
     const Object object = ball();
     std::vector<Stroke> strokes;
@@ -147,7 +195,7 @@ TEST(Canvas, UndoAndRedoComeBackToTheBitWhateverRoomThereIs) {
                                .symmetric = i % 3 == 0},
                               {std::cos(float(i)), std::sin(float(i)), 0.3f}, {0, 1, -float(i) / 6}));
     strokes[5].dabs.clear();
-    strokes[5].fill = Stroke::Fill{vec3(0), vec3(1)};
+    strokes[5].fill = Stroke::Fill{vec3(0), vec3(1), 0.25f};
     for (const std::size_t budget : {std::size_t(0), std::size_t(300000), Canvas::kBudget}) {
         SCOPED_TRACE(std::to_string(budget) + " bytes");
         Canvas canvas = canvasOn(object, 100, budget);

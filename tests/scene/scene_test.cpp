@@ -296,7 +296,7 @@ TEST(Scene, AovNamesAreThoseOfTheCommandLine) {
     EXPECT_EQ(aovNames()[int(Aov::Layers)], "layers");
     EXPECT_EQ(aovNames()[int(Aov::Lost)], "lost");
     EXPECT_EQ(aovNames()[int(Aov::CausticMap)], "caustic-map");
-    EXPECT_EQ(aovNames().size(), std::size_t(Aov::Radiosity) + 1);
+    EXPECT_EQ(aovNames().size(), std::size_t(Aov::Atlas) + 1);
 }
 
 } // namespace
