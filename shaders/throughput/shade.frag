@@ -2,6 +2,8 @@
 //
 // in    uSurface  views/surface_pixel.glsl
 //       uSeen     [W/m²] throughput/seen.frag
+//       uPaint       PAINTED: what is painted on these pixels (views/paint.glsl, what leaves): the surface texture T_p
+//                    (2002 paper, eq. 13 and 14), by which what texels carry and what vertices carry count
 //       uMirrored    USE_LAMPS: throughput/mirror.frag
 //       uEnvironment USE_SKY: see views/environment.glsl
 // out   oColor.rgb linear Rec. 709, or with SHOW_RADIOSITY the radiosity; a: 1
@@ -9,6 +11,7 @@
 #pragma variants - SHOW_RADIOSITY
 #pragma variants - USE_LAMPS
 #pragma variants - USE_SKY
+#pragma variants - PAINTED
 #include "views/view.glsl"
 layout(std140) uniform ThroughputShadeBlock {
     View view;
@@ -23,6 +26,9 @@ layout(std140) uniform ThroughputShadeBlock {
 #include "lib/ggx.glsl"
 #include "views/surface_pixel.glsl"
 uniform sampler2D uSeen;
+#ifdef PAINTED
+uniform sampler2D uPaint;
+#endif
 #ifdef USE_LAMPS
 uniform sampler2D uMirrored;
 #endif
@@ -36,6 +42,9 @@ void main() {
     SurfacePixel pixel = readSurface();
     if (pixel.face != kMeshFace || pixel.object != shade.object) discard;
     vec3 radiosity = texelFetch(uSeen, ivec2(gl_FragCoord.xy), 0).rgb;
+#ifdef PAINTED
+    radiosity *= texelFetch(uPaint, ivec2(gl_FragCoord.xy), 0).rgb;
+#endif
 #ifdef SHOW_RADIOSITY
     oColor = vec4(radiosity, 1.0);
 #else

@@ -53,6 +53,8 @@ scene::Scene withDefaults(scene::Scene scene) {
         settings = std::move(fresh);
     }
     if (ofMiddles) views::samplingOf(scene).pixelSamples = 1;
+    for (scene::Object& object : scene.objects) // how it is drawn, not what it is
+        if (object.material.isScattering()) object.material.translucent().precomputed = false;
     return scene;
 }
 

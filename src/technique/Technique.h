@@ -33,6 +33,13 @@ struct Baker {
     bool (*takes)(const scene::Object&); ///< whether it bakes such an object
     /// The file, or why there is none.
     Result<std::vector<std::byte>> (*bake)(const Settings&, const scene::Object&, const BakeWork&);
+    /// What is to be worked out before the object is drawn, as text that tells it from other work; empty
+    /// where it is there.
+    std::string (*missing)(const Settings&, const scene::Object&);
+    /// Keeps what bake() made with the object and its copies. Error where it was made of something else.
+    Status (*take)(const Settings&, const scene::Object&, std::span<const std::byte> file);
+    /// Makes the object one that is drawn without.
+    void (*leaveOut)(scene::Object&);
 };
 
 /// A parameter that trades error for time: first looks turn it down, and quality.maxError chooses its value.

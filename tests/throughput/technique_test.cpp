@@ -3,6 +3,7 @@
 #include "frame/Renderer.h"
 #include "light/Samples.h"
 #include "scene/Mesh.h"
+#include "scene/Painting.h"
 #include "technique/Technique.h"
 #include "techniques/throughput/BakeFile.h"
 #include "techniques/throughput/Throughput.h"
@@ -11,6 +12,7 @@
 #include "truth/Dipole.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lucent::throughput {
@@ -87,8 +89,76 @@ TEST_F(Precomputed, WhatChangesItsShapeIsLeftToOthers) {
     EXPECT_TRUE(runs("subsurface.shade"));
     const std::vector<std::string> left = technique::notDrawn(scene);
     EXPECT_TRUE(std::any_of(left.begin(), left.end(), [](const std::string& line) {
-        return line.find("precomputed light of what moves or is painted") != std::string::npos;
+        return line.find("precomputed light of what moves or has paint where light enters") !=
+               std::string::npos;
     }));
+}
+
+// The surface texture of the paper's eq. 13 and 14: what texels and what vertices carry is multiplied by it
+// alike.
+TEST_F(Precomputed, PaintOnTopMultipliesWhatLeaves) {
+    const Image plain = picture();
+    const scene::Stroke half{{.map = scene::PaintMap::Outgoing, .value = {0.5f, 0.25f, 1}},
+                             {},
+                             scene::Stroke::Fill{vec3(-1, 0, -1), vec3(1)}};
+    const auto paint = [&](const scene::Stroke& stroke) {
+        const auto painted = scene::paint(scene.objects[0], std::array{stroke}, 256);
+        ASSERT_TRUE(painted.ok()) << painted.error().message;
+        scene.objects[0].painting = *painted;
+    };
+    paint(half);
+    EXPECT_TRUE(runs("throughput.shade"));
+    const Image painted = picture();
+    for (int y = 0; y < plain.height; ++y)
+        for (int x = 0; x < plain.width; ++x) {
+            if (std::abs(y - plain.height / 2) < 3) continue; // texels across the border
+            const bool isUpper = y < plain.height / 2;
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(painted.at(x, y)[c], plain.at(x, y)[c] * (isUpper ? half.brush.value[c] : 1),
+                            1e-5f * plain.at(x, y)[c] + 1e-9f);
+        }
+    EXPECT_EQ(picture(scene::Aov::Irradiance).pixels, [&] {
+        scene.objects[0].painting.reset();
+        return picture(scene::Aov::Irradiance).pixels;
+    }()) << "paint on top changes nothing of what arrives";
+    paint({{.map = scene::PaintMap::Translucency, .value = vec3(0.5f)}, {}, half.fill});
+    EXPECT_FALSE(runs("throughput.shade")) << "light enters elsewhere";
+    EXPECT_TRUE(runs("subsurface.shade"));
+}
+
+TEST_F(Precomputed, TheAtlasHoldsThePartsAndTheIlluminationMap) {
+    const Image whole = picture(scene::Aov::Atlas);
+    settings().part = Part::Local;
+    const Image local = picture(scene::Aov::Atlas);
+    settings().part = Part::Global;
+    const Image global = picture(scene::Aov::Atlas);
+    for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+        if (i % 4 != 3) {
+            EXPECT_NEAR(whole.pixels[i], local.pixels[i] + global.pixels[i], 1e-5f * whole.pixels[i] + 1e-9f);
+        }
+    settings().part = Part::Illumination;
+    // What enters is what arrives less what is reflected: 4 % of it straight on, all where it grazes.
+    const Image enters = picture(), arrives = picture(scene::Aov::Irradiance);
+    for (std::size_t i = 0; i < enters.pixels.size(); i += 4) {
+        EXPECT_LE(enters.pixels[i], 0.961f * arrives.pixels[i] + 1e-6f);
+        if (arrives.pixels[i] > 0.7f) {
+            EXPECT_GT(enters.pixels[i], 0.94f * arrives.pixels[i]);
+        }
+    }
+    // Under light of 1 W/m² no texel gets more than 1, and those that face it nearly as much; a sphere's
+    // texels show half of it lit.
+    const Image entering = picture(scene::Aov::Atlas);
+    float most = 0;
+    int lit = 0, shown = 0;
+    for (std::size_t i = 0; i < entering.pixels.size(); i += 4) {
+        most = std::max(most, entering.pixels[i]);
+        shown += entering.pixels[i + 3] > 0;
+        lit += entering.pixels[i] > 0;
+    }
+    EXPECT_LE(most, 0.961f);
+    EXPECT_GT(most, 0.9f);
+    EXPECT_GT(shown, entering.width * entering.height / 3);
+    EXPECT_NEAR(float(lit) / float(shown), 0.5f, 0.05f);
 }
 
 TEST_F(Precomputed, EvenLightLeavesAPatchAsAHalfSpaceByEachMethod) {

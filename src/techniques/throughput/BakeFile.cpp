@@ -223,6 +223,16 @@ BakeKey keyOf(const scene::Object& object, const BakeOptions& options, DipoleGeo
     return {fingerprint.value(), mediumOf(object, geometry), options};
 }
 
+std::string textOf(const BakeKey& key) {
+    Writer fields;
+    BakeKey copy = key;
+    keyFields(fields, copy);
+    const Bytes bytes = fields.take();
+    Fingerprint fingerprint;
+    fingerprint.add(bytes.data(), bytes.size());
+    return inHex(fingerprint.value());
+}
+
 Result<Bake> bake(const scene::Object& object, const BakeOptions& options, DipoleGeometry geometry,
                   const Work& work) {
     return bake(*scene::meshOf(object), object.transform.scale, mediumOf(object, geometry), options, work);

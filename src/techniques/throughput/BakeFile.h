@@ -18,6 +18,8 @@ struct BakeKey {
     bool operator==(const BakeKey&) const = default;
 };
 BakeKey keyOf(const scene::Object& object, const BakeOptions& options, DipoleGeometry geometry);
+/// Tells a key from others.
+std::string textOf(const BakeKey& key);
 
 /// Bakes the object's mesh as it is at rest.
 Result<Bake> bake(const scene::Object& object, const BakeOptions& options, DipoleGeometry geometry,

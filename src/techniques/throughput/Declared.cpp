@@ -9,7 +9,7 @@ constexpr std::string_view kLocals[] = {"live", "stored"};
 constexpr std::string_view kGlobals[] = {"dense", "sparse", "hierarchical"};
 constexpr std::string_view kBlends[] = {"fitted", "none"};
 constexpr std::string_view kFresnels[] = {"exact", "schlick"};
-constexpr std::string_view kParts[] = {"whole", "local", "global"};
+constexpr std::string_view kParts[] = {"whole", "local", "global", "illumination"};
 
 } // namespace
 
@@ -75,7 +75,8 @@ const ParamTable& params() {
         declare(&Settings::part, {.id = "part",
                                   .label = "Shown part",
                                   .group = Group::Subsurface,
-                                  .doc = "All that leaves, or of it what texels or what vertices carry.",
+                                  .doc = "All that leaves; of it what texels or what vertices carry; or the "
+                                         "illumination map, the light that enters.",
                                   .choices = kParts}),
     };
     static const ParamTable table = tableOf<Settings>("throughput", list, "Precomputed throughput");

@@ -48,7 +48,7 @@ public:
     }
     Status scatter(const technique::Passes& passes, TextureId shown) override {
         const technique::Picture& picture = passes.picture;
-        if (!showsLight(picture.scene)) return Done{};
+        if (!showsLight(picture.scene) || replaces(picture)) return Done{};
         return throughput_.record(passes.graph,
                                   {.scene = picture.scene,
                                    .eye = picture.eye,
@@ -58,13 +58,21 @@ public:
                                    .environment = picture.environment},
                                   baked(passes.posed), settingsOf(picture.scene));
     }
+    bool replaces(const technique::Picture& picture) const override {
+        return picture.scene.view.show == Aov::Atlas && need(picture.scene);
+    }
+    Status through(const technique::Passes& passes, TextureId, TextureId target) override {
+        throughput_.recordAtlases(passes.graph, passes.picture.size, target,
+                                  settingsOf(passes.picture.scene));
+        return Done{};
+    }
     std::map<std::string, std::size_t> bytes() const override { return throughput_.bytes(); }
     void clear() override { throughput_.clear(); }
 
 private:
     static bool showsLight(const scene::Scene& scene) {
         const Aov show = scene.view.show;
-        return show == Aov::Color || show == Aov::Radiosity || show == Aov::Irradiance;
+        return show == Aov::Color || show == Aov::Radiosity || show == Aov::Irradiance || show == Aov::Atlas;
     }
     static std::vector<views::DrawnMesh> baked(views::Drawables list) {
         return meshesOf(filtered(std::move(list),
@@ -82,13 +90,31 @@ Result<std::vector<std::byte>> bakeFile(const lucent::Settings& settings, const 
     return encodeBake(keyOf(object, options, DipoleGeometry::Planar), *made);
 }
 
+std::string missing(const lucent::Settings& settings, const scene::Object& object) {
+    const BakeOptions options = optionsOf(settings.as<Settings>());
+    if (isBaked(object, options)) return "";
+    return textOf(keyOf(object, options, DipoleGeometry::Planar));
+}
+
+Status take(const lucent::Settings& settings, const scene::Object& object, std::span<const std::byte> file) {
+    const BakeOptions options = optionsOf(settings.as<Settings>());
+    Result<Bake> made =
+        decodeBake(file, "objects." + object.name, keyOf(object, options, DipoleGeometry::Planar));
+    if (!made) return made.error();
+    keepBake(object, options, std::move(*made));
+    return Done{};
+}
+
+void leaveOut(scene::Object& object) { object.material.translucent().precomputed = false; }
+
 bool anyBaked(const scene::Scene& scene) { return need(scene).has_value(); }
 bool asks(const scene::Object& object) {
     return object.material.isScattering() && object.material.translucent().precomputed;
 }
-constexpr Aov kAovs[] = {Aov::Radiosity};
+constexpr Aov kAovs[] = {Aov::Radiosity, Aov::Atlas};
+constexpr Group kFirst[] = {Group::Mode, Group::Subsurface, Group::Light, Group::View};
 const technique::NotDrawn kLimits[] = {
-    {"precomputed light of what moves or is painted",
+    {"precomputed light of what moves or has paint where light enters",
      "its factors would change; it is drawn as if not precomputed",
      [](const scene::Scene& scene) {
          return std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
@@ -128,7 +154,10 @@ const technique::Technique kTechnique{
                std::string_view id) { return acts(settings.as<Settings>(), id); },
     .aovs = kAovs,
     .limits = kLimits,
-    .baker = technique::Baker{.takes = bakes, .bake = bakeFile},
+    .mode = technique::Mode{.name = "throughput", .place = 6, .first = kFirst, .leads = anyBaked},
+    .baker =
+        technique::Baker{
+            .takes = bakes, .bake = bakeFile, .missing = missing, .take = take, .leaveOut = leaveOut},
     .make = [](const technique::Store& store) -> std::unique_ptr<technique::Guest> {
         return std::make_unique<ThroughputGuest>(store);
     },

@@ -3,10 +3,12 @@
 #include "diffusion/Profile.h"
 #include "shaders/throughput/Blocks.h"
 #include "techniques/throughput/BakeFile.h"
+#include "views/Paint.h"
 
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace lucent::throughput {
@@ -82,9 +84,26 @@ std::optional<std::string> need(const scene::Scene& scene) {
     return std::nullopt;
 }
 
+namespace {
+
+using Made = std::shared_ptr<const Bake>;
+// By what it was made of, and the file that holds it.
+auto keptKey(const scene::Object& object, const BakeOptions& options) {
+    return std::pair(keyOf(object, options, DipoleGeometry::Planar), object.bake);
+}
+
+} // namespace
+
+bool isBaked(const scene::Object& object, const BakeOptions& options) {
+    return object.bake || object.kept.find<Made>(keptKey(object, options));
+}
+
+void keepBake(const scene::Object& object, const BakeOptions& options, Bake made) {
+    object.kept.keep(keptKey(object, options), Made(std::make_shared<const Bake>(std::move(made))));
+}
+
 Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const BakeOptions& options) {
-    using Made = std::shared_ptr<const Bake>;
-    const std::pair key(keyOf(object, options, DipoleGeometry::Planar), object.bake);
+    const auto key = keptKey(object, options);
     if (const Made* made = object.kept.find<Made>(key)) return *made;
     Result<Bake> made = object.bake ? decodeBake(*object.bake, object.bakeFile, key.first)
                                     : bake(object, options, DipoleGeometry::Planar, {});
@@ -420,6 +439,41 @@ TextureId Throughput::spread(graph::FrameGraph& graph, Body& body, const Setting
     return leaving;
 }
 
+// What is shown of a body's light, in its atlas.
+TextureId Throughput::lightOf(graph::FrameGraph& graph, Body& body, bool isIrradiance,
+                              const Settings& settings) {
+    if (isIrradiance || settings.part == Part::Illumination) return import(graph, body.entered[body.now]);
+    return spread(graph, body, settings);
+}
+
+void Throughput::recordAtlases(graph::FrameGraph& graph, ivec2 size, TextureId target,
+                               const Settings& settings) {
+    const int columns = int(std::ceil(std::sqrt(double(bodies_.size()) * size.x / std::max(size.y, 1))));
+    const int rows = (int(bodies_.size()) + columns - 1) / std::max(columns, 1);
+    std::vector<std::pair<TextureId, AtlasBlock>> atlases;
+    for (auto& [index, body] : bodies_) {
+        const int number = int(atlases.size());
+        const ivec2 cell(size.x / columns, size.y / rows);
+        const int side = std::min(cell.x, cell.y);
+        const ivec2 middle = cell * ivec2(number % columns, rows - 1 - number / columns) + cell / 2;
+        atlases.emplace_back(lightOf(graph, body, false, settings),
+                             AtlasBlock{.corner = middle - side / 2, .side = side});
+    }
+    const gl::Program* program = context_.program("throughput/atlas");
+    graph.addPass("throughput.atlas", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("view.show asks for \"atlas\"");
+        for (const auto& [light, block] : atlases)
+            pass.sample(light);
+        pass.write(target);
+        pass.clear(target, vec4(0));
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            for (const auto& [light, block] : atlases)
+                commands.draw(
+                    {.program = program, .block = block, .textures = {{"uLight", resources[light]}}});
+        };
+    });
+}
+
 Status Throughput::record(graph::FrameGraph& graph, const Shown& in,
                           const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
     const bool isIrradiance = in.scene.view.show == scene::Aov::Irradiance;
@@ -431,13 +485,18 @@ Status Throughput::record(graph::FrameGraph& graph, const Shown& in,
     if (!isColor) defines.push_back("SHOW_RADIOSITY");
     if (mirrored) defines.push_back("USE_LAMPS");
     if (hasSky) defines.push_back("USE_SKY");
-    const gl::Program* shading = context_.program("throughput/shade", defines);
+    const bool isEntering = isIrradiance || settings.part == Part::Illumination;
+    std::vector<views::DrawnMesh> painted;
+    for (const views::DrawnMesh& mesh : meshes)
+        if (mesh.paint && !isEntering) painted.push_back(mesh);
+    Result<TextureId> paint = TextureId{};
+    if (!painted.empty()) paint = views::recordLeaving(graph, context_, in.eye, painted, in.size);
+    if (!paint) return paint.error();
     for (const views::DrawnMesh& mesh : meshes) {
         const auto found = bodies_.find(mesh.index);
         if (found == bodies_.end()) continue;
         Body& body = found->second;
-        const TextureId leaving =
-            isIrradiance ? import(graph, body.entered[body.now]) : spread(graph, body, settings);
+        const TextureId leaving = lightOf(graph, body, isIrradiance, settings);
         const TextureId triangles = import(graph, body.triangles), charts = import(graph, body.charts);
         const int corners = 3 * int(body.bake->surface.hats.triangles.size());
         TextureId seen;
@@ -469,17 +528,23 @@ Status Throughput::record(graph::FrameGraph& graph, const Shown& in,
             block.mapFromWorld = mat4(glm::transpose(rotationFromDegrees(in.scene.environment->rotation)));
             block.intensity = in.scene.environment->intensity;
         }
+        const bool isPainted = mesh.paint && !isEntering;
+        std::vector<std::string> own = defines;
+        if (isPainted) own.push_back("PAINTED");
+        const gl::Program* shading = context_.program("throughput/shade", own);
         graph.addPass("throughput.shade", [&](graph::PassBuilder& pass) -> graph::Execute {
             pass.reason("what object \"" + mesh.object->name + "\" sends to the eye" +
                         (hasSky ? "; it mirrors the environment past everything" : ""));
             pass.sample(in.surface);
             pass.sample(seen);
             if (mirrored) pass.sample(mirrored);
+            if (isPainted) pass.sample(*paint);
             pass.write(in.target);
-            return [=, surface = in.surface, environment = in.environment](const graph::Resources& resources,
-                                                                           graph::Commands& commands) {
+            return [=, surface = in.surface, environment = in.environment,
+                    paint = *paint](const graph::Resources& resources, graph::Commands& commands) {
                 std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
                                                      {"uSeen", resources[seen]}};
+                if (isPainted) textures.push_back({"uPaint", resources[paint]});
                 if (mirrored) textures.push_back({"uMirrored", resources[mirrored]});
                 if (hasSky) textures.push_back({"uEnvironment", environment});
                 commands.draw({.program = shading, .block = block, .textures = textures});

@@ -20,7 +20,7 @@
 namespace lucent::throughput {
 
 enum class Fresnel : int { Exact, Schlick };
-enum class Part : int { Whole, Local, Global };
+enum class Part : int { Whole, Local, Global, Illumination };
 
 struct Settings {
     Local local = Local::Live;
@@ -46,6 +46,10 @@ std::optional<std::string> need(const scene::Scene& scene);
 /// What was baked of an object: that of its file, or what is baked now, for a few seconds, and kept with the
 /// object. Distances count by themselves (DipoleGeometry::Planar).
 Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const BakeOptions& options);
+/// Whether bakeOf() has nothing to work out.
+bool isBaked(const scene::Object& object, const BakeOptions& options);
+/// Keeps a bake with an object and its copies, as bakeOf() finds it.
+void keepBake(const scene::Object& object, const BakeOptions& options, Bake made);
 
 /// A sparse matrix on the GPU.
 struct Matrix {
@@ -100,6 +104,9 @@ public:
                  const Settings& settings);
     Status record(graph::FrameGraph& graph, const Shown& in, const std::vector<views::DrawnMesh>& meshes,
                   const Settings& settings);
+    /// The atlases themselves, in squares beside each other over the whole target.
+    void recordAtlases(graph::FrameGraph& graph, ivec2 size, graph::TextureId target,
+                       const Settings& settings);
     std::map<std::string, std::size_t> bytes() const;
     void clear() {
         bodies_.clear();
@@ -118,6 +125,8 @@ private:
     graph::TextureId multiply(graph::FrameGraph& graph, const Matrix& matrix, graph::TextureId vector,
                               graph::TextureId sum, const char* reason);
     graph::TextureId spread(graph::FrameGraph& graph, Body& body, const Settings& settings);
+    graph::TextureId lightOf(graph::FrameGraph& graph, Body& body, bool isIrradiance,
+                             const Settings& settings);
 
     gl::Context& context_;
     std::map<int, Body> bodies_; ///< by the object's place in the scene
