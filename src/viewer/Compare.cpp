@@ -114,10 +114,14 @@ std::vector<BoundParam> bindCompare(CompareSettings& settings) {
     return bound;
 }
 
+bool isPrecomputing(std::string_view path) { return path.ends_with(".precomputed"); }
+
 std::vector<BoundParam> bindBeside(scene::Scene& right) {
     std::vector<BoundParam> settings;
     for (BoundParam& bound : scene::bindParams(right)) {
-        if (!bound.path.starts_with("technique.") && !bound.path.starts_with("quality.")) continue;
+        if (!bound.path.starts_with("technique.") && !bound.path.starts_with("quality.") &&
+            !isPrecomputing(bound.path))
+            continue;
         bound.path.insert(0, kBeside);
         bound.prefix.insert(0, "beside-");
         bound.place = Group::Mode; // first, while two methods are compared
@@ -129,6 +133,12 @@ std::vector<BoundParam> bindBeside(scene::Scene& right) {
 scene::Scene withSettingsOf(scene::Scene scene, const scene::Scene& settings) {
     scene.technique = settings.technique;
     scene.quality = settings.quality;
+    for (std::size_t i = 0; i < std::min(scene.objects.size(), settings.objects.size()); ++i) {
+        scene::Material& drawn = scene.objects[i].material;
+        const scene::Material& chosen = settings.objects[i].material;
+        if (drawn.isScattering() && chosen.isScattering())
+            drawn.translucent().precomputed = chosen.translucent().precomputed;
+    }
     return scene;
 }
 

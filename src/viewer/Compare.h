@@ -27,6 +27,8 @@ std::vector<BoundParam> bindCompare(CompareSettings& settings);
 
 /// In front of the path of a setting: that with which the right side of Methods is drawn.
 inline constexpr std::string_view kBeside = "beside.";
+/// Whether a parameter of an object says how it is drawn, not what it is.
+bool isPrecomputing(std::string_view path);
 /// All settings of the right side: "beside.technique.relief.method", as attribute beside-relief-method.
 ///
 /// @param right  the scene whose settings they are

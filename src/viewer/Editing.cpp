@@ -85,7 +85,8 @@ void Viewer::State::bind() {
     for (BoundParam& bound : bindCompare(compare))
         offerOfView(std::move(bound));
     for (BoundParam& bound : bindBeside(*right)) {
-        const bool isChoice = bound.param->kind == Kind::Choice && bound.param->group != Group::None;
+        const bool isChoice = (bound.param->kind == Kind::Choice && bound.param->group != Group::None) ||
+                              isPrecomputing(bound.path);
         bound.shown = compare.mode == CompareMode::Methods && isChoice &&
                       !isIdle(*scene, bound.path.substr(kBeside.size()));
         const auto found = loaded.emplace(bound.path, getText(*bound.param, bound.data)).first;

@@ -75,9 +75,9 @@ std::span<const Param> modeParams() {
              .group = Group::Mode,
              .doc = "Which sliders stand first, and which views Show offers: those of the light on a relief, "
                     "of what is seen through glass and water, of the light that these throw, of light "
-                    "inside things, of how surfaces reflect it (brdf), or of how rays find displaced "
-                    "heights; or the "
-                    "brush that paints on these.",
+                    "inside things, of how surfaces reflect it (brdf), of how rays find displaced heights, "
+                    "or of what is precomputed of light inside (throughput); or the brush that paints on "
+                    "these.",
              .choices = modeNames(),
              .attribute = "mode"}),
         declare(&ModeSettings::matt,

@@ -17,6 +17,8 @@ constexpr double kLong = 1, kLongLeft = 2;           // s: that are past, and le
 // A picture of the scene as it is now.
 void Viewer::State::begin() {
     picture = *scene;
+    missingBake.reset();
+    leaveOutMissing(picture);
     applyMatt(mode, picture);
     applyLayer(paintSettings, painting(), picture);
     picture.camera = seenCamera();

@@ -104,6 +104,10 @@ std::string statsJson(const StatsInput& input) {
         json.key("progress").beginObject().key("share").value(input.progress->share);
         json.key("secondsLeft").value(input.progress->secondsLeft).end();
     }
+    if (!input.bakeWork.empty()) {
+        json.key("bake").beginObject().key("technique").value(input.bakeTechnique);
+        json.key("object").value(input.bakeObject).key("work").value(input.bakeWork).end();
+    }
     json.key("settings").value(input.cost.settings).key("predicted").value(input.cost.predicted);
     json.key("frames").value(input.frames).key("revision").value(double(input.revision));
     if (input.light < input.lamps.size()) writePlace(json.key("light"), input.lamps[input.light].place);

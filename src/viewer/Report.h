@@ -31,6 +31,7 @@ struct StatsInput {
     bool shown = false;                      ///< there is a picture, be it a look
     int downscale = 1;                       ///< of what is shown: pixels to one that was drawn, along a side
     std::optional<DrawingProgress> progress;
+    std::string bakeTechnique, bakeObject, bakeWork; ///< what is missing; empty: nothing
     int frames = 0;
     std::uint64_t revision = 0;
     std::vector<LightHandle> lamps;      ///< CSS pixels of their dots and arrows

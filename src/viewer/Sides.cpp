@@ -14,8 +14,9 @@ Viewer::State::Side* Viewer::State::nextSide() {
     return isMethods && measured[1].of != pictureNumber ? &measured[1] : nullptr;
 }
 
-scene::Scene Viewer::State::sceneOf(const Side& side) const {
+scene::Scene Viewer::State::sceneOf(const Side& side) {
     scene::Scene drawn = &side == &measured[0] ? picture : withSettingsOf(picture, *right);
+    leaveOutMissing(drawn);
     if (&side != &other) drawn.camera = scene->camera; // as the truth sees it
     return drawn;
 }

@@ -1,5 +1,6 @@
 #pragma once
 /// What a viewer holds. Private to this folder: each concern has its own file.
+///   Baking.cpp    work that is done once for objects, elsewhere
 ///   Editing.cpp   the scene, its controls, undo
 ///   Hands.cpp     drags, wheel and keys on the picture
 ///   Panels.cpp    frames of ImGui
@@ -127,6 +128,16 @@ struct Viewer::State {
     std::optional<scene::Scene> asLoaded; // whose truth lies in files
     std::optional<scene::Scene> asked;    // whose truth is being computed
 
+    // What a technique is to work out once for an object of a scene.
+    struct MissingBake {
+        const technique::Technique* technique;
+        std::string work; // tells it from other work
+        scene::Scene scene;
+        std::size_t object;
+    };
+    bool bakesElsewhere = false; // see Viewer::setBakesElsewhere()
+    std::optional<MissingBake> missingBake;
+
     PaintSettings paintSettings, paintDefaults;
     Painter painter;
     std::optional<Picking> picking; // of the scene as it stands
@@ -217,6 +228,8 @@ struct Viewer::State {
     bool paintKey(const std::string& key);
     void paintOverlay();
 
+    void leaveOutMissing(scene::Scene& drawn);
+
     // --- time
     void tick(double now);
     bool togglePlaying();
@@ -241,7 +254,7 @@ struct Viewer::State {
     void compareOverlay();
     ComparisonReport comparison();
     Side* nextSide();
-    scene::Scene sceneOf(const Side& side) const;
+    scene::Scene sceneOf(const Side& side);
     void drawSides();
     void finishSide(Side& side);
     void dropSides();

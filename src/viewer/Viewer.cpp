@@ -299,6 +299,11 @@ std::string Viewer::stats() const {
     input.shown = s.shown;
     input.downscale = s.phase == State::Phase::Refine ? s.downscale : 1;
     if (s.phase != State::Phase::Done) input.progress = s.drawingProgress;
+    if (s.missingBake) {
+        input.bakeTechnique = s.missingBake->technique->name;
+        input.bakeObject = s.missingBake->scene.objects[s.missingBake->object].name;
+        input.bakeWork = s.missingBake->work;
+    }
     input.frames = s.drawCount;
     input.revision = s.revision;
     if (s.scene) {

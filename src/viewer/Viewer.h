@@ -41,6 +41,14 @@ public:
     /// Error that pictures are drawn to on this device where the scene and its person ask for none, [0,1); 0:
     /// they are drawn in full.
     void setAutomaticError(float error);
+    /// Objects are drawn without what techniques work out once for them until takeBake() brings it; stats()
+    /// says what is missing. Otherwise it is worked out in draw(), which takes that long.
+    void setBakesElsewhere(bool elsewhere);
+    /// Files of a scene of the object of which something is missing, "scene.json" first; none: nothing is.
+    std::vector<std::pair<std::string, Bytes>> askBake() const;
+    /// What technique::Baker::bake() made of that. @param work  as stats() named it; an Error where that is
+    /// no longer what is missing, or the file is of something else
+    Status takeBake(const std::string& work, std::span<const std::byte> file);
     /// Shows a message over the picture ("" removes it).
     void showMessage(const std::string& message);
 
@@ -100,7 +108,8 @@ public:
     std::string controls();
     /// JSON: milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its
     /// pixels), shown (there is a picture), downscale (pixels that one which was drawn stands for, along a
-    /// side), progress (share, secondsLeft: of work that takes long), frames, revision; notDrawn: lines that
+    /// side), progress (share, secondsLeft: of work that takes long), bake (technique, object, work: what
+    /// setBakesElsewhere() leaves to others), frames, revision; notDrawn: lines that
     /// say what the scene asks for, the picture lacks, and why; light: [x, y] of the chosen one's dot or
     /// arrow; lamps: place and outside (an arrow at the border stands for it) of all; panel: path -> [x, y,
     /// width, height] of each control's widget that can be seen in full. CSS pixels.
