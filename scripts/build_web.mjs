@@ -103,7 +103,7 @@ await bundleOf('lucent-truth', {
   outfile: out('lucent-truth.js'),
   alias: { 'lucent-truth-wasm': wasm('lucent-truth.mjs') },
 });
-for (const [source, name] of [['stereo_job', 'lucent-stereo'], ['reading', 'lucent-reading']])
+for (const [source, name] of [['stereo_job', 'lucent-stereo'], ['reading', 'lucent-reading'], ['bake_job', 'lucent-bake']])
   await build({ ...common, bundle: true, entryPoints: [web(`${source}.js`)], outfile: out(`${name}.js`) });
 for (const name of ['export', 'zip'])
   await build({ ...common, bundle: true, entryPoints: [web(`${name}.js`)], outfile: out(`${name}.js`) });

@@ -14,6 +14,7 @@
  * "methods" shows it beside the same scene drawn by other methods: beside-relief-method="march".
  */
 import { reflect } from './attributes.js';
+import { BakeBar } from './bake.js';
 import { acceptDrops, bringScene, openPicture } from './bring.js';
 import { Controls } from './controls.js';
 import {
@@ -96,6 +97,7 @@ export class LucentViewer extends HTMLElement {
   });
   #fetching = new AbortController(); // of what is being fetched
   #photos = new PhotoBar();
+  #bake; // BakeBar
   #rmse; // that was said last
   #asked = false; // what becomes of what nobody paints
   #truthFetched = false; // the file was asked for since the scene was loaded
@@ -161,7 +163,17 @@ export class LucentViewer extends HTMLElement {
       fail: (error) => this.#fail(error),
       changed: () => this.#truth.update(this.comparison()),
     });
-    find('.stage').append(this.#truth.element, this.#drawing.element, this.#loading.element);
+    this.#bake = new BakeBar({
+      ask: () => this.#runtime.files('viewer_ask_bake', this.#handle),
+      take: (work, bytes) => {
+        const message = this.#runtime.text('viewer_take_bake', this.#handle, work, bytes);
+        if (message) throw new LucentError('scene', message);
+        this.#request();
+      },
+      fail: (error) => this.#fail(error),
+      say: (text) => this.#say(text),
+    });
+    find('.stage').append(this.#truth.element, this.#bake.element, this.#drawing.element, this.#loading.element);
     new Gestures(this.#canvas, {
       pointer: (...event) => this.#pointer(...event),
       wheel: (...event) => this.#apply('viewer_wheel', ...event),
@@ -357,7 +369,7 @@ export class LucentViewer extends HTMLElement {
   /**
    * Milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its pixels), shown (there
    * is a picture), downscale (pixels that one which was drawn stands for, along a side), progress (share and secondsLeft,
-   * of work that takes long), frames, modes that the scene has something for, where the panel's controls lie, and
+   * of work that takes long), bake (technique, object and work: what is precomputed before the picture has it), frames, modes that the scene has something for, where the panel's controls lie, and
    * notDrawn: lines that say what the scene asks for, the picture lacks, and why; while the caustic map is shown, energy:
    * W of each colour that met glass and mirrors, and what became of them.
    */
@@ -399,6 +411,7 @@ export class LucentViewer extends HTMLElement {
   async toBlob(options = {}, quality) {
     const asked = typeof options === 'string' ? { type: options, quality } : options;
     this.#refuseWithoutPicture('toBlob()');
+    await this.#bake.whenIdle();
     const { width, height } = this.#size;
     const { type = 'image/png' } = asked;
     if (type === 'image/x-exr' || (asked.width ?? width) !== width || (asked.height ?? height) !== height)
@@ -435,6 +448,7 @@ export class LucentViewer extends HTMLElement {
    */
   async toSequence(options) {
     this.#refuseWithoutPicture('toSequence()');
+    await this.#bake.whenIdle();
     return (await this.#loadExport()).sequence(this.#studio(options), options);
   }
   /** Of the picture on the page: width and height, pixels. */
@@ -760,6 +774,7 @@ export class LucentViewer extends HTMLElement {
     this.#loading.show(undefined);
     this.#photos.cancel();
     this.#truth.cancel();
+    this.#bake.update(undefined);
     this.#src = this.#shown = this.#brought = null;
     this.#controls = [];
     this.#handle = 0;
@@ -923,7 +938,8 @@ export class LucentViewer extends HTMLElement {
   // ---- drawing ----
 
   #takePicture(drawn) {
-    const { complete, finished, shown, progress } = this.stats();
+    const { complete, finished, shown, progress, bake } = this.stats();
+    this.#bake.update(bake);
     if (drawn && (complete || !this.#capturing)) this.#runtime.show(this.#display);
     this.#complete = complete;
     this.#drawing.show(progress);

@@ -2,8 +2,12 @@
 
 #include "base/JsonWriter.h"
 #include "scene/Load.h"
+#include "technique/Technique.h"
 #include "viewer/Viewer.h"
 
+#include <emscripten/em_js.h>
+
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -25,6 +29,7 @@ struct Page {
     int lastViewer = 0;
     std::vector<std::pair<std::string, Bytes>> packed; // files of a scene for another module
     Image linear;                                      // that viewer_linear answered with
+    Bytes baked;                                       // that bake_scene answered with
     std::string answer;
 };
 
@@ -131,12 +136,50 @@ const char* scene_dependencies(const char* path) {
     return answer(json.text());
 }
 
+// --- work that is done once for an object
+
+EM_JS(void, report_share, (double share), { Module.reportShare(share); })
+
+namespace {
+
+Result<Bytes> bakeFirst(const char* path, const char* name) {
+    const technique::Technique* technique = technique::find(name);
+    if (!technique || !technique->baker) return Error{std::string(name) + ": is no technique that bakes"};
+    const Result<scene::Scene> scene = scene::load(path, readFetched, technique::tables());
+    if (!scene) return scene.error();
+    const technique::Baker& baker = *technique->baker;
+    const auto object = std::find_if(scene->objects.begin(), scene->objects.end(), baker.takes);
+    if (object == scene->objects.end())
+        return Error{std::string(path) + ": has no object that " + name + " bakes"};
+    return baker.bake(scene->technique.at(name), *object, {.threads = 1, .goOn = [](double share) {
+                                                               report_share(share);
+                                                               return true;
+                                                           }});
+}
+
+} // namespace
+
+const char* bake_scene(const char* path, const char* technique) {
+    Result<Bytes> file = bakeFirst(path, technique);
+    JsonWriter json;
+    json.beginObject();
+    if (file) {
+        page().baked = std::move(*file);
+        json.key("at").value(double(std::uintptr_t(page().baked.data())));
+        json.key("size").value(int(page().baked.size()));
+    } else {
+        json.key("error").value(file.error().message);
+    }
+    return answer(json.end().text());
+}
+
 // --- viewers
 
 int viewer_create() {
     Page& p = page();
     auto viewer = std::make_unique<Viewer>(*p.context, *p.imgui);
     if (p.context->caps().software) viewer->setAutomaticError(kSoftwareError);
+    viewer->setBakesElsewhere(true);
     p.viewers.emplace(++p.lastViewer, std::move(viewer));
     return p.lastViewer;
 }
@@ -232,6 +275,10 @@ const char* viewer_caption(int viewer) { return answer(viewerOf(viewer).caption(
 const char* viewer_comparison(int viewer) { return answer(viewerOf(viewer).comparison()); }
 
 const char* viewer_ask_truth(int viewer) { return answer(viewerOf(viewer).askTruth()); }
+const char* viewer_ask_bake(int viewer) { return answer(viewerOf(viewer).askBake()); }
+const char* viewer_take_bake(int viewer, const char* work, const std::uint8_t* bytes, int size) {
+    return answer(viewerOf(viewer).takeBake(work, bytesOf(bytes, size)));
+}
 const char* viewer_pack(int viewer) { return answer(viewerOf(viewer).pack()); }
 int viewer_draws_all(int viewer) { return viewerOf(viewer).drawsAll(); }
 

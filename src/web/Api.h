@@ -22,6 +22,11 @@ void file_forget(const char* path);
 /// JSON: {"files": [...]} or {"error": "..."}; the scene must have been put.
 const char* scene_dependencies(const char* path);
 
+/// Works out once what a technique needs of the first object that it takes, of a scene that was put; no
+/// context is needed. Calls Module.reportShare(share in [0,1]) now and then. JSON: {"at", "size"} of the
+/// file, valid until the next call, or {"error"}.
+const char* bake_scene(const char* path, const char* technique);
+
 int viewer_create(); ///< handle > 0
 void viewer_destroy(int viewer);
 /// "" or the message; the files must have been put. After an error the old scene stays.
@@ -75,6 +80,10 @@ const char* viewer_comparison(int viewer);
 /// JSON array of {"name", "at", "size"}: files of the scene that is showing, with its images, for the module
 /// of Truth.cpp. Their bytes stay valid until the next call for any viewer.
 const char* viewer_ask_truth(int viewer);
+/// The same of a scene of what viewer_stats() says is to be baked, for bake_scene() of another module.
+const char* viewer_ask_bake(int viewer);
+/// What that answered, for the work that viewer_stats() named; "" or the message.
+const char* viewer_take_bake(int viewer, const char* work, const std::uint8_t* bytes, int size);
 /// The same of the scene without viewer_changes(), for the viewer of another module.
 const char* viewer_pack(int viewer);
 int viewer_draws_all(int viewer); ///< 0: the scene has objects that this module does not draw

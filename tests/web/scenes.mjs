@@ -66,6 +66,20 @@ const marble = {
   lights: [{ type: 'distant', direction: [1, -0.3, 0], irradiance: 2 }],
   objects: [{ name: 'ball', shape: { type: 'sphere', radius: 0.01 }, material: { preset: 'marble' } }],
 };
+/** A block of it whose light inside is precomputed. */
+const baked = {
+  ...marble,
+  title: 'A baked block',
+  technique: { throughput: { side: 256 } },
+  objects: [
+    {
+      name: 'block',
+      shape: { type: 'box', size: [0.012, 0.012, 0.012] },
+      transform: { rotate: [30, 40, 0] },
+      material: { preset: 'marble', precomputed: true },
+    },
+  ],
+};
 /** The same where texels count, not how they are drawn. */
 const ball = { ...marble, title: 'A ball', technique: { subsurface: { method: 'lambert', epsilon: 0.3 } } };
 /** A ball of glass under a sky, partly in front of a board that shines by itself. */
@@ -100,6 +114,7 @@ export const kScenes = {
   'banner.json': ofMiddles(banner),
   'pond.json': ofMiddles(pond),
   'marble.json': ofMiddles(marble),
+  'baked.json': ofMiddles(baked),
   'ball.json': ofMiddles(ball),
   'bead.json': ofMiddles(bead),
   'ridge.json': ofMiddles(scene('A ridge', 'ridge.pfm')),
