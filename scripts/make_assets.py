@@ -58,7 +58,7 @@ SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-back
           "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff", "glass-dragon",
           "glass-sphere", "glass-relief", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave",
           "prism", "skin", "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup", "makeup",
-          "checkerboards", "projector", "brdf-models", "brushed", "vase", "cobbles"]
+          "checkerboards", "projector", "bust", "veined-dragon", "brdf-models", "brushed", "vase", "cobbles"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
 RENDERING = ["shaders", "src/scene", "src/views", "src/light", "src/diffusion", "src/technique", "src/techniques",
@@ -125,10 +125,12 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(probes.exr, [MODULES / "@pmndrs/assets/hdri/apartment.exr.js"], [GALLERY / "window.exr"])
     stamps.make(meshes.bunny, [MODULES / "bunny/index.js"], [GALLERY / "bunny.glb"])
     stamps.make(meshes.dragon_40k, [DRAGON], [GALLERY / "dragon-40k.glb"], SIMPLIFIER)
+    stamps.make(meshes.dragon_20k, [DRAGON], [GALLERY / "dragon-20k.glb"], SIMPLIFIER)
     stamps.make(meshes.prism, [], [GALLERY / "prism.glb"])
     stamps.make(meshes.tiles, [], [GALLERY / "tiles.glb"])
     stamps.make(flame.flame, [], [GALLERY / "flame.glb"], [Path(meshes.__file__)])
     stamps.make(head.head, [], [GALLERY / "head.glb"], [Path(meshes.__file__)])
+    stamps.make(head.bust, [], [GALLERY / "bust.glb"], [Path(meshes.__file__)])
     stamps.make(vase.vase, [], [GALLERY / "vase.glb"], [Path(meshes.__file__)])
     stamps.make(cobbles.height_map, [], [GALLERY / "cobbles.png"])
     stamps.make(projected.checkerboard, [], [GALLERY / "checkerboard.png"])

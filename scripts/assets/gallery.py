@@ -133,6 +133,8 @@ def kind_of(scene: dict) -> str:
         return "Caustics"
     if any(thing["shape"]["type"] == "water" for thing in scene["objects"]):
         return "Caustics"
+    if any(material.get("precomputed") for material in materials):
+        return "Throughput"
     if any("paint" in thing for thing in scene["objects"]):
         return "Paint"
     if scatters(scene):

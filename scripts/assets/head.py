@@ -7,7 +7,7 @@ import numpy as np
 from meshes import write_glb
 
 LOW, HIGH = np.array([-12.5, -17.6, -12.5]), np.array([12.5, 13.5, 12.5])
-CELL = 0.3  # cm
+FINE, COARSE = 0.3, 0.6  # cells, cm
 
 
 def surface(points: np.ndarray) -> np.ndarray:
@@ -54,7 +54,7 @@ def surface(points: np.ndarray) -> np.ndarray:
     head = join(head, capsule((0, -5.5, -3.0), (0, -17, -4.2), 4.6, 5.2), 2.5)       # neck
     head = join(head, capsule((3.6, -4.5, -2.2), (0.9, -15.6, 1.2), 0.9, 0.8), 1.6)  # its muscle
     head = join(head, ellipsoid((0, -19.6, -4.0), (11.5, 4.6, 6.4)), 3.5)            # shoulders
-    head = np.maximum(head, -17.2 - p[..., 1])                                       # stand on a plane
+    head = carve(head, 17.2 + p[..., 1], 2.0)                                        # stands on a plane, with a round edge
 
     out, back = np.radians(28), np.radians(-14)
     turn = np.array([[np.cos(out), 0, np.sin(out)], [0, 1, 0], [-np.sin(out), 0, np.cos(out)]]) @ \
@@ -128,8 +128,17 @@ def pulled(points: np.ndarray) -> np.ndarray:
     return points
 
 
-def head(out: Path) -> None:
-    axes = [np.arange(low, high, CELL) for low, high in zip(LOW, HIGH)]
+def write_head(out: Path, cell: float) -> None:
+    axes = [np.arange(low, high, cell) for low, high in zip(LOW, HIGH)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
     vertices, triangles = surface_net(surface(grid))
-    write_glb(out, pulled(LOW + CELL * vertices).astype(np.float32), triangles.astype(np.uint32))
+    write_glb(out, pulled(LOW + cell * vertices).astype(np.float32), triangles.astype(np.uint32))
+
+
+def head(out: Path) -> None:
+    write_head(out, FINE)
+
+
+def bust(out: Path) -> None:
+    """For what is worked out from each vertex to all others: a quarter of them, evenly spread."""
+    write_head(out, COARSE)

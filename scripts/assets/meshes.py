@@ -144,6 +144,10 @@ def dragon_40k(ply: Path, out: Path) -> None:
     simpler_dragon(ply, out, 40_000)
 
 
+def dragon_20k(ply: Path, out: Path) -> None:
+    simpler_dragon(ply, out, 20_000)
+
+
 def dragon_4k(ply: Path, out: Path) -> None:
     simpler_dragon(ply, out, 4_000)
 
