@@ -3,7 +3,7 @@
 // out   vNormal [1]  world, interpolated; not unit
 //       vDepth  [m]  along the view's forward
 //       vPaint  PAINTED: place on the atlas [texels]
-//       vCoordinate, vPlace [m]  TEXTURED: place on the textures, and in the world from the eye on
+//       vCoordinate, vColor, vPlace [m]  TEXTURED: place on the textures, colour, and place in the world from the eye on
 #include "views/mesh_block.glsl"
 uniform sampler2D uPositions; // object space
 uniform sampler2D uNormals;
@@ -14,8 +14,10 @@ uniform sampler2D uPlaces;
 out vec2 vPaint;
 #endif
 #ifdef TEXTURED
-uniform sampler2D uCoordinates;
+uniform sampler2D uCoordinates; // of all vertices, as the positions; or one row
+uniform sampler2D uVertexColors;
 out vec2 vCoordinate;
+out vec3 vColor;
 out vec3 vPlace;
 #endif
 
@@ -29,7 +31,8 @@ void main() {
     vPaint = texelFetch(uPlaces, texel, 0).xy;
 #endif
 #ifdef TEXTURED
-    vCoordinate = texelFetch(uCoordinates, texel, 0).xy;
+    vCoordinate = texelFetch(uCoordinates, min(texel, textureSize(uCoordinates, 0) - 1), 0).xy;
+    vColor = texelFetch(uVertexColors, min(texel, textureSize(uVertexColors, 0) - 1), 0).rgb;
     vPlace = world.xyz - mesh.view.eye.xyz;
 #endif
     gl_Position = mesh.clipFromWorld * world;

@@ -16,6 +16,7 @@ uniform sampler2D uNormal;
 in vec3 vNormal;
 in float vDepth;
 in vec2 vCoordinate;
+in vec3 vColor;
 in vec3 vPlace;
 layout(location = 0) out vec4 oFactors;
 layout(location = 1) out vec4 oFacets;
@@ -72,7 +73,7 @@ void main() {
     if (!gl_FrontFacing) normal = -normal;
     if (dot(normal, toEye) < 0.0) normal = dot(across, toEye) < 0.0 ? -across : across;
     vec4 roughness = textureAt(uRoughness, mesh.wraps.z);
-    oFactors = vec4(textureAt(uColor, mesh.wraps.x).rgb, roughness.g);
+    oFactors = vec4(vColor * textureAt(uColor, mesh.wraps.x).rgb, roughness.g);
     oFacets = vec4(octahedralFrom(normal), roughness.b, 1.0);
     oEmission = vec4(textureAt(uEmission, mesh.wraps.y).rgb, 1.0);
 }

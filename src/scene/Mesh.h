@@ -65,6 +65,7 @@ struct Mesh {
     std::vector<std::array<std::uint16_t, 4>> joints{}; ///< of each position, in Rig::joints; empty: none
     std::vector<vec4> jointWeights{};                   ///< >= 0, their sum 1
     std::vector<vec2> coordinates{}; ///< on textures: u to the right and v down, one a position; empty: none
+    std::vector<vec3> colors{};      ///< linear, >= 0, factors of the albedo, one a position; empty: none
     Rig rig{};
 
     /// Triangles by material, in the order of `indices`; empty for files without materials.
@@ -142,7 +143,7 @@ Mesh partOf(const Mesh& mesh, const Mesh::Part& part);
 
 /// True for bytes that start as the plain form does.
 bool isMesh(std::span<const std::byte> bytes);
-/// The plain form in which meshes reach the loader: "LUCENTM5" and then everything above, little-endian; of a
+/// The plain form in which meshes reach the loader: "LUCENTM6" and then everything above, little-endian; of a
 /// material its colours and the numbers of its kind that such files know.
 /// The readers write it from glTF and OBJ, natively and in the page alike.
 Bytes encodeMesh(const Mesh& mesh);

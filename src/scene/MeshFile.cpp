@@ -13,7 +13,8 @@
 namespace lucent::scene {
 namespace {
 
-constexpr std::string_view kMagic = "LUCENTM5";
+constexpr std::string_view kMagic = "LUCENTM6";
+constexpr std::string_view kBefore = "LUCENTM5"; // without colours of vertices
 static_assert(std::endian::native == std::endian::little, "mesh files are written as they lie in memory");
 static_assert(sizeof(vec2) == 8 && sizeof(vec3) == 12 && sizeof(vec4) == 16 && sizeof(mat4) == 64);
 static_assert(sizeof(Node) == 44, "parent, translate, rotate as x y z w, scale: nothing between them");
@@ -176,13 +177,14 @@ void imageFields(File& file, auto& image) {
 }
 
 template <class File, class AnyMesh>
-void meshFields(File& file, AnyMesh& mesh) {
+void meshFields(File& file, AnyMesh& mesh, bool hasColors = true) {
     file.list(mesh.positions, "positions");
     file.list(mesh.indices, "indices");
     file.list(mesh.normals, "normals");
     file.list(mesh.joints, "joints");
     file.list(mesh.jointWeights, "weights of joints");
     file.list(mesh.coordinates, "texture coordinates");
+    if (hasColors) file.list(mesh.colors, "colours");
     auto& rig = mesh.rig;
     file.list(rig.nodes, "nodes");
     file.list(rig.joints, "list of joints");
@@ -211,6 +213,9 @@ void meshFields(File& file, AnyMesh& mesh) {
         useFields(file, part.textures.roughness);
         useFields(file, part.textures.normal);
         file.value(part.textures.normalScale, "textures");
+        auto vertexColors = std::uint8_t(part.textures.vertexColors);
+        if (hasColors) file.value(vertexColors, "textures");
+        if constexpr (!std::is_const_v<AnyMesh>) part.textures.vertexColors = vertexColors != 0;
     });
     file.items(mesh.images, "textures", [&](auto& image) {
         if constexpr (std::is_const_v<AnyMesh>) {
@@ -222,6 +227,10 @@ void meshFields(File& file, AnyMesh& mesh) {
             image = std::make_shared<const TextureImage>(std::move(read));
         }
     });
+}
+
+bool startsWith(std::span<const std::byte> bytes, std::string_view magic) {
+    return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
 }
 
 bool isFinite(float x) { return std::isfinite(x); }
@@ -316,6 +325,10 @@ private:
         }
         if (!mesh_.coordinates.empty()) sameLength(mesh_.coordinates.size(), "texture coordinates", count);
         finite(mesh_.coordinates, "texture coordinate");
+        if (!mesh_.colors.empty()) sameLength(mesh_.colors.size(), "colours", count);
+        for (std::size_t i = 0; i < mesh_.colors.size(); ++i)
+            if (!isFinite(mesh_.colors[i]) || glm::any(glm::lessThan(mesh_.colors[i], vec3(0))))
+                return wrong("colour " + std::to_string(i) + " is negative or not finite; must be 0 or more");
         if (!mesh_.joints.empty()) sameLength(mesh_.joints.size(), "joints of positions", count);
         sameLength(mesh_.jointWeights.size(), "weights of joints", mesh_.joints.size());
         for (const auto& four : mesh_.joints)
@@ -351,8 +364,10 @@ private:
             if (use.u > Wrap::Mirror || use.v > Wrap::Mirror)
                 wrong(name + " has textures that go on in an unknown way; must repeat, clamp or mirror");
         }
-        if (textures.any() && mesh_.coordinates.empty())
+        if (textures.hasImages() && mesh_.coordinates.empty())
             wrong(name + " has textures without coordinates; must have them");
+        if (textures.vertexColors && mesh_.colors.empty())
+            wrong(name + " shows colours of vertices that have none; must have them");
         if (!isFinite(textures.normalScale)) wrong(name + " has a normal scale that is not finite; must be");
     }
 
@@ -442,7 +457,7 @@ private:
 } // namespace
 
 bool isMesh(std::span<const std::byte> bytes) {
-    return bytes.size() >= kMagic.size() && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
+    return startsWith(bytes, kMagic) || startsWith(bytes, kBefore);
 }
 
 Bytes encodeMesh(const Mesh& mesh) {
@@ -458,7 +473,7 @@ Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& nam
         return Error{name + ": is no mesh file; must be glTF 2.0, OBJ or start with " + std::string(kMagic)};
     Reader file(bytes.subspan(kMagic.size()));
     Mesh mesh;
-    meshFields(file, mesh);
+    meshFields(file, mesh, startsWith(bytes, kMagic));
     if (!file.missing().empty()) return Error{name + ": " + file.missing()};
     if (file.left() > 0)
         return Error{name + ": " + std::to_string(file.left()) + " bytes follow the mesh; must be none"};

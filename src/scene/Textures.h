@@ -36,15 +36,17 @@ struct TextureUse {
 
 /// Pictures that belong to a material, as glTF 2.0 has them (3.9).
 struct Textures {
-    TextureUse color;      ///< multiplies Material::diffuse
-    TextureUse emission;   ///< multiplies Material::base
-    TextureUse roughness;  ///< of Glossy: green multiplies its roughness, blue its share of metal
-    TextureUse normal;     ///< 2 c - 1: x along u, y against v, z outwards; then unit
-    float normalScale = 1; ///< of x and y
+    TextureUse color;          ///< multiplies Material::diffuse
+    TextureUse emission;       ///< multiplies Material::base
+    TextureUse roughness;      ///< of Glossy: green multiplies its roughness, blue its share of metal
+    TextureUse normal;         ///< 2 c - 1: x along u, y against v, z outwards; then unit
+    float normalScale = 1;     ///< of x and y
+    bool vertexColors = false; ///< Mesh::colors multiply Material::diffuse as well
 
-    bool any() const {
+    bool hasImages() const {
         return color.image >= 0 || emission.image >= 0 || roughness.image >= 0 || normal.image >= 0;
     }
+    bool any() const { return hasImages() || vertexColors; }
     bool operator==(const Textures&) const = default;
 };
 

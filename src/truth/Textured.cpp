@@ -31,20 +31,27 @@ dvec3 sample(const scene::Mesh& mesh, const scene::TextureUse& use, dvec2 coordi
 /// A triangle with its places on textures.
 struct Corners {
     dvec3 a, b, c;
-    dvec2 at, bt, ct;
+    dvec2 at{0}, bt{0}, ct{0};
+    dvec3 colors[3] = {dvec3(1), dvec3(1), dvec3(1)};
 
     Corners(const Triangles& triangles, const scene::Mesh& mesh, int triangle) {
         const std::uint32_t* index = &triangles.indices[3 * std::size_t(triangle)];
         a = triangles.positions[index[0]];
         b = triangles.positions[index[1]];
         c = triangles.positions[index[2]];
-        at = dvec2(mesh.coordinates[index[0]]);
-        bt = dvec2(mesh.coordinates[index[1]]);
-        ct = dvec2(mesh.coordinates[index[2]]);
+        if (!mesh.coordinates.empty()) {
+            at = dvec2(mesh.coordinates[index[0]]);
+            bt = dvec2(mesh.coordinates[index[1]]);
+            ct = dvec2(mesh.coordinates[index[2]]);
+        }
+        for (int i = 0; i < 3 && !mesh.colors.empty(); ++i)
+            colors[i] = dvec3(mesh.colors[index[i]]);
     }
-    dvec2 coordinateOf(const dvec3& place) const {
-        const dvec3 weights = nearestWeights(a, b, c, place);
+    dvec2 coordinateAt(const dvec3& weights) const {
         return weights.x * at + weights.y * bt + weights.z * ct;
+    }
+    dvec3 colorAt(const dvec3& weights) const {
+        return weights.x * colors[0] + weights.y * colors[1] + weights.z * colors[2];
     }
     /// How places change with u and with v; nothing where they do not change with both.
     std::optional<std::pair<dvec3, dvec3>> tangents() const {
@@ -74,10 +81,12 @@ std::optional<Textured> texturedAt(const Optics& optics, const Hit& hit) {
     if (!textures || hit.triangle < 0) return {};
     const scene::Mesh& mesh = *std::get<scene::MeshShape>(object.shape).mesh;
     const Corners corners(std::get<Triangles>(optics.rays().shape(hit.shape)), mesh, hit.triangle);
-    const dvec2 coordinate = corners.coordinateOf(hit.position);
+    const dvec3 weights = nearestWeights(corners.a, corners.b, corners.c, hit.position);
+    const dvec2 coordinate = corners.coordinateAt(weights);
     Textured textured{object.material, hit};
     scene::Material& material = textured.material;
     material.diffuse *= vec3(sample(mesh, textures->color, coordinate));
+    if (textures->vertexColors) material.diffuse *= vec3(corners.colorAt(weights));
     material.base *= vec3(sample(mesh, textures->emission, coordinate));
     if (auto* glossy = std::get_if<scene::Glossy>(&material.kind)) {
         const dvec3 facets = sample(mesh, textures->roughness, coordinate);

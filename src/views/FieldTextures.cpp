@@ -226,6 +226,7 @@ Textured ImageCache::textured(const scene::Mesh& mesh, const scene::Textures& te
     vertices.addCoordinates(context_);
     const auto wrap = [](const scene::TextureUse& use) { return float(int(use.u) + 3 * int(use.v)); };
     return {.coordinates = vertices.coordinates().handle(),
+            .colors = vertices.colors().handle(),
             .color = handleOf(textures.color),
             .emission = handleOf(textures.emission),
             .roughness = handleOf(textures.roughness),

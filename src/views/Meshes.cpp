@@ -60,13 +60,17 @@ void MeshTextures::addTriangles(gl::Context& context) {
 }
 
 void MeshTextures::addCoordinates(gl::Context& context) {
-    if (!coordinates_) coordinates_ = coordinateTexture(context.device(), source_->coordinates);
+    if (coordinates_) return;
+    coordinates_ = coordinateTexture(context.device(), source_->coordinates);
+    const std::vector<vec3> white(std::size_t(vertexImageSize(1).x), vec3(1)); // a row
+    colors_ =
+        vertexTexture(context.device(), source_->colors.empty() ? white : source_->colors, "views.colors");
 }
 
 std::size_t MeshTextures::bytes() const {
     return positions_.desc().bytes() + normals_.desc().bytes() + 4 * std::size_t(indices_.count()) +
-           (coordinates_ ? coordinates_.desc().bytes() : 0) + (pose_ ? pose_->bytes() : 0) +
-           (triangles_ ? triangles_->bytes() : 0);
+           (coordinates_ ? coordinates_.desc().bytes() + colors_.desc().bytes() : 0) +
+           (pose_ ? pose_->bytes() : 0) + (triangles_ ? triangles_->bytes() : 0);
 }
 
 Result<Drawable::Ptr> DrawnMesh::create(const scene::Object& object, int index, ImageCache& images,

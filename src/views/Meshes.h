@@ -26,9 +26,12 @@ public:
     const graph::Texture& positions() const { return positions_; } ///< as vertexTexture() has them
     const graph::Texture& normals() const { return normals_; }
     const graph::Indices& indices() const { return indices_; }
-    /// Makes coordinates() once: only textures need them.
+    /// Makes coordinates() and colors() once: only textures need them.
     void addCoordinates(gl::Context& context);
     const graph::Texture& coordinates() const { return coordinates_; } ///< as coordinateTexture() has them
+    const graph::Texture& colors() const {
+        return colors_;
+    } ///< as vertexTexture() has them; without, a white row
     /// Null for a mesh that does not move.
     const PoseTextures* pose() const { return pose_ ? &*pose_ : nullptr; }
     /// Makes triangles() once: only refractive objects need them.
@@ -38,7 +41,7 @@ public:
 
 private:
     std::shared_ptr<const scene::Mesh> source_; // its address is the cache's key: it must not be reused
-    graph::Texture positions_, normals_, coordinates_;
+    graph::Texture positions_, normals_, coordinates_, colors_;
     graph::Indices indices_;
     std::optional<PoseTextures> pose_;
     std::optional<TriangleTextures> triangles_;

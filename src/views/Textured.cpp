@@ -46,8 +46,9 @@ TexturedImages recordTextured(graph::FrameGraph& graph, gl::Context& context, co
                 const Textured& textured = *mesh.textured;
                 graph::Draw draw{.depthTest = graph::DepthTest::Less};
                 draw.textures = {{"uSurface", resources[surface]},   {"uCoordinates", textured.coordinates},
-                                 {"uColor", textured.color},         {"uEmission", textured.emission},
-                                 {"uRoughness", textured.roughness}, {"uNormal", textured.normal}};
+                                 {"uVertexColors", textured.colors}, {"uColor", textured.color},
+                                 {"uEmission", textured.emission},   {"uRoughness", textured.roughness},
+                                 {"uNormal", textured.normal}};
                 drawMesh(commands, *program, resources, mesh, eye, size, mesh.index, std::move(draw));
             }
         };

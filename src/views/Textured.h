@@ -21,7 +21,7 @@ graph::Texture coordinateTexture(gl::Device& device, const std::vector<vec2>& co
 
 /// What a mesh with textures is drawn with.
 struct Textured {
-    graph::TextureHandle coordinates, color, emission, roughness, normal;
+    graph::TextureHandle coordinates, colors, color, emission, roughness, normal;
     vec4 wraps; ///< of shaders/views/mesh_block.glsl
     float normalScale;
 };

@@ -193,6 +193,31 @@ TEST_F(TexturedTest, AllTexturesTogetherAreTheTruths) {
     }
 }
 
+TEST_F(TexturedTest, ColoursOfVerticesAreLinearBetweenThem) {
+    scene::Mesh mesh = texturedPlane();
+    mesh.coordinates.clear(); // they need none
+    for (const vec3& p : mesh.positions)
+        mesh.colors.push_back({0.5f + 0.5f * p.x, 0.5f + 0.5f * p.z, 1});
+    mesh.parts[0].textures.vertexColors = true;
+    lookDown();
+    scene.lights = {scene::DistantLight{.direction = {0, -1, 0}, .irradiance = std::numbers::pi_v<float>}};
+    add(mesh, scene::Matt{});
+    const Image image = picture();
+    for (const vec2 place : {vec2(-0.75f, -0.5f), {0.25f, 0.75f}, {0.5f, 0.125f}}) {
+        const vec2 middle = (glm::floor((place * 0.5f + 0.5f) * 48.0f) + 0.5f) / 48.0f; // of its pixel, [0,1]
+        const vec3 wanted = vec3(middle, 1) * vec3(1, 0.5f, 1);
+        EXPECT_LT(glm::distance(at(image, place), wanted), 2e-3f) << place.x << " " << place.y; // half floats
+    }
+    // Beside pictures both count.
+    mesh = fullBall();
+    for (const vec3& p : mesh.positions)
+        mesh.colors.push_back(vec3(0.6f) + 0.8f * p);
+    mesh.parts[0].textures.vertexColors = true;
+    scene.objects.clear();
+    add(mesh, scene::Matt{});
+    EXPECT_LE(misplaced(16), 0.01);
+}
+
 TEST_F(TexturedTest, TheEnvironmentIsSeenInWhatATextureMakesSmooth) {
     scene.camera.type = scene::Camera::Type::Perspective;
     scene.camera.eye = {0.3f, 0.5f, 1.6f};

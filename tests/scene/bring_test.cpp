@@ -277,7 +277,7 @@ TEST(BroughtModel, AMeasuredMaterialIsShownOnABall) {
 
 TEST(BroughtModel, WhatIsNoMeshOrHasNoExtentIsRefused) {
     EXPECT_EQ(sceneOfMesh("model.glb", Bytes(9)).error().message,
-              "model.glb: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM5");
+              "model.glb: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM6");
     EXPECT_EQ(opened(Mesh{.positions = {vec3(1)}, .indices = {0, 0, 0}}).error().message,
               "model.glb: is a single point; must have some extent");
 }

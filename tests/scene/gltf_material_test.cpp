@@ -151,11 +151,39 @@ TEST(GltfMaterial, WhatIsNotReadIsNamed) {
                "extensionsUsed": [ "KHR_materials_sheen", "KHR_materials_ior", "KHR_lights_punctual" ],
                "samplers": [ { )",
         &said);
-    EXPECT_EQ(said,
-              "not read: KHR_lights_punctual, KHR_materials_sheen, alphaMode BLEND, occlusionTexture, textures "
-              "of what has no texture coordinates\n");
+    EXPECT_EQ(
+        said,
+        "not read: KHR_lights_punctual, KHR_materials_sheen, alphaMode BLEND, occlusionTexture, textures "
+        "of what has no texture coordinates\n");
     EXPECT_EQ(std::get<Glossy>(m.kind).roughness, 0.5f);
     EXPECT_EQ(m.base, vec3(0)); // the texture would blacken most of it
+}
+
+TEST(GltfMaterial, VerticesMayHaveColours) {
+    // Four of four bytes, normalised, with an alpha that counts nothing; behind 48 bytes of positions and 12
+    // of indices.
+    Bytes buffer = test::squareBuffer<std::uint16_t>();
+    test::append<std::uint8_t>(buffer, {255, 0, 51, 0, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 7});
+    std::string json = test::gltf(buffer, 5123, "", "", "");
+    const auto put = [&](const std::string& before, const std::string& text) {
+        json.insert(json.find(before) + before.size(), text);
+    };
+    put(R"("POSITION": 0)", R"(, "COLOR_0": 2)");
+    put(R"("count": 6, "type": "SCALAR" })",
+        R"(, { "bufferView": 2, "componentType": 5121, "normalized": true, "count": 4, "type": "VEC4" })");
+    put(R"("byteOffset": 48, "byteLength": 28 })",
+        R"(, { "buffer": 0, "byteOffset": 60, "byteLength": 16 })");
+    std::string error;
+    const Mesh mesh = test::read(test::glb(buffer, json), error);
+    ASSERT_EQ(error, "");
+    ASSERT_EQ(mesh.colors.size(), mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.colors.size(); ++i)
+        if (mesh.positions[i] == vec3(0)) {
+            EXPECT_EQ(mesh.colors[i], vec3(1, 0, 0.2f)); // linear as they stand
+        }
+    ASSERT_EQ(mesh.parts.size(), 1u);
+    EXPECT_TRUE(mesh.parts[0].textures.vertexColors);
+    EXPECT_FALSE(mesh.parts[0].textures.hasImages());
 }
 
 TEST(GltfMaterial, TrianglesAreOrderedByMaterial) {

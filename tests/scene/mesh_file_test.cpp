@@ -94,12 +94,48 @@ TEST(MeshFile, KeepsEveryBit) {
     EXPECT_EQ(back->parts[0].values.clear(), mesh.parts[0].values.clear());
 }
 
+TEST(MeshFile, OfTheVersionBeforeIsReadWithoutColors) {
+    Mesh mesh = movingMesh();
+    const Bytes now = encodeMesh(mesh);
+    // A count of no colours stood nowhere then, nor did the one part's word on them.
+    Bytes before = now;
+    const std::size_t lists = 12 * mesh.positions.size() + 4 * mesh.indices.size() +
+                              12 * mesh.normals.size() + 8 * mesh.joints.size() +
+                              16 * mesh.jointWeights.size();
+    const std::size_t counts = 6 * 4, flag = now.size() - 4 - 1; // the count of textures comes last
+    before.erase(before.begin() + std::ptrdiff_t(flag));
+    before.erase(before.begin() + std::ptrdiff_t(8 + lists + counts),
+                 before.begin() + std::ptrdiff_t(8 + lists + counts + 4));
+    before[7] = std::byte('5');
+    const Result<Mesh> read = decodeMesh(before, "a");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(encodeMesh(*read), now);
+}
+
+TEST(MeshFile, ColorsOfVerticesAreKeptAndChecked) {
+    Mesh mesh = movingMesh();
+    mesh.colors = {vec3(0.25f), vec3(0.5f), vec3(1)};
+    mesh.parts[0].textures.vertexColors = true;
+    const Result<Mesh> back = decodeMesh(encodeMesh(mesh), "a");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->colors, mesh.colors);
+    EXPECT_TRUE(back->parts[0].textures.vertexColors);
+    mesh.colors[1].g = -1;
+    EXPECT_EQ(decodeMesh(encodeMesh(mesh), "a").error().message,
+              "a: colour 1 is negative or not finite; must be 0 or more");
+    mesh.colors.pop_back();
+    EXPECT_EQ(decodeMesh(encodeMesh(mesh), "a").error().message, "a: has 2 colours; must have 3");
+    mesh.colors.clear();
+    EXPECT_EQ(decodeMesh(encodeMesh(mesh), "a").error().message,
+              "a: part \"glass\" shows colours of vertices that have none; must have them");
+}
+
 TEST(MeshFile, CutFilesAreRefused) {
     const Bytes file = encodeMesh(movingMesh());
     for (std::size_t length = 0; length < file.size(); ++length)
         EXPECT_FALSE(decodeMesh(std::span(file).first(length), "a")) << length;
     EXPECT_EQ(decodeMesh(std::span(file).first(7), "a").error().message,
-              "a: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM5");
+              "a: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM6");
     // Behind the magic and the count of 3 positions (36 bytes) stand 20 - 12 = 8 bytes.
     EXPECT_EQ(decodeMesh(std::span(file).first(20), "a").error().message,
               "a: the mesh file ends in its positions, of which 8 bytes are there; must have 36");

@@ -109,11 +109,24 @@ TEST(Obj, GroupsOfOneMaterialBecomeOnePart) {
     EXPECT_EQ(filesNamedIn(bytesOf("mtllib a b.mtl\n")), (std::vector<std::string>{"a b.mtl"}));
 }
 
+TEST(Obj, PositionsMayHaveColoursBehindThem) {
+    const std::string corners = "v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 1\n"; // a colour, nothing, a weight
+    const Mesh mesh = sound(corners + "f 1 2 3\n");
+    ASSERT_EQ(mesh.colors.size(), 3u);
+    EXPECT_EQ(mesh.colors[0], vec3(1, linearFromSrgb(0.5f), 0));
+    EXPECT_EQ(mesh.colors[1], vec3(1));
+    EXPECT_EQ(mesh.colors[2], vec3(1));
+    ASSERT_EQ(mesh.parts.size(), 1u) << "a material whose albedo they are";
+    EXPECT_EQ(mesh.parts[0].values.diffuse, vec3(1));
+    EXPECT_TRUE(mesh.parts[0].textures.vertexColors);
+    EXPECT_TRUE(sound(kSquare + "f 1 2 3\n").colors.empty());
+}
+
 TEST(Obj, WhatIsNotReadIsNamedOnce) {
     testing::internal::CaptureStderr();
-    sound("mtllib none.mtl\n" + kSquare + "s 1\nusemtl x\nf 1 2 3\nl 1 2\ncurv 0 1 2\nv 1 2 3 0.5 0.5 0.5\n");
+    sound("mtllib none.mtl\n" + kSquare + "s 1\nusemtl x\nf 1 2 3\nl 1 2\ncurv 0 1 2\nv 1 2 3 0.5\n");
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
-              "warning: m/a.obj: not read: colours of vertices, curv, materials (m/none.mtl: cannot be read "
+              "warning: m/a.obj: not read: curv, materials (m/none.mtl: cannot be read "
               "(none)), points and lines\n");
 }
 

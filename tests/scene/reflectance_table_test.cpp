@@ -53,7 +53,8 @@ TEST(ReflectanceTable, EqualAreaTexelsHaveEqualSolidAngles) {
 TEST(ReflectanceTable, ReadsBackWhatItWasMadeOf) {
     struct {
         TableForm form;
-        double error; // of what is linear between texels; the square of a disc has creases along its diagonals
+        double
+            error; // of what is linear between texels; the square of a disc has creases along its diagonals
     } const kForms[] = {{TableForm::EqualArea, 0.004}, {TableForm::Projected, 0.002}};
     for (const auto& [form, error] : kForms) {
         const Image table = tabulate(smooth, form, 24, 24);

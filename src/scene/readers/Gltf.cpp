@@ -380,11 +380,12 @@ private:
             return fail("points to material " + std::to_string(primitive.material) +
                         ", which does not exist");
         for (const auto& [attribute, accessor] : primitive.attributes)
-            if (attribute.starts_with("COLOR_")) unread_.insert("colours of vertices");
+            if (attribute.starts_with("COLOR_") && attribute != "COLOR_0")
+                unread_.insert("further colours of vertices");
         Mesh piece;
         if (!(readPositions(primitive, piece) && readCoordinates(primitive, piece) &&
-              readTriangles(primitive, mode, piece) && readTargets(primitive, piece) &&
-              readJoints(primitive, index, piece)))
+              readColors(primitive, piece) && readTriangles(primitive, mode, piece) &&
+              readTargets(primitive, piece) && readJoints(primitive, index, piece)))
             return false;
         if (primitive.attributes.contains("NORMAL")) {
             if (!readNormals(primitive, piece)) return false;
@@ -422,6 +423,27 @@ private:
         for (std::size_t i = 0; i < numbers->size(); i += 2)
             piece.coordinates.emplace_back(mapping.textureFromVertex *
                                            dvec3((*numbers)[i], (*numbers)[i + 1], 1));
+        return true;
+    }
+
+    // Of vertices: linear, with or without an alpha, which is not drawn.
+    bool readColors(const tinygltf::Primitive& primitive, Mesh& piece) {
+        const auto found = primitive.attributes.find("COLOR_0");
+        if (found == primitive.attributes.end()) return true;
+        const tinygltf::Accessor* accessor = element(model_.accessors, found->second);
+        const bool hasAlpha = accessor && accessor->type == TINYGLTF_TYPE_VEC4;
+        const Result<std::vector<double>> numbers =
+            readNumbers(model_, found->second, hasAlpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
+                        "colours of vertices", name_);
+        if (!pass(numbers)) return false;
+        const std::size_t each = hasAlpha ? 4 : 3;
+        if (numbers->size() != each * piece.positions.size())
+            return fail("has " + std::to_string(numbers->size() / each) + " colours for " +
+                        std::to_string(piece.positions.size()) + " positions; must be as many");
+        for (std::size_t i = 0; i < numbers->size(); i += each)
+            piece.colors.push_back(
+                glm::max(vec3(dvec3((*numbers)[i], (*numbers)[i + 1], (*numbers)[i + 2])), vec3(0)));
+        colored_.insert(primitive.material < 0 ? kNoMaterial : primitive.material);
         return true;
     }
 
@@ -505,6 +527,7 @@ private:
         };
         take(piece.positions);
         if (!piece.coordinates.empty()) take(piece.coordinates);
+        if (!piece.colors.empty()) take(piece.colors);
         take(piece.joints);
         take(piece.jointWeights);
         piece.normals = std::move(normals);
@@ -652,6 +675,10 @@ private:
             mesh_.coordinates.resize(first, vec2(0)); // of what has no textures
             append(mesh_.coordinates, piece.coordinates);
         }
+        if (!piece.colors.empty()) {
+            mesh_.colors.resize(first, vec3(1)); // of what has none
+            append(mesh_.colors, piece.colors);
+        }
         append(mesh_.positions, piece.positions);
         append(mesh_.normals, piece.normals);
         append(mesh_.joints, piece.joints);
@@ -693,7 +720,8 @@ private:
 
     // Triangles in the order of their materials; false when there are none.
     bool finishParts() {
-        const bool named = indicesOf_.size() > 1 || !indicesOf_.contains(kNoMaterial);
+        const bool named =
+            indicesOf_.size() > 1 || !indicesOf_.contains(kNoMaterial) || colored_.contains(kNoMaterial);
         UniqueNames names;
         for (const auto& [index, indices] : indicesOf_) {
             if (indices.empty()) continue;
@@ -705,11 +733,13 @@ private:
                     Mesh::Part{name, std::uint32_t(mesh_.indices.size()), std::uint32_t(indices.size()),
                                materialOf(material ? *material : tinygltf::Material(), unread_)});
                 if (material) addTextures(*material, part);
+                part.textures.vertexColors = colored_.contains(index) && showsTextures(part.values);
             }
             append(mesh_.indices, indices);
         }
         mesh_.images = textures_.takeImages();
         if (!mesh_.coordinates.empty()) mesh_.coordinates.resize(mesh_.positions.size(), vec2(0));
+        if (!mesh_.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), vec3(1));
         return !mesh_.indices.empty();
     }
 
@@ -732,6 +762,7 @@ private:
     std::vector<Place> places_;
     std::vector<int> order_; // of nodes, parents first
     std::vector<mat4> rest_; // of joints, as Pose has them
+    std::set<int> colored_;  // materials of triangles whose vertices have colours
     std::map<int, int> firstOfSkin_;
     std::map<int, std::vector<std::uint32_t>> indicesOf_; // by material
     std::size_t animated_ = 0;                            // numbers of the animation

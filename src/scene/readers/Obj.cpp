@@ -266,8 +266,7 @@ private:
     void readLine(std::string_view keyword, std::string_view rest) {
         if (keyword == "v") {
             positions_.push_back(lines_.vector(keyword, rest));
-            nextWord(rest); // a weight, of use to curves only
-            if (!trimmed(rest).empty()) unread_.insert("colours of vertices");
+            readColor(rest);
         } else if (keyword == "vn") {
             normals_.push_back(lines_.vector(keyword, rest));
         } else if (keyword == "vt") { // v points up there
@@ -285,6 +284,17 @@ private:
         } else if (keyword != "g" && keyword != "o" && keyword != "mtllib") {
             unread_.insert(std::string(keyword));
         }
+    }
+
+    // What follows a position: nothing, a weight, of use to curves only, or the colour that scanners put
+    // there.
+    void readColor(std::string_view rest) {
+        std::string_view behind = rest;
+        nextWord(behind);
+        if (trimmed(behind).empty()) return;
+        const vec3 color = glm::clamp(lines_.vector("v", rest), vec3(0), vec3(1));
+        colors_.resize(positions_.size(), vec3(1)); // of what has none
+        colors_.back() = {linearFromSrgb(color.r), linearFromSrgb(color.g), linearFromSrgb(color.b)};
     }
 
     // "off" and 0: none; groups are numbers, and any other word counts as one.
@@ -350,6 +360,8 @@ private:
         if (isNew) {
             mesh_.positions.push_back(positions_[std::size_t(corner.position)]);
             mesh_.normals.push_back(corner.normal < 0 ? vec3(0) : normals_[std::size_t(corner.normal)]);
+            const bool hasColor = std::size_t(corner.position) < colors_.size();
+            mesh_.colors.push_back(hasColor ? colors_[std::size_t(corner.position)] : vec3(1));
             mesh_.coordinates.push_back(corner.coordinate < 0 ? vec2(0)
                                                               : coordinates_[std::size_t(corner.coordinate)]);
         }
@@ -370,12 +382,15 @@ private:
     }
 
     void finishParts(const Materials& materials) {
+        const bool isColored = !colors_.empty();
+        if (!isColored) mesh_.colors.clear();
         for (const auto& [name, indices] : parts_) {
             if (indices.empty()) continue;
             const auto found = materials.find(name);
-            const ObjMaterial material =
+            ObjMaterial material =
                 found == materials.end() ? ObjMaterial{{.kind = Matt{}}, {}, {}, {}} : found->second;
-            if (hasMaterials_)
+            if (isColored && !hasMaterials_) material.values.diffuse = vec3(1);
+            if (hasMaterials_ || isColored)
                 mesh_.parts.push_back({name, std::uint32_t(mesh_.indices.size()),
                                        std::uint32_t(indices.size()), material.values, texturesOf(material)});
             mesh_.indices.insert(mesh_.indices.end(), indices.begin(), indices.end());
@@ -388,7 +403,8 @@ private:
         return {.color = useOf(material.color, Encoding::Srgb),
                 .emission = useOf(material.emission, Encoding::Srgb),
                 .roughness = {},
-                .normal = useOf(material.normal, Encoding::Linear)};
+                .normal = useOf(material.normal, Encoding::Linear),
+                .vertexColors = !colors_.empty()};
     }
 
     TextureUse useOf(const std::string& file, Encoding encoding) {
@@ -411,7 +427,7 @@ private:
     const std::string& name_;
     LineReader lines_;
     const ReadFile& read_;
-    std::vector<vec3> positions_, normals_;
+    std::vector<vec3> positions_, normals_, colors_; ///< colors_ up to the last position that has one
     std::vector<vec2> coordinates_;
     std::map<std::pair<std::string, Encoding>, std::int32_t> images_; // places in the mesh's; -1: not read
     std::unordered_map<Corner, std::uint32_t, Hash> vertices_;
