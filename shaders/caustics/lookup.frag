@@ -4,6 +4,7 @@
 //       uShadow  depths of the receivers, seen from the light
 //       uBehind  USE_BEHIND: of those behind them, whose light lies above that on the first ones
 //       uSolid   FROM_SOLID: what each pixel shows, height fields too (views/geometry.frag)
+//       uPlaces  OF_PLACES: world places of the pixels, of what is unfolded
 //       uBefore  USE_BEFORE: the sum so far
 // out   oSum.rgb [W/m²]
 // model mean flux of the texels that the pixel covers, each by how much of it, over the area that a texel covers on the
@@ -12,13 +13,14 @@
 #pragma variants - PARABOLOIDS ONE_VIEW
 #pragma variants - USE_BEFORE
 #pragma variants - USE_BEHIND
-#pragma variants - FROM_SOLID
+#pragma variants - FROM_SOLID OF_PLACES
 #include "views/view.glsl"
 layout(std140) uniform LookupBlock {
     View view; // of the camera
     View faces[6];
     int faceCount;
     float unit; // [W] that the map counts as 1
+    float extent; // OF_PLACES: [m] that a pixel covers along a side
 } light;
 #include "lib/octahedral.glsl"
 #ifdef FROM_SOLID
@@ -28,6 +30,9 @@ uniform sampler2D uSolid;
 #endif
 #include "caustics/map_view.glsl"
 uniform sampler2D uMap;
+#ifdef OF_PLACES
+uniform sampler2D uPlaces;
+#endif
 #ifdef USE_BEHIND
 uniform sampler2D uBehind;
 #endif
@@ -61,6 +66,10 @@ Shown shownHere() {
 
 // Point of the surface's tangent plane beside the middle of the pixel, in pixels.
 vec3 besides(vec3 place, vec3 normal, vec2 offset) {
+#ifdef OF_PLACES
+    vec3 aside = normalize(cross(normal, abs(normal.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+    return place + light.extent * (offset.x * aside + offset.y * cross(normal, aside));
+#else
     View view = light.view;
     vec2 pixel = gl_FragCoord.xy + offset;
     vec3 across = placeFrom(view, pixel, 1.0) - (view.eye.w > 0.5 ? vec3(0.0) : view.forward.xyz);
@@ -69,6 +78,7 @@ vec3 besides(vec3 place, vec3 normal, vec2 offset) {
     float slope = dot(normal, ray);
     if (abs(slope) <= 1e-3 * length(ray)) return place;
     return view.eye.xyz + origin + dot(normal, place - view.eye.xyz - origin) / slope * ray;
+#endif
 }
 
 // How far a step to both sides of the pixel's middle leads on the map, in texels.
@@ -155,6 +165,10 @@ void main() {
 #endif
     Shown shown = shownHere();
     if (shown.depth == 1e30) return;
+#ifdef OF_PLACES
+    vec3 place = texelFetch(uPlaces, ivec2(gl_FragCoord.xy), 0).xyz;
+#else
     vec3 place = light.view.eye.xyz + placeFrom(light.view, gl_FragCoord.xy, shown.depth);
+#endif
     oSum.rgb += irradianceAt(place, shown.normal);
 }

@@ -4,12 +4,14 @@
 // in    uSurface, uPlaces  throughput/place.frag
 //       uEntered    USE_SUM: the sum so far
 //       uOcclusion  USE_OCCLUSION: light/occlusion.glsl
+//       uFlux       USE_FLUX: [W/m²] that glass, mirrors and water carry there; it arrives straight on
 // out   oEntered.rgb [W/m²]
 // model share F_t(cos) V E cos. SCHLICK: 1 - F_t as (1 - cos)^5 from its value straight on (Schlick 1994), as the paper
 //       has it
 #pragma variants - USE_OCCLUSION
 #pragma variants - USE_SUM
 #pragma variants - SCHLICK
+#pragma variants - USE_FLUX
 layout(std140) uniform ThroughputEnterBlock {
     ivec2 size;
     float ior; // 1: all light enters
@@ -25,6 +27,9 @@ layout(std140) uniform ThroughputEnterBlock {
 uniform sampler2D uPlaces;
 #ifdef USE_SUM
 uniform sampler2D uEntered;
+#endif
+#ifdef USE_FLUX
+uniform sampler2D uFlux;
 #endif
 layout(location = 0) out vec4 oEntered;
 
@@ -48,6 +53,9 @@ void main() {
     oEntered = texelFetch(uEntered, at, 0);
 #else
     oEntered = vec4(vec3(0.0), 1.0);
+#endif
+#ifdef USE_FLUX
+    oEntered.rgb += (1.0 - reflected(1.0)) * texelFetch(uFlux, at, 0).rgb;
 #endif
     for (int i = enter.firstLight; i < enter.endLight; ++i) {
         LightSample light = lightSampleAt(i, place);

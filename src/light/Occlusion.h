@@ -53,9 +53,10 @@ struct LitView {
     const Eye& eye;
     ivec2 size;
     graph::TextureId surface; ///< views.surface, or a layer of one object with outward normals
-    /// World places of the pixels, xyz, where they do not follow from the eye: of what is unfolded. None: they
-    /// do.
+    /// World places of the pixels, xyz, where they do not follow from the eye: of what is unfolded. None:
+    /// they do.
     graph::TextureId places{};
+    float extent = 0; ///< m that a pixel of such places covers along a side
 };
 
 /// The same for another view, by the shadows that are drawn already.

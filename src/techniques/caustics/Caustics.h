@@ -38,12 +38,14 @@ bool carriesEnvironment(const scene::Scene& scene);
 
 struct Inputs {
     const scene::Scene& scene;
-    const views::Eye& eye;    ///< the camera's
-    views::Drawables glass;   ///< refractive objects, hidden or not
-    views::Drawables solids;  ///< opaque objects and mirrors, hidden or not
-    graph::TextureId surface; ///< views.surface; none: nothing is looked up
-    ivec2 size;               ///< of the camera's picture
-    graph::TextureId solid{}; ///< record() makes it, where there are height fields
+    const views::Eye& eye;     ///< the camera's
+    views::Drawables glass;    ///< refractive objects, hidden or not
+    views::Drawables solids;   ///< opaque objects and mirrors, hidden or not
+    graph::TextureId surface;  ///< views.surface; none: nothing is looked up
+    ivec2 size;                ///< of the camera's picture
+    graph::TextureId solid{};  ///< record() makes it, where there are height fields
+    graph::TextureId places{}; ///< views::LitView::places
+    float extent = 0;          ///< and extent
 };
 
 /// What is drawn for each light; made once for as long as lights and objects stay where they are.

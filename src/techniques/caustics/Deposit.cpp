@@ -191,6 +191,7 @@ Status LightPasses::lookUp(const Map& from, TextureId& sum) {
     if (sum) defines.push_back("USE_BEFORE");
     if (from.behind) defines.push_back("USE_BEHIND");
     if (in_.solid) defines.push_back("FROM_SOLID");
+    if (in_.places) defines.push_back("OF_PLACES");
     const char* const name = in_.solid ? "uSolid" : "uSurface";
     const TextureId pixels = in_.solid ? in_.solid : in_.surface;
     const gl::Program* looking = programOnMap("caustics/lookup", defines);
@@ -198,6 +199,7 @@ Status LightPasses::lookUp(const Map& from, TextureId& sum) {
     graph_.addPass("caustics.lookup", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("irradiance that one point of a light throws on each pixel by way of glass");
         pass.sample(pixels);
+        if (in_.places) pass.sample(in_.places);
         pass.sample(from.flux);
         pass.sample(from.depths);
         if (from.behind) pass.sample(from.behind);
@@ -206,13 +208,16 @@ Status LightPasses::lookUp(const Map& from, TextureId& sum) {
         const LookupBlock block{.view = views::viewBlock(in_.eye, in_.size),
                                 .faces = views::facesOf(mapViews()),
                                 .faceCount = int(mapViews().faces.size()),
-                                .unit = unit()};
-        return [=, program = looking](const graph::Resources& resources, graph::Commands& commands) {
+                                .unit = unit(),
+                                .extent = in_.extent};
+        return [=, program = looking, places = in_.places](const graph::Resources& resources,
+                                                           graph::Commands& commands) {
             std::vector<graph::Binding> textures{{name, resources[pixels]},
                                                  {"uMap", resources[from.flux]},
                                                  {"uShadow", resources[from.depths]}};
             if (from.behind) textures.push_back({"uBehind", resources[from.behind]});
             if (before) textures.push_back({"uBefore", resources[before]});
+            if (places) textures.push_back({"uPlaces", resources[places]});
             commands.draw({.program = program, .block = block, .textures = std::move(textures)});
         };
     });

@@ -62,7 +62,9 @@ public:
                                  .glass = in.glass,
                                  .solids = in.solids,
                                  .surface = view.surface,
-                                 .size = view.size},
+                                 .size = view.size,
+                                 .places = view.places,
+                                 .extent = view.extent},
                                 *plan_, carried_.maps, settingsOf(passes.picture.scene));
     }
 

@@ -43,7 +43,8 @@ public:
                                   .surface = passes.surface,
                                   .occlusion = &slice.occlusion,
                                   .placed = slice.placed,
-                                  .mirrors = passes.picture.scene.view.show == Aov::Color},
+                                  .mirrors = passes.picture.scene.view.show == Aov::Color,
+                                  .fluxOn = slice.fluxOn},
                                  baked(passes.posed), settingsOf(passes.picture.scene));
     }
     Status scatter(const technique::Passes& passes, TextureId shown) override {
@@ -124,13 +125,6 @@ const technique::NotDrawn kLimits[] = {
     {"objects in what precomputed surfaces mirror", "they mirror lamps and the environment past everything",
      [](const scene::Scene& scene) {
          return anyBaked(scene) && scene.objects.size() > 1 && views::hasEnvironment(scene);
-     }},
-    {"caustics on precomputed objects", "lamps and the environment light them straight on",
-     [](const scene::Scene& scene) {
-         return anyBaked(scene) &&
-                std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
-                    return object.material.isRefractive() || object.material.isMirror();
-                });
      }},
     {"layers and thickness of a precomputed material", "its factors are the dipole's of a half space",
      [](const scene::Scene& scene) {

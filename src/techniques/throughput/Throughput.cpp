@@ -266,18 +266,27 @@ Status Throughput::addTo(graph::FrameGraph& graph, const Arriving& in, const vie
                            .textures = {{"uPlace", resources[place]}, {"uFrame", resources[frame]}}});
         };
     });
+    const views::LitView view{.eye = in.eye,
+                              .size = size,
+                              .surface = surface,
+                              .places = places,
+                              .extent = body.bake->surface.texels.size};
+    const Result<TextureId> flux = in.first == 0 && in.fluxOn ? in.fluxOn(view) : TextureId{};
+    if (!flux) return flux.error();
     const int most =
         std::clamp(4 * (kMostTexels / (size.x * size.y)), 4, views::mostSamplesAtOnce(context_, size));
     for (int first = in.first; first == in.first || first < in.end; first += most) {
         const int end = std::min(in.end, first + most);
         const auto from = std::size_t(first), count = std::size_t(end - first);
-        Result<views::Occlusion> occlusion = views::recordOcclusion(
-            graph, context_, {.eye = in.eye, .size = size, .surface = surface, .places = places},
-            in.samples.subspan(from, count), in.shadows.subspan(from - std::size_t(in.first), count));
+        Result<views::Occlusion> occlusion =
+            views::recordOcclusion(graph, context_, view, in.samples.subspan(from, count),
+                                   in.shadows.subspan(from - std::size_t(in.first), count));
         if (!occlusion) return occlusion.error();
         std::vector<std::string> defines;
         if (occlusion->texture) defines.push_back("USE_OCCLUSION");
         if (first > 0) defines.push_back("USE_SUM");
+        const TextureId carried = first == 0 ? *flux : TextureId{};
+        if (carried) defines.push_back("USE_FLUX");
         if (settings.fresnel == Fresnel::Schlick) defines.push_back("SCHLICK");
         const gl::Program* program = context_.program("throughput/enter", defines);
         const TextureId before = first > 0 ? import(graph, body.entered[body.now]) : TextureId{};
@@ -292,7 +301,7 @@ Status Throughput::addTo(graph::FrameGraph& graph, const Arriving& in, const vie
             .columns = occlusion->columns};
         graph.addPass("throughput.enter", [&](graph::PassBuilder& pass) -> graph::Execute {
             pass.reason("the illumination map of object \"" + mesh.object->name + "\"");
-            for (const TextureId id : {surface, places, in.table, occlusion->texture, before})
+            for (const TextureId id : {surface, places, in.table, occlusion->texture, before, carried})
                 if (id) pass.sample(id);
             pass.write(sum);
             pass.clear(sum, vec4(0));
@@ -303,6 +312,7 @@ Status Throughput::addTo(graph::FrameGraph& graph, const Arriving& in, const vie
                                                      {"uLights", resources[table]}};
                 if (shade) textures.push_back({"uOcclusion", resources[shade]});
                 if (before) textures.push_back({"uEntered", resources[before]});
+                if (carried) textures.push_back({"uFlux", resources[carried]});
                 commands.draw({.program = program, .block = block, .textures = textures});
             };
         });

@@ -10,6 +10,7 @@
 #include "techniques/throughput/Bake.h"
 #include "views/Meshes.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -81,6 +82,8 @@ struct Arriving {
     const views::Occlusion* occlusion = nullptr; ///< keeps the samples from
     int placed = 0;       ///< [0, placed) are lamps', of which surfaces show a mirror image
     bool mirrors = false; ///< if this is so
+    /// technique::Slice::fluxOn
+    std::function<Result<graph::TextureId>(const views::LitView&)> fluxOn{};
 };
 
 struct Shown {
