@@ -36,6 +36,7 @@ namespace {
 struct BenchOptions {
     std::vector<std::string> parts;
     bool quick = false;
+    std::string cells;
     std::string output;
     std::string gallery = "assets/generated/gallery";
     std::string meshes = "assets/generated/meshes";
@@ -297,7 +298,8 @@ Status bench(const BenchOptions& options) {
                 !proved)
                 return proved;
     if (parts->compose)
-        if (Status proved = benchCompose(**context, options.output, options.quick); !proved) return proved;
+        if (Status proved = benchCompose(**context, options.output, options.quick, options.cells); !proved)
+            return proved;
     if (parts->steps)
         if (Status timed = benchSteps(**context, options); !timed) return timed;
     report.ratios.push_back({"MB resident with a relief of 512^2 texels", peakMB, 256, false});
@@ -349,12 +351,17 @@ Command addBench(CLI::App& program) {
         ->add_option("--truths", options->truths,
                      "Folder where exact solutions are kept for the next run; else truths in the output's")
         ->type_name("DIR");
+    parser
+        ->add_option("--cells", options->cells,
+                     "Of compose: only cells whose name, as \"spot / water / matt mesh\", contains this")
+        ->type_name("TEXT");
     parser->add_option("--commit", options->commit, "What was built, for the report's header")
         ->capture_default_str();
     parser->footer(partsHelp() + "Examples:\n"
                                  "  lucent bench --quick -o build/bench\n"
                                  "  lucent bench relief environment -o build/bench\n"
-                                 "  lucent bench compose -o build/compose");
+                                 "  lucent bench compose -o build/compose\n"
+                                 "  lucent bench compose --cells \"glass ball\" -o build/compose");
     return {parser, [options] { return bench(*options); }};
 }
 

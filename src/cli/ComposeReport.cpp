@@ -3,6 +3,7 @@
 #include "base/Text.h"
 #include "cli/Files.h"
 #include "cli/ProgressBar.h"
+#include "measure/BenchReport.h"
 #include "measure/Compose.h"
 
 #include <algorithm>
@@ -96,34 +97,43 @@ std::string pageOf(const std::vector<ComposeCell>& cells, const std::vector<std:
 
 } // namespace
 
-Status benchCompose(gl::Context& context, const std::string& folder, bool quick) {
+Status benchCompose(gl::Context& context, const std::string& folder, bool quick, const std::string& some) {
     std::error_code failed;
     fs::create_directories(fs::path(folder) / "compose", failed);
     if (failed) return Error{folder + "/compose: cannot be made (" + failed.message() + ")"};
     std::vector<std::string_view> lamps(measure::composeLamps().begin(), measure::composeLamps().end());
     if (quick) lamps = {"distant", "environment"};
-    const std::size_t all =
-        lamps.size() * measure::composeBetween().size() * measure::composeReceivers().size();
-    std::vector<ComposeCell> cells;
-    const auto start = std::chrono::steady_clock::now();
+    std::vector<ComposeCell> wanted;
     for (const std::string_view lamp : lamps)
         for (const std::string_view between : measure::composeBetween())
             for (const std::string_view receiver : measure::composeReceivers()) {
-                ComposeCell cell = measure::measureCompose(context, lamp, between, receiver);
-                if (cell.isMeasured()) {
-                    const std::string path = folder + "/" + fileOf(cell);
-                    Result<Bytes> png = encode(besides(cell), path);
-                    if (!png) return png.error();
-                    if (Status written = writeAll({{path, std::move(*png)}}); !written) return written;
-                }
-                const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-                cells.push_back(std::move(cell));
-                const ComposeCell& last = cells.back();
-                std::fprintf(stderr, "bench: %s  %s: %s\n",
-                             progressLine(double(cells.size()) / double(all), elapsed.count()).c_str(),
-                             last.name().c_str(),
-                             last.isMeasured() ? percent(last.misplaced).c_str() : last.message.c_str());
+                ComposeCell cell{std::string(lamp), std::string(between), std::string(receiver)};
+                if (cell.name().find(some) != std::string::npos) wanted.push_back(std::move(cell));
             }
+    if (wanted.empty())
+        return Error{"--cells: is " + inQuotes(some) +
+                     ", which no cell's name contains; must be part of one such as " +
+                     inQuotes("spot / water / matt mesh")};
+    std::vector<ComposeCell> cells;
+    const auto start = std::chrono::steady_clock::now();
+    for (const ComposeCell& one : wanted) {
+        ComposeCell cell = measure::measureCompose(context, one.lamp, one.between, one.receiver);
+        if (cell.isMeasured()) {
+            const std::string path = folder + "/" + fileOf(cell);
+            Result<Bytes> png = encode(besides(cell), path);
+            if (!png) return png.error();
+            if (Status written = writeAll({{path, std::move(*png)}}); !written) return written;
+        }
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        cells.push_back(std::move(cell));
+        const ComposeCell& last = cells.back();
+        std::fprintf(stderr, "bench: %s  %s: %s\n",
+                     progressLine(double(cells.size()) / double(wanted.size()), elapsed.count()).c_str(),
+                     last.name().c_str(),
+                     last.isMeasured()
+                         ? (percent(last.misplaced) + measure::formatted(", flux %.4f", last.flux)).c_str()
+                         : last.message.c_str());
+    }
     const auto count = [&](const auto& which) {
         return int(std::count_if(cells.begin(), cells.end(), which));
     };

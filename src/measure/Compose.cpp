@@ -19,12 +19,12 @@ namespace lucent::measure {
 
 namespace {
 
-constexpr std::string_view kLamps[] = {"point", "spot", "distant", "area", "environment"};
+constexpr std::string_view kLamps[] = {"point", "spot", "distant", "area", "projector", "environment"};
 constexpr std::string_view kBetween[] = {"nothing",    "matt box",        "relief 2.5 %", "mirror",
                                          "glass ball", "absorbing glass", "marble ball",  "water"};
-constexpr std::string_view kReceivers[] = {"matt plane",     "matt mesh",           "textured mesh",
-                                           "displaced mesh", "relief 3 %",          "relief 0",
-                                           "marble slab",    "floor through glass", "floor in a mirror"};
+constexpr std::string_view kReceivers[] = {
+    "matt plane", "matt mesh",   "textured mesh",    "displaced mesh",      "relief 3 %",
+    "relief 0",   "marble slab", "precomputed slab", "floor through glass", "floor in a mirror"};
 constexpr int kSize = 64;                 // pixels a side
 constexpr int kSamples = 512;             // of the truth, a pixel
 constexpr int kSkySamples = 10240;        // where an environment shines: noise of a quarter of 1 %
@@ -77,22 +77,38 @@ std::shared_ptr<const Image> windowMap() {
     return map;
 }
 
+// Colours that go over into each other from texel to texel.
+std::shared_ptr<const Image> projected() {
+    auto image = std::make_shared<Image>(16, 16, 3);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            for (int c = 0; c < 3; ++c)
+                image->at(x, y)[c] =
+                    0.6f + 0.4f * std::sin(0.8f * float(x) + float(c)) * std::cos(0.6f * float(y));
+    return image;
+}
+
 void addLamp(scene::Scene& scene, std::string_view lamp) {
     const vec3 place(0.5f, 2.5f, 0.3f);
+    scene::SpotLight spot{
+        .position = place, .direction = -place, .intensity = 20, .innerAngle = 16, .outerAngle = 22};
     if (lamp == "point")
         scene.lights.push_back(scene::PointLight{
             .position = place, .intensity = 20, .falloff = scene::LightFalloff::InverseSquare});
     else if (lamp == "spot")
-        scene.lights.push_back(scene::SpotLight{
-            .position = place, .direction = -place, .intensity = 20, .innerAngle = 16, .outerAngle = 22});
-    else if (lamp == "distant")
+        scene.lights.push_back(spot);
+    else if (lamp == "projector") {
+        spot.image = projected();
+        spot.fov = 36;
+        scene.lights.push_back(std::move(spot));
+    } else if (lamp == "distant")
         scene.lights.push_back(scene::DistantLight{.direction = -place, .irradiance = 3, .angle = 3});
     else if (lamp == "area")
         scene.lights.push_back(scene::AreaLight{.corner = place - vec3(0.15f, 0, 0.15f),
                                                 .edgeU = {0.3f, 0, 0},
                                                 .edgeV = {0, 0, 0.3f},
                                                 .radiance = 200});
-    else
+    else if (lamp == "environment")
         scene.environment.emplace().map = windowMap();
 }
 
@@ -185,6 +201,8 @@ void displace(scene::Object& object) {
         scene::Displacement{.scale = 0.06f, .repeat = {8, 3}, .heights = std::move(heights)};
 }
 
+bool isSlab(std::string_view receiver) { return receiver == "marble slab" || receiver == "precomputed slab"; }
+
 void addReceiver(scene::Scene& scene, std::string_view receiver) {
     scene::Object object = objectOf("receiver", scene::Plane{{2, 2}});
     if (receiver == "matt mesh") object.shape = scene::Torus{0.35f, 0.15f};
@@ -192,10 +210,11 @@ void addReceiver(scene::Scene& scene, std::string_view receiver) {
     if (receiver == "displaced mesh") displace(object);
     if (receiver == "relief 3 %") object = reliefOf("receiver", 1.3f, 0.08f, 0.039f);
     if (receiver == "relief 0") object = reliefOf("receiver", 1.3f, 0.08f, 1e-6f);
-    if (receiver == "marble slab") {
+    if (isSlab(receiver)) {
         object.shape = scene::Box{{1, 0.2f, 1}};
         object.transform.translate.y = -0.1f;
         makeMarble(object.material);
+        object.material.translucent().precomputed = receiver == "precomputed slab";
     }
     scene.objects.push_back(std::move(object));
     if (receiver == "floor through glass") {
@@ -212,7 +231,7 @@ bool bends(std::string_view between) {
 }
 
 double targetOf(std::string_view between, std::string_view receiver) {
-    if (receiver == "marble slab") return 0.03;
+    if (isSlab(receiver)) return 0.03;
     if (receiver == "floor in a mirror") return 0.02;
     return bends(between) || receiver == "floor through glass" ? 0.02 : 0.01;
 }
@@ -286,7 +305,7 @@ ComposeCell measureCompose(gl::Context& context, std::string_view lamp, std::str
         cell.message = picture ? exact.error().message : picture.error().message;
         return cell;
     }
-    const bool spread = bends(between) || receiver == "floor through glass" || receiver == "marble slab";
+    const bool spread = bends(between) || receiver == "floor through glass" || isSlab(receiver);
     const FluxErrors errors = compareFlux(*picture, exact->values, exact->errors, spread ? kCell : 1);
     double drawn = 0, wanted = 0;
     for (std::size_t i = 0; i < picture->pixels.size(); ++i) {

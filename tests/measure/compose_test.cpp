@@ -14,7 +14,8 @@ struct Compose : support::GlTest {};
 TEST_F(Compose, ABoxAReliefAndAFloorShadeEachOtherWithinTheTarget) {
     for (const auto& [lamp, between, receiver] : {std::array{"distant", "matt box", "relief 3 %"},
                                                   {"spot", "relief 2.5 %", "relief 0"},
-                                                  {"area", "matt box", "matt mesh"}}) {
+                                                  {"area", "matt box", "matt mesh"},
+                                                  {"projector", "matt box", "matt plane"}}) {
         const ComposeCell cell = measureCompose(*context, lamp, between, receiver);
         EXPECT_TRUE(cell.isMet()) << cell.name() << ": " << cell.misplaced << ", flux " << cell.flux;
         EXPECT_LT(cell.byNoise, cell.target / 4) << cell.name();
@@ -38,8 +39,9 @@ TEST_F(Compose, AFlatMirrorShowsTheFloorWithWhatFallsOnIt) {
 }
 
 TEST_F(Compose, CausticsFallOnWhatScattersAndComeFromEnvironmentsToo) {
-    for (const auto& [lamp, between, receiver] :
-         {std::array{"spot", "glass ball", "marble slab"}, {"environment", "glass ball", "matt plane"}}) {
+    for (const auto& [lamp, between, receiver] : {std::array{"spot", "glass ball", "marble slab"},
+                                                  {"projector", "glass ball", "precomputed slab"},
+                                                  {"environment", "glass ball", "matt plane"}}) {
         const ComposeCell cell = measureCompose(*context, lamp, between, receiver);
         EXPECT_TRUE(cell.isMet()) << cell.name() << ": " << cell.misplaced << ", flux " << cell.flux;
     }
