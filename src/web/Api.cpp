@@ -5,7 +5,7 @@
 #include "technique/Technique.h"
 #include "viewer/Viewer.h"
 
-#include <emscripten/em_js.h>
+#include <emscripten.h>
 
 #include <algorithm>
 #include <cstring>
