@@ -11,6 +11,7 @@
 //       that are straight enough.
 #pragma variants - AS_SHADOW SECOND SHOW_ITERATIONS
 #pragma variants - BEHIND if AS_SHADOW
+#pragma variants - SEARCHED
 #include "views/displaced_block.glsl"
 #include "views/prism.glsl"
 #include "views/height_search.glsl"

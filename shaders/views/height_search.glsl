@@ -1,6 +1,7 @@
 // views/height_search.glsl: where a straight stretch through tiles of heights first goes below them.
 //
-// A place is (t, z): texels from the edge of a tile, which lies on endlessly, and metres.
+// A place is (t, z): texels from the edge of a tile, which lies on endlessly, and metres. SEARCHED: by the methods that
+// look at places; else by the pyramid.
 
 struct Found {
     float at; // share of the stretch; 1e30: nowhere
@@ -18,6 +19,11 @@ float metresAt(vec2 t) { return heightAt(gridOf(t), displaced.field) * displaced
 
 float above(vec3 from, vec3 way, float at) { return from.z + at * way.z - metresAt(from.xy + at * way.xy); }
 
+// Where Newton's steps in a prism lead nowhere, as in pixels beside its triangles that are drawn along with others, what
+// comes is no number, and loops over it would not end.
+bool isOnMap(vec3 from, vec3 way) { return abs(from.x) + abs(from.y) + abs(way.x) + abs(way.y) < 1e6; }
+
+#ifdef SEARCHED
 // The map is shifted by the height that it has where the ray would meet the bare surface.
 Found parallax(vec3 from, vec3 way) {
     if (way.z >= 0.0) return Found(1e30, 1);
@@ -63,8 +69,18 @@ Found searched(vec3 from, vec3 way, int count, bool refines, bool secant) {
     return Found(secant ? mix(low, high, lowAbove / max(lowAbove - highAbove, 1e-30)) : 0.5 * (low + high), steps);
 }
 
+Found findBelow(vec3 from, vec3 way) {
+    if (!isOnMap(from, way)) return Found(1e30, 0);
+    if (displaced.method == 0) return parallax(from, way);
+    vec2 tiles = abs(way.xy) / (displaced.field.texels - 2.0);
+    float share = max(abs(way.z) / (displaced.span.y - displaced.span.x), max(tiles.x, tiles.y));
+    int count = max(1, int(ceil(share * float(displaced.searchSteps))));
+    return searched(from, way, count, displaced.method >= 2, displaced.method == 3);
+}
+#else
 // Tile by tile by the pyramid, exactly.
-Found byPyramid(vec3 from, vec3 way) {
+Found findBelow(vec3 from, vec3 way) {
+    if (!isOnMap(from, way)) return Found(1e30, 0);
     vec2 texels = displaced.field.texels - 2.0;
     vec2 step = vec2(abs(way.x) < 1e-12 ? 0.0 : way.x, abs(way.y) < 1e-12 ? 0.0 : way.y);
     vec2 inverse = vec2(step.x == 0.0 ? 1e30 : 1.0 / step.x, step.y == 0.0 ? 1e30 : 1.0 / step.y);
@@ -93,14 +109,7 @@ Found byPyramid(vec3 from, vec3 way) {
     return Found(1e30, steps);
 }
 
-Found findBelow(vec3 from, vec3 way) {
-    if (displaced.method == 4) return byPyramid(from, way);
-    if (displaced.method == 0) return parallax(from, way);
-    vec2 tiles = abs(way.xy) / (displaced.field.texels - 2.0);
-    float share = max(abs(way.z) / (displaced.span.y - displaced.span.x), max(tiles.x, tiles.y));
-    int count = max(1, int(ceil(share * float(displaced.searchSteps))));
-    return searched(from, way, count, displaced.method >= 2, displaced.method == 3);
-}
+#endif
 
 // How the height changes along u and v at t, in metres a texel: central differences of the samples, bilinear between.
 vec2 slopeAt(vec2 t) {

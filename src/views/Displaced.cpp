@@ -28,6 +28,7 @@ Drawing DrawnDisplaced::drawing(gl::Context& context, graph::PassBuilder&, ViewK
                                 std::vector<std::string> defines) const {
     std::erase(defines, "CUT"); // rays begin at the plane
     if (kind == ViewKind::Shadow) defines.push_back("AS_SHADOW");
+    if (method != scene::DisplacementMethod::Quadtree) defines.push_back("SEARCHED");
     const gl::Program* program = context.program("views/displaced", defines);
     return [drawn = *this, program, number](const graph::Resources&, graph::Commands& commands,
                                             const Eye& eye, ivec2 size, graph::Draw draw) {
