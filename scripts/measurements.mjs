@@ -31,6 +31,8 @@ const kTopics = {
   refraction: 'Refraction',
   caustics: 'Caustics',
   subsurface: 'Subsurface scattering',
+  throughput: 'Precomputed throughput',
+  displacement: 'Displaced surfaces',
   compose: 'Every lamp, by way of every object, onto every receiver',
   page: 'The page',
 };
@@ -43,6 +45,7 @@ const kTopicOf = {
   povray: 'relief',
   'budget-glass': 'budget',
   translucency: 'subsurface',
+  textured: 'page',
   web: 'page',
 };
 // Figures that are times or ratios of times, by their names in the benches of src and in scripts/peers.
