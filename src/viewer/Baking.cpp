@@ -7,15 +7,14 @@ namespace lucent::viewer {
 // Makes objects ones that are drawn without what is not there; the first that is missing is noted.
 void Viewer::State::leaveOutMissing(scene::Scene& drawn) {
     if (!bakesElsewhere) return;
-    const scene::Scene asked = drawn;
     for (std::size_t i = 0; i < drawn.objects.size(); ++i)
         for (const technique::Technique* one : technique::all()) {
-            const scene::Object& object = asked.objects[i];
+            scene::Object& object = drawn.objects[i];
             if (!one->baker || !one->baker->takes(object)) continue;
-            const std::string work = one->baker->missing(asked.technique.at(std::string(one->name)), object);
+            const std::string work = one->baker->missing(drawn.technique.at(std::string(one->name)), object);
             if (work.empty()) continue;
-            one->baker->leaveOut(drawn.objects[i]);
-            if (!missingBake) missingBake = MissingBake{one, work, asked, i};
+            if (!missingBake) missingBake = MissingBake{one, work, drawn, i};
+            one->baker->leaveOut(object);
         }
 }
 
