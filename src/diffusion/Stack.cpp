@@ -223,25 +223,32 @@ bool Stack::tabulate() {
     const int lowest = int(std::floor(std::log(1e-7 / std::max(farthest, away)) / (2 * kStep)));
     const int highest = int(std::ceil(std::log(60 / away) / (2 * kStep))); // e^(-60 / sqrt 2)
 
-    std::vector<Complex> frequencies, waves;
+    struct Part { // of one frequency
+        Complex light, rising;
+        double pole;
+    };
+    std::vector<Part> parts;
     for (int i = lowest; i <= highest; ++i) {
-        frequencies.push_back(std::exp(2 * kStep * i) * kRay);
-        waves.push_back(2 * kStep * leaving(frequencies.back() * frequencies.back()));
+        const Complex k = std::exp(2 * kStep * i) * kRay, light = k * 2.0 * kStep * leaving(k * k);
+        parts.push_back({light, light * k, (light * (2.0 / kPi) * Complex(0, 1) / k).real()});
     }
+    // Of a product that is finite: what std::complex does for others takes most of the time.
+    const auto realOf = [](const Complex& a, const Complex& b) {
+        return a.real() * b.real() - a.imag() * b.imag();
+    };
     for (int j = first_; j <= last; ++j) {
         const double r = std::exp(kStep * j);
         double value = 0, share = 0;
         for (int i = lowest; i <= highest; ++i) {
-            const auto at = std::size_t(i - lowest);
-            const Complex k = frequencies[at], light = k * waves[at];
+            const Part& part = parts[std::size_t(i - lowest)];
             const int product = 2 * i + j;
             if (product > kMostHankel) { // of which only the pole is left, that was taken out
-                share += (light * (2.0 / kPi) * Complex(0, 1) / k).real();
+                share += part.pole;
                 continue;
             }
             const Hankel& known = hankel(std::max(product, kLeastHankel));
-            value += (light * k * known.zero).real();
-            share += (light * r * known.one).real();
+            value += realOf(part.rising, known.zero);
+            share += r * realOf(part.light, known.one);
         }
         if (!(value * r * r > 1e-9 * total_) || !(share > 0)) // rounding, or all of it
             return std::abs(value) * r * r < 1e-9 * total_ || total_ < 1e-9;

@@ -152,18 +152,19 @@ struct Renderer::State {
     ivec2 screen{0}; // and in which it is shown
     bool started = false, coarse = false;
     bool dragged = false;
-    bool atOnce = false;                             // nobody waits for a look before the picture is complete
-    float defaultError = 0;                          // of scenes that ask for none
-    bool planning = false;                           // the settings are still to be chosen
-    bool composed = false;                           // the picture stands in `through`
-    bool averaged = false;                           // what is shown stands in `mean`
-    std::unique_ptr<Running> running;                // of this picture; null: nothing
-    std::deque<Batch> submitted;                     // the oldest first; of a picture before this one too
-    double retired = 0;                              // ms: when the last of them was found to be done
-    bool presentable = true;                         // picture() is not being drawn into
-    bool whole = false;                              // a sample is complete, and not yet in the mean
-    int sample = 0;                                  // of the pixels, that is being drawn
-    int samples = 0;                                 // of this picture, that are shown
+    int rested = 0;                   // places of slice() up to which it has rested: see rests()
+    bool atOnce = false;              // nobody waits for a look before the picture is complete
+    float defaultError = 0;           // of scenes that ask for none
+    bool planning = false;            // the settings are still to be chosen
+    bool composed = false;            // the picture stands in `through`
+    bool averaged = false;            // what is shown stands in `mean`
+    std::unique_ptr<Running> running; // of this picture; null: nothing
+    std::deque<Batch> submitted;      // the oldest first; of a picture before this one too
+    double retired = 0;               // ms: when the last of them was found to be done
+    bool presentable = true;          // picture() is not being drawn into
+    bool whole = false;               // a sample is complete, and not yet in the mean
+    int sample = 0;                   // of the pixels, that is being drawn
+    int samples = 0;                  // of this picture, that are shown
     bool surfaceDrawn = false, surfaceShown = false; // of this picture
     std::optional<views::SurfaceKey> shownKey;       // what shownSurface was drawn for
     std::vector<Stage> stages;
@@ -245,6 +246,7 @@ struct Renderer::State {
     bool repeats(const scene::Scene& scene) const {
         return allAround || (!isCoarse() && pixelSamples(scene) > 1);
     }
+    bool rests(int place, double since);
     std::vector<technique::Guest*> needed(const scene::Scene& scene) const;
     technique::Guest* replacing(const technique::Picture& picture) const;
     bool replaces(const technique::Picture& picture) const;

@@ -64,6 +64,8 @@ Status Renderer::State::plan(const scene::Scene& scene) {
 void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision, ivec2 newSize,
                             Effort effort) {
     const bool looked = started && coarse && complete() && revision == newRevision;
+    if (started && complete())
+        rested = 0; // else changes that follow each other fast would let nothing be drawn
     drop();
     auto copy = std::make_unique<scene::Scene>(asked);
     const bool isFrugal = asked.quality.maxError == 0;
@@ -219,7 +221,16 @@ Result<bool> Renderer::State::ready(const Moment& moment) {
     return isThere;
 }
 
+// Whether what was made ready by now took so long that whoever looks on is answered first; once for each
+// place where it may rest, or what takes that long each time would never end.
+bool Renderer::State::rests(int place, double since) {
+    if (atOnce || dragged || place < rested || now() - since < kSliceMs) return false;
+    rested = place + 1;
+    return true;
+}
+
 Status Renderer::State::slice(const scene::Scene& scene) {
+    const double begins = now();
     if (next == 0) sample = stages[stage].sample;
     const double beforeWater = now();
     const Result<bool> still = waters.advance(scene);
@@ -234,6 +245,7 @@ Status Renderer::State::slice(const scene::Scene& scene) {
         surfaceShown = surfaceDrawn = false; // water has moved, or the samples of the pixels
     Result<Moment> moment = momentOf(scene);
     if (!moment) return moment.error();
+    if (rests(0, begins)) return Done{};
     auto made = std::make_unique<Running>(*this, std::move(*moment));
     const bool geometric = views::isGeometric(scene.view.show);
     if (next == 0 && !geometric) {
@@ -246,6 +258,7 @@ Status Renderer::State::slice(const scene::Scene& scene) {
         if (!around) return around.error();
         if (!*around) return Done{};
         if (Status prepared = prepare(made->picture); !prepared) return prepared;
+        if (rests(1, begins)) return Done{};
     }
     made->end = geometric ? int(lights.size()) : sliceEnd();
     if ((made->end < int(lights.size()) || next > 0) && !scratch)

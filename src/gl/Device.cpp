@@ -379,7 +379,8 @@ unsigned Device::framebufferFor(const graph::PassTarget& target) {
         attach(hasStencil(target) ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, target.depth);
     glDrawBuffers(GLsizei(buffers.size()), buffers.data());
     // Targets of formats that made a complete framebuffer before make another one.
-    if (const std::vector<int> formats = formatsOf(target); !complete_.contains(formats)) {
+    // Where to ask is to wait, drawing tells: errorNow().
+    if (const std::vector<int> formats = formatsOf(target); kAnswersAtOnce && !complete_.contains(formats)) {
         if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE)
             complete_.insert(formats);
         else

@@ -113,6 +113,9 @@ struct Rings {
     }
 };
 
+constexpr int kFewRings =
+    1000; // where a wave's light need be known to a hundredth of what it may err by only
+
 double most(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 Radial blurred(const Rings& rings, double deviation) {
@@ -200,7 +203,7 @@ dvec3 over(const dvec3& part, const dvec3& whole) {
 // Where the smooth part of the next band may begin so that a lattice sums it; 0: nowhere before the reach.
 double smoothFrom(const Cut& cut, double spacing, double epsilon) {
     for (double ratio = 1.5; ratio * spacing < 0.7 * cut.reach; ratio *= 1.15) {
-        const Rings rings(smoothed(cut.profile, ratio * spacing), cut.reach);
+        const Rings rings(smoothed(cut.profile, ratio * spacing), cut.reach, kFewRings);
         if (4 * most(over(rings.at(2 * kPi / spacing), cut.total)) <= epsilon) return ratio * spacing;
     }
     return 0;
@@ -260,7 +263,7 @@ Kernel kernelOf(const std::array<diffusion::Medium, 3>& media, const KernelWish&
     const auto pixelOf = [&](const Radial& values, double reach) {
         if (!wish.split) return 0.0;
         const double share = kernel.bands.empty() ? kOfNearPlaces : kOfFarPlaces;
-        return placesOf(Rings(values, reach), cut.total, reach, share * wish.epsilon);
+        return placesOf(Rings(values, reach, kFewRings), cut.total, reach, share * wish.epsilon);
     };
     while (wish.split && 2 * step <= wish.size / kLeastPoints) {
         from = smoothFrom(cut, 2 * step, epsilon);
