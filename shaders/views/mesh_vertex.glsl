@@ -3,7 +3,8 @@
 // out   vNormal [1]  world, interpolated; not unit
 //       vDepth  [m]  along the view's forward
 //       vPaint  PAINTED: place on the atlas [texels]
-//       vCoordinate, vColor, vPlace [m]  TEXTURED: place on the textures, colour, and place in the world from the eye on
+//       vCoordinate     TEXTURED, HOLES: places on the textures by both sets of coordinates
+//       vColor, vPlace [m]  TEXTURED: colour, and place in the world from the eye on
 #include "views/mesh_block.glsl"
 uniform sampler2D uPositions; // object space
 uniform sampler2D uNormals;
@@ -13,10 +14,12 @@ out float vDepth;
 uniform sampler2D uPlaces;
 out vec2 vPaint;
 #endif
-#ifdef TEXTURED
+#if defined(TEXTURED) || defined(HOLES)
 uniform sampler2D uCoordinates; // of all vertices, as the positions; or one row
+out vec4 vCoordinate;
+#endif
+#ifdef TEXTURED
 uniform sampler2D uVertexColors;
-out vec2 vCoordinate;
 out vec3 vColor;
 out vec3 vPlace;
 #endif
@@ -30,8 +33,10 @@ void main() {
 #ifdef PAINTED
     vPaint = texelFetch(uPlaces, texel, 0).xy;
 #endif
+#if defined(TEXTURED) || defined(HOLES)
+    vCoordinate = texelFetch(uCoordinates, min(texel, textureSize(uCoordinates, 0) - 1), 0);
+#endif
 #ifdef TEXTURED
-    vCoordinate = texelFetch(uCoordinates, min(texel, textureSize(uCoordinates, 0) - 1), 0).xy;
     vColor = texelFetch(uVertexColors, min(texel, textureSize(uVertexColors, 0) - 1), 0).rgb;
     vPlace = world.xyz - mesh.view.eye.xyz;
 #endif

@@ -2,10 +2,16 @@
 //
 // in    uFirst  BEHIND: depths of the nearest ones; what is drawn are the nearest behind those that face the light, or
 //               BACK: that are turned away from it, at which solid things end
+//       uColor  HOLES: whose alpha says where nothing is
 // out   oDepth  [m]  along the view's forward: evenly spaced, which a depth buffer of a perspective view is not
 #pragma variants - BEHIND
 #pragma variants - BACK if BEHIND
+#pragma variants - HOLES
 #include "views/mesh_block.glsl"
+#ifdef HOLES
+#include "views/texture_at.glsl"
+uniform sampler2D uColor;
+#endif
 in float vDepth;
 layout(location = 0) out float oDepth;
 #ifdef BEHIND
@@ -14,6 +20,9 @@ const float kSame = 1e-5; // of a depth: what rounding may part
 #endif
 
 void main() {
+#ifdef HOLES
+    if (textureAt(uColor, mesh.wraps.x).a < mesh.cutoff) discard;
+#endif
 #ifdef BEHIND
 #ifdef BACK
     bool counts = !gl_FrontFacing;

@@ -1,20 +1,29 @@
 // views/solid.frag: the first point of an opaque or mirroring object that is no height field.
 //
 // in    uFirst    SECOND: views/second.glsl
+//       uColor    HOLES: whose alpha says where nothing is
 // out   oSurface  see surface_pixel.glsl; normals face the eye; SECOND: of what the first object hides
 #pragma variants - SECOND
 #pragma variants - CUT
+#pragma variants - HOLES
 #include "views/mesh_block.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
 #ifdef SECOND
 #include "views/second.glsl"
 #endif
+#ifdef HOLES
+#include "views/texture_at.glsl"
+uniform sampler2D uColor;
+#endif
 in vec3 vNormal;
 in float vDepth;
 layout(location = 0) out vec4 oSurface;
 
 void main() {
+#ifdef HOLES
+    if (textureAt(uColor, mesh.wraps.x).a < mesh.cutoff) discard;
+#endif
 #ifdef SECOND
     if (isFirst(mesh.object)) discard;
 #endif

@@ -9,13 +9,13 @@
 #include "views/mesh_block.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
+#include "views/texture_at.glsl"
 uniform sampler2D uColor;
 uniform sampler2D uEmission;
 uniform sampler2D uRoughness;
 uniform sampler2D uNormal;
 in vec3 vNormal;
 in float vDepth;
-in vec2 vCoordinate;
 in vec3 vColor;
 in vec3 vPlace;
 layout(location = 0) out vec4 oFactors;
@@ -23,34 +23,10 @@ layout(location = 1) out vec4 oFacets;
 layout(location = 2) out vec4 oEmission;
 const float kSame = 1e-4; // of a depth: what two programs may differ by
 
-// The texel that stands for one beyond the edges. Far outside floats no longer tell texels apart.
-int wrapped(int at, int size, int wrap) {
-    if (wrap == 1) return clamp(at, 0, size - 1);
-    int period = wrap == 2 ? 2 * size : size;
-    int inside = at - period * int(floor(float(at) / float(period)));
-    return inside < size ? inside : 2 * size - 1 - inside;
-}
-
-vec4 textureAt(sampler2D map, float wraps) {
-    ivec2 size = textureSize(map, 0);
-    ivec2 wrap = ivec2(int(wraps) % 3, int(wraps) / 3);
-    vec2 at = vCoordinate * vec2(size) - 0.5;
-    ivec2 base = ivec2(floor(at));
-    vec2 f = at - vec2(base);
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < 4; ++i) {
-        ivec2 beside = ivec2(i & 1, i >> 1);
-        vec2 share = mix(1.0 - f, f, vec2(beside));
-        ivec2 texel = ivec2(wrapped(base.x + beside.x, size.x, wrap.x), wrapped(base.y + beside.y, size.y, wrap.y));
-        sum += share.x * share.y * texelFetch(map, texel, 0);
-    }
-    return sum;
-}
-
 // Outward. Where coordinates do not say which way a texture lies the surface keeps its own.
 vec3 texturedNormal(vec3 normal) {
     vec3 placeX = dFdx(vPlace), placeY = dFdy(vPlace);
-    vec2 atX = dFdx(vCoordinate), atY = dFdy(vCoordinate);
+    vec2 at = coordinateOf(mesh.wraps.w), atX = dFdx(at), atY = dFdy(at);
     float turn = atX.x * atY.y - atX.y * atY.x < 0.0 ? -1.0 : 1.0;
     vec3 alongU = turn * (placeX * atY.y - placeY * atX.y), alongV = turn * (placeY * atX.x - placeX * atY.x);
     vec3 tangent = alongU - dot(normal, alongU) * normal;

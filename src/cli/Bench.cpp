@@ -144,7 +144,7 @@ Result<measure::BenchMesh> meshOf(const std::string& path) {
     if (!bytes) return bytes.error();
     Result<scene::Mesh> mesh = scene::decodeMesh(*bytes, path);
     if (!mesh) return mesh.error();
-    if (!mesh->parts.empty()) mesh = scene::partOf(*mesh, mesh->parts.front());
+    if (!mesh->parts.empty()) *mesh = scene::partOf(*mesh, mesh->parts.front());
     if (mesh->normals.empty()) mesh->normals = scene::areaWeightedNormals(mesh->positions, mesh->indices);
     return measure::BenchMesh{fs::path(path).stem().string(),
                               std::make_shared<scene::Mesh>(std::move(*mesh))};

@@ -178,7 +178,7 @@ std::string reliefText(const std::string& title, const Set& set, const Heights& 
 // large the ground is, its colour, and what part of a white surface's light comes from the sky.
 constexpr vec3 kFromModel{0.4f, 0.5f, 1}, kLamp{-3, 4.5f, 1};
 constexpr float kFov = 30, kModelAir = 1.08f, kGround = 30, kGroundColor = 0.5f, kSky = 0.3f;
-constexpr float kLeastAspect = 0.75f, kMostAspect = 16.0f / 9;
+constexpr float kLeastAspect = 0.75f, kMostAspect = 16.0f / 9, kWidest = 4; // the last of cameras of files
 constexpr float kCausticRoom =
     2; // how much brighter than its surroundings a caustic may be before it is clipped
 
@@ -200,8 +200,10 @@ Bounds boundsOf(const Mesh& mesh) {
 }
 
 struct ModelView {
-    vec3 eye;
+    vec3 eye, target, up;
     vec2 frame; // in any unit
+    float fov = kFov;
+    std::optional<float> height{}; // of an orthographic camera
 };
 
 // The camera looks at the middle of the box; each of its corners asks for a distance at which it still fits.
@@ -223,21 +225,96 @@ ModelView viewOf(const Bounds& bounds) {
         const vec2 wanted = glm::abs(vec2(corner)) / slope;
         distance = std::max(distance, corner.z + std::max(wanted.x, wanted.y));
     }
-    return {bounds.center() + distance * back, {aspect, 1}};
+    return {bounds.center() + distance * back, bounds.center(), {0, 1, 0}, {aspect, 1}};
 }
 
-// What its brightest colour takes of the light that faces lamp and sky, and what shines by itself.
-float brightestOf(const Mesh& mesh) {
-    float brightest = kGroundColor;
+// The target is as far as the middle of the model, so that turning the camera goes around that.
+ModelView viewOf(const FileCamera& camera, const Bounds& bounds) {
+    const float toMiddle = glm::dot(bounds.center() - camera.eye, camera.forward);
+    const float distance = std::max(toMiddle, 0.1f * bounds.radius());
+    const float aspect = camera.aspect > 0 ? std::clamp(camera.aspect, 1 / kWidest, kWidest) : 1;
+    ModelView view{camera.eye, camera.eye + distance * camera.forward, camera.up, {aspect, 1}, camera.fov};
+    if (!camera.perspective) view.height = camera.height;
+    return view;
+}
+
+void writeCamera(JsonWriter& json, const ModelView& view) {
+    json.key("camera").beginObject();
+    if (view.height)
+        json.key("type").value("orthographic").key("height").value(*view.height);
+    else
+        json.key("type").value("perspective").key("fov").value(view.fov);
+    writeVector(json, "eye", view.eye);
+    writeVector(json, "target", view.target);
+    if (view.up != vec3(0, 1, 0)) writeVector(json, "up", view.up);
+    json.end();
+}
+
+// Irradiance of what faces a lamp in the middle of the model, of its brightest colour.
+float irradianceOf(const FileLight& light, vec3 middle) {
+    const float whole = light.intensity * std::max({light.color.x, light.color.y, light.color.z});
+    if (light.kind == FileLight::Kind::Distant) return whole;
+    const vec3 away = middle - light.position;
+    return whole / std::max(glm::dot(away, away), 1e-12f);
+}
+
+void writeLight(JsonWriter& json, const FileLight& light) {
+    constexpr float kWidestSpot = 89.9f; // degrees
+    constexpr const char* kTypes[] = {"point", "spot", "distant"};
+    json.beginObject().key("type").value(kTypes[int(light.kind)]);
+    if (light.kind != FileLight::Kind::Distant) writeVector(json, "position", light.position);
+    if (light.kind != FileLight::Kind::Point) writeVector(json, "direction", light.direction);
+    if (light.color != vec3(1)) writeVector(json, "color", light.color);
+    json.key(light.kind == FileLight::Kind::Distant ? "irradiance" : "intensity").value(light.intensity);
+    if (light.kind == FileLight::Kind::Point) json.key("falloff").value("inverse-square");
+    if (light.kind == FileLight::Kind::Spot)
+        json.key("innerAngle")
+            .value(std::min(light.innerAngle, kWidestSpot))
+            .key("outerAngle")
+            .value(std::clamp(light.outerAngle, 0.1f, kWidestSpot));
+    json.end();
+}
+
+// Lamps and sky; what a white surface that faces both sends, of all 1.
+float writeLights(JsonWriter& json, const std::vector<FileLight>& lights, const Bounds& bounds) {
+    float irradiance = 0;
+    for (const FileLight& light : lights)
+        irradiance += irradianceOf(light, bounds.center());
+    const bool hasOwn = irradiance > 0;
+    const float white = hasOwn ? irradiance / kPi / (1 - kSky) : 1;
+    json.key("environment")
+        .beginObject()
+        .key("source")
+        .value("sky")
+        .key("intensity")
+        .value(kSky * white)
+        .end();
+    json.key("lights").beginArray();
+    for (const FileLight& light : lights)
+        if (hasOwn) writeLight(json, light);
+    if (!hasOwn) {
+        json.beginObject().key("type").value("point");
+        writeVector(json, "position", bounds.center() + bounds.radius() * kLamp);
+        json.key("intensity")
+            .value((1 - kSky) * kPi)
+            .end(); // without falloff: E = intensity on what faces it
+    }
+    json.end();
+    return white;
+}
+
+// What its brightest colour sends where a white surface sends `white`, and what shines by itself.
+float brightestOf(const Mesh& mesh, float white) {
+    float brightest = kGroundColor * white;
     const auto largest = [](vec3 color) { return std::max({color.x, color.y, color.z}); };
-    if (mesh.parts.empty()) brightest = std::max(brightest, largest(Material().diffuse));
+    if (mesh.parts.empty()) brightest = std::max(brightest, white * largest(Material().diffuse));
     for (const Mesh::Part& part : mesh.parts) {
         const Material& material = part.values;
         const bool throws = material.isRefractive() || material.isMirror();
         const float sent = throws                    ? kCausticRoom * kGroundColor
                            : material.isScattering() ? 1
                                                      : largest(material.diffuse);
-        brightest = std::max(brightest, sent + largest(material.base));
+        brightest = std::max(brightest, white * sent + largest(material.base));
     }
     return brightest;
 }
@@ -255,29 +332,29 @@ void writeGround(JsonWriter& json, const Bounds& bounds) {
     json.end().end();
 }
 
-// `writeThing` writes shape and material of what is shown.
-std::string modelText(const std::string& title, float brightest, const Bounds& bounds,
-                      const std::function<void(JsonWriter&)>& writeThing) {
-    const ModelView view = viewOf(bounds);
+// What is shown, and by what.
+struct Model {
+    std::string title;
+    Bounds bounds;
+    std::vector<FileLight> lights{};
+    std::vector<FileCamera> cameras{};
+    std::function<void(JsonWriter&)> writeThing;      // its shape and material
+    std::function<float(float white)> brightestColor; // what that sends at most where white sends so much
+};
+
+std::string textOf(const Model& model) {
+    const Bounds& bounds = model.bounds;
+    const ModelView view = model.cameras.empty() ? viewOf(bounds) : viewOf(model.cameras[0], bounds);
     JsonWriter json;
-    json.beginObject().key("lucent").value(1).key("title").value(title);
+    json.beginObject().key("lucent").value(1).key("title").value(model.title);
     writeSize(json, view.frame);
-    json.key("camera").beginObject().key("type").value("perspective").key("fov").value(kFov);
-    writeVector(json, "eye", view.eye);
-    writeVector(json, "target", bounds.center());
-    json.end();
-    writeExposure(json, brightest);
-    json.key("environment").beginObject().key("source").value("sky").key("intensity").value(kSky).end();
-    json.key("lights").beginArray().beginObject().key("type").value("point");
-    writeVector(json, "position", bounds.center() + bounds.radius() * kLamp);
-    json.key("intensity")
-        .value((1 - kSky) * kPi)
-        .end()
-        .end(); // without falloff: E = intensity on what faces it
+    writeCamera(json, view);
+    const float white = writeLights(json, model.lights, bounds);
+    writeExposure(json, model.brightestColor(white));
 
     json.key("objects").beginArray().beginObject();
-    json.key("name").value(title == "ground" ? "model" : title);
-    writeThing(json);
+    json.key("name").value(model.title == "ground" ? "model" : model.title);
+    model.writeThing(json);
     json.end();
     writeGround(json, bounds);
     json.end().end();
@@ -327,8 +404,9 @@ Result<Brought> sceneOfMesh(const std::string& name, std::span<const std::byte> 
     const auto writeMesh = [&](JsonWriter& json) {
         json.key("shape").beginObject().key("type").value("mesh").key("source").value(file).end();
     };
-    return Brought{{title + ".json", toBytes(modelText(title, brightestOf(*mesh), bounds, writeMesh))},
-                   {file, Bytes(bytes.begin(), bytes.end())}};
+    const auto brightest = [&](float white) { return brightestOf(*mesh, white); };
+    const Model model{title, bounds, mesh->lights, mesh->cameras, writeMesh, brightest};
+    return Brought{{title + ".json", toBytes(textOf(model))}, {file, Bytes(bytes.begin(), bytes.end())}};
 }
 
 Result<Brought> sceneOfTable(const std::string& name, std::span<const std::byte> bytes) {
@@ -339,8 +417,10 @@ Result<Brought> sceneOfTable(const std::string& name, std::span<const std::byte>
         json.key("shape").beginObject().key("type").value("sphere").key("radius").value(1).end();
         json.key("material").beginObject().key("kind").value("measured").key("table").value(file).end();
     };
-    return Brought{{title + ".json", toBytes(modelText(title, 1, {vec3(-1), vec3(1)}, writeBall))},
-                   {file, Bytes(bytes.begin(), bytes.end())}};
+    const auto brightest = [](float white) { return white; };
+    const Model model{
+        .title = title, .bounds = {vec3(-1), vec3(1)}, .writeThing = writeBall, .brightestColor = brightest};
+    return Brought{{title + ".json", toBytes(textOf(model))}, {file, Bytes(bytes.begin(), bytes.end())}};
 }
 
 } // namespace lucent::scene

@@ -41,7 +41,8 @@ std::vector<std::optional<MapUse>> usesOf(std::span<const Output> pictures);
 Result<Brought> sceneOfMaps(std::span<const MapFile> maps);
 
 /// A model on a ground, under a lamp at the left and a sky, seen from above the front by a perspective
-/// camera, so that the box around it just fits as it stands at time 0.
+/// camera, so that the box around it just fits as it stands at time 0. Where its file has lamps or a camera
+/// these take their places; the sky then shines as much beside them as it does beside the lamp.
 ///
 /// @param bytes  of a mesh in the plain form (Mesh.h), whose name ends in .mesh or becomes so
 /// @return       Error "NAME: ..." for what is no mesh, or has no extent

@@ -58,6 +58,27 @@ struct Rig {
     float duration = 0;            ///< s; the animation begins again after it
 };
 
+/// A lamp of a file (KHR_lights_punctual).
+struct FileLight {
+    enum class Kind : std::uint8_t { Point, Spot, Distant };
+    Kind kind = Kind::Point;
+    vec3 position{0};                      ///< m
+    vec3 direction{0, 0, -1};              ///< unit, the way its light travels; of no meaning for points
+    vec3 color{1};                         ///< linear
+    float intensity = 1;                   ///< cd, or lux of a distant one
+    float innerAngle = 0, outerAngle = 45; ///< of spots, degrees from the axis
+};
+
+/// A camera of a file.
+struct FileCamera {
+    bool perspective = true;
+    vec3 eye{0};                         ///< m
+    vec3 forward{0, 0, -1}, up{0, 1, 0}; ///< unit, perpendicular
+    float fov = 40;                      ///< perspective: vertical degrees
+    float height = 1;                    ///< orthographic: m from top to bottom
+    float aspect = 1;                    ///< width over height; 0: the file does not say
+};
+
 struct Mesh {
     std::vector<vec3> positions;        ///< m; with joints: as bound to them, else at rest
     std::vector<std::uint32_t> indices; ///< three a triangle, counter-clockwise seen from outside
@@ -65,7 +86,8 @@ struct Mesh {
     std::vector<std::array<std::uint16_t, 4>> joints{}; ///< of each position, in Rig::joints; empty: none
     std::vector<vec4> jointWeights{};                   ///< >= 0, their sum 1
     std::vector<vec2> coordinates{}; ///< on textures: u to the right and v down, one a position; empty: none
-    std::vector<vec3> colors{};      ///< linear, >= 0, factors of the albedo, one a position; empty: none
+    std::vector<vec2> secondCoordinates{}; ///< for textures that lie elsewhere; as many, or none
+    std::vector<vec3> colors{}; ///< linear, >= 0, factors of the albedo, one a position; empty: none
     Rig rig{};
 
     /// Triangles by material, in the order of `indices`; empty for files without materials.
@@ -77,6 +99,10 @@ struct Mesh {
     };
     std::vector<Part> parts{};
     std::vector<std::shared_ptr<const TextureImage>> images{}; ///< of its textures; never null
+
+    /// What a file shows its triangles with, at rest; a scene that is made of the file takes it.
+    std::vector<FileLight> lights{};
+    std::vector<FileCamera> cameras{}; ///< the first, or none
 
     bool moves() const { return rig.duration > 0; }
 };
@@ -143,7 +169,7 @@ Mesh partOf(const Mesh& mesh, const Mesh::Part& part);
 
 /// True for bytes that start as the plain form does.
 bool isMesh(std::span<const std::byte> bytes);
-/// The plain form in which meshes reach the loader: "LUCENTM6" and then everything above, little-endian; of a
+/// The plain form in which meshes reach the loader: "LUCENTM7" and then everything above, little-endian; of a
 /// material its colours and the numbers of its kind that such files know.
 /// The readers write it from glTF and OBJ, natively and in the page alike.
 Bytes encodeMesh(const Mesh& mesh);

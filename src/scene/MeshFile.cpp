@@ -13,8 +13,8 @@
 namespace lucent::scene {
 namespace {
 
-constexpr std::string_view kMagic = "LUCENTM6";
-constexpr std::string_view kBefore = "LUCENTM5"; // without colours of vertices
+constexpr std::string_view kMagic = "LUCENTM7";
+constexpr std::string_view kBefore = "LUCENTM6"; // without second coordinates, holes, lamps and cameras
 static_assert(std::endian::native == std::endian::little, "mesh files are written as they lie in memory");
 static_assert(sizeof(vec2) == 8 && sizeof(vec3) == 12 && sizeof(vec4) == 16 && sizeof(mat4) == 64);
 static_assert(sizeof(Node) == 44, "parent, translate, rotate as x y z w, scale: nothing between them");
@@ -162,11 +162,42 @@ void materialFields(File& file, AnyMaterial& m) {
     std::visit([&](auto& of) { kindFields(file, of); }, m.kind);
 }
 
+// A byte, 0 or 1.
+template <class File, class Flag>
+void flag(File& file, Flag& is, const char* what) {
+    auto byte = std::uint8_t(is);
+    file.value(byte, what);
+    if constexpr (!std::is_const_v<Flag>) is = byte != 0;
+}
+
 template <class File>
-void useFields(File& file, auto& use) {
+void useFields(File& file, auto& use, bool isWhole) {
     file.value(use.image, "textures");
     file.value(use.u, "textures");
     file.value(use.v, "textures");
+    if (isWhole) flag(file, use.second, "textures");
+}
+
+template <class File>
+void lampFields(File& file, auto& light) {
+    file.value(light.kind, "lamps");
+    file.value(light.position, "lamps");
+    file.value(light.direction, "lamps");
+    file.value(light.color, "lamps");
+    file.value(light.intensity, "lamps");
+    file.value(light.innerAngle, "lamps");
+    file.value(light.outerAngle, "lamps");
+}
+
+template <class File>
+void cameraFields(File& file, auto& camera) {
+    flag(file, camera.perspective, "cameras");
+    file.value(camera.eye, "cameras");
+    file.value(camera.forward, "cameras");
+    file.value(camera.up, "cameras");
+    file.value(camera.fov, "cameras");
+    file.value(camera.height, "cameras");
+    file.value(camera.aspect, "cameras");
 }
 
 template <class File>
@@ -177,14 +208,15 @@ void imageFields(File& file, auto& image) {
 }
 
 template <class File, class AnyMesh>
-void meshFields(File& file, AnyMesh& mesh, bool hasColors = true) {
+void meshFields(File& file, AnyMesh& mesh, bool isWhole = true) {
     file.list(mesh.positions, "positions");
     file.list(mesh.indices, "indices");
     file.list(mesh.normals, "normals");
     file.list(mesh.joints, "joints");
     file.list(mesh.jointWeights, "weights of joints");
     file.list(mesh.coordinates, "texture coordinates");
-    if (hasColors) file.list(mesh.colors, "colours");
+    if (isWhole) file.list(mesh.secondCoordinates, "texture coordinates");
+    file.list(mesh.colors, "colours");
     auto& rig = mesh.rig;
     file.list(rig.nodes, "nodes");
     file.list(rig.joints, "list of joints");
@@ -208,14 +240,12 @@ void meshFields(File& file, AnyMesh& mesh, bool hasColors = true) {
         file.value(part.firstIndex, "parts");
         file.value(part.indexCount, "parts");
         materialFields(file, part.values);
-        useFields(file, part.textures.color);
-        useFields(file, part.textures.emission);
-        useFields(file, part.textures.roughness);
-        useFields(file, part.textures.normal);
-        file.value(part.textures.normalScale, "textures");
-        auto vertexColors = std::uint8_t(part.textures.vertexColors);
-        if (hasColors) file.value(vertexColors, "textures");
-        if constexpr (!std::is_const_v<AnyMesh>) part.textures.vertexColors = vertexColors != 0;
+        auto& textures = part.textures;
+        for (auto* use : {&textures.color, &textures.emission, &textures.roughness, &textures.normal})
+            useFields(file, *use, isWhole);
+        file.value(textures.normalScale, "textures");
+        flag(file, textures.vertexColors, "textures");
+        if (isWhole) file.value(textures.cutoff, "textures");
     });
     file.items(mesh.images, "textures", [&](auto& image) {
         if constexpr (std::is_const_v<AnyMesh>) {
@@ -227,6 +257,9 @@ void meshFields(File& file, AnyMesh& mesh, bool hasColors = true) {
             image = std::make_shared<const TextureImage>(std::move(read));
         }
     });
+    if (!isWhole) return;
+    file.items(mesh.lights, "lamps", [&](auto& light) { lampFields(file, light); });
+    file.items(mesh.cameras, "cameras", [&](auto& camera) { cameraFields(file, camera); });
 }
 
 bool startsWith(std::span<const std::byte> bytes, std::string_view magic) {
@@ -262,6 +295,8 @@ bool isSound(const Material& m) {
 // Normals and weights of joints are stored rounded, often to 8 or 16 bits.
 constexpr float kUnitTolerance = 1e-2f;
 
+bool isUnit(const vec3& v) { return std::abs(glm::length(v) - 1) <= kUnitTolerance; }
+
 /// What keeps a mesh from being used; the first thing that is wrong stays.
 class Checker {
 public:
@@ -280,6 +315,10 @@ public:
         if (!(rig_.duration >= 0 && isFinite(rig_.duration)))
             wrong("lasts " + std::to_string(rig_.duration) + " s; must be 0 or more");
         parts();
+        for (const FileLight& light : mesh_.lights)
+            lamp(light);
+        for (const FileCamera& of : mesh_.cameras)
+            camera(of);
         return wrong_;
     }
 
@@ -325,6 +364,9 @@ private:
         }
         if (!mesh_.coordinates.empty()) sameLength(mesh_.coordinates.size(), "texture coordinates", count);
         finite(mesh_.coordinates, "texture coordinate");
+        if (!mesh_.secondCoordinates.empty())
+            sameLength(mesh_.secondCoordinates.size(), "second texture coordinates", count);
+        finite(mesh_.secondCoordinates, "second texture coordinate");
         if (!mesh_.colors.empty()) sameLength(mesh_.colors.size(), "colours", count);
         for (std::size_t i = 0; i < mesh_.colors.size(); ++i)
             if (!isFinite(mesh_.colors[i]) || glm::any(glm::lessThan(mesh_.colors[i], vec3(0))))
@@ -361,6 +403,8 @@ private:
              {textures.color, textures.emission, textures.roughness, textures.normal}) {
             if (use.image < -1 || use.image >= std::int64_t(mesh_.images.size()))
                 below(use.image, mesh_.images.size(), name + ": texture", "textures");
+            if (use.second && use.image >= 0 && mesh_.secondCoordinates.empty())
+                wrong(name + " has textures by second coordinates that are missing; must have them");
             if (use.u > Wrap::Mirror || use.v > Wrap::Mirror)
                 wrong(name + " has textures that go on in an unknown way; must repeat, clamp or mirror");
         }
@@ -368,7 +412,27 @@ private:
             wrong(name + " has textures without coordinates; must have them");
         if (textures.vertexColors && mesh_.colors.empty())
             wrong(name + " shows colours of vertices that have none; must have them");
-        if (!isFinite(textures.normalScale)) wrong(name + " has a normal scale that is not finite; must be");
+        if (!isFinite(textures.normalScale) || !isFinite(textures.cutoff))
+            wrong(name + " has a normal scale or a cutoff that is not finite; must be");
+    }
+
+    void lamp(const FileLight& light) {
+        const bool isKnown = light.kind <= FileLight::Kind::Distant;
+        if (!isKnown || !isFinite(light.position) || !isUnit(light.direction) || !isFinite(light.color) ||
+            !(light.intensity >= 0) || !isFinite(light.intensity) ||
+            !(light.innerAngle >= 0 && light.innerAngle <= light.outerAngle && light.outerAngle <= 90))
+            wrong("has a lamp of an unknown kind or with values that are not finite; must be point, spot or "
+                  "distant, its "
+                  "direction unit, its intensity 0 or more, its angles from 0 to 90 degrees, the inner no "
+                  "larger");
+    }
+
+    void camera(const FileCamera& of) {
+        if (!isFinite(of.eye) || !isUnit(of.forward) || !isUnit(of.up) || !(of.fov > 0 && of.fov < 180) ||
+            !(of.height > 0 && isFinite(of.height)) || !(of.aspect >= 0 && isFinite(of.aspect)))
+            wrong("has a camera with values that are not finite; must have unit directions, an angle between "
+                  "0 and 180 "
+                  "degrees and a height above 0");
     }
 
     void bones() {

@@ -84,6 +84,7 @@ Mesh flattened(const Mesh& mesh) {
               .joints = perCorner(mesh.joints, mesh.indices),
               .jointWeights = perCorner(mesh.jointWeights, mesh.indices),
               .coordinates = perCorner(mesh.coordinates, mesh.indices),
+              .secondCoordinates = perCorner(mesh.secondCoordinates, mesh.indices),
               .colors = perCorner(mesh.colors, mesh.indices),
               .rig = mesh.rig,
               .parts = mesh.parts,

@@ -123,6 +123,7 @@ Mesh posed(const Mesh& mesh, const Pose& pose) {
              .indices = mesh.indices,
              .normals = mesh.normals,
              .coordinates = mesh.coordinates,
+             .secondCoordinates = mesh.secondCoordinates,
              .colors = mesh.colors,
              .parts = mesh.parts,
              .images = mesh.images};

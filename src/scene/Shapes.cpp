@@ -209,6 +209,7 @@ Mesh partOf(const Mesh& mesh, const Mesh::Part& part) {
     out.joints = keep(mesh.joints);
     out.jointWeights = keep(mesh.jointWeights);
     out.coordinates = keep(mesh.coordinates);
+    out.secondCoordinates = keep(mesh.secondCoordinates);
     out.colors = keep(mesh.colors);
     out.rig = {.nodes = mesh.rig.nodes,
                .joints = mesh.rig.joints,

@@ -27,10 +27,11 @@ struct TextureImage {
 /// How a picture goes on outside of [0,1].
 enum class Wrap : std::uint8_t { Repeat, Clamp, Mirror };
 
-/// Where a picture is put: by the mesh's coordinates (Mesh::coordinates), bilinear between its texels.
+/// Where a picture is put: by one of the mesh's sets of coordinates, bilinear between its texels.
 struct TextureUse {
     std::int32_t image = -1; ///< in Mesh::images; -1: none
     Wrap u = Wrap::Repeat, v = Wrap::Repeat;
+    bool second = false; ///< by Mesh::secondCoordinates, else by Mesh::coordinates
     bool operator==(const TextureUse&) const = default;
 };
 
@@ -41,8 +42,10 @@ struct Textures {
     TextureUse roughness;      ///< of Glossy: green multiplies its roughness, blue its share of metal
     TextureUse normal;         ///< 2 c - 1: x along u, y against v, z outwards; then unit
     float normalScale = 1;     ///< of x and y
+    float cutoff = 0;          ///< where the colour's alpha is below, nothing is there; 0: all is
     bool vertexColors = false; ///< Mesh::colors multiply Material::diffuse as well
 
+    bool hasHoles() const { return cutoff > 0 && color.image >= 0; }
     bool hasImages() const {
         return color.image >= 0 || emission.image >= 0 || roughness.image >= 0 || normal.image >= 0;
     }

@@ -37,8 +37,9 @@ void EnteredLight::build(std::size_t first, std::size_t end) {
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t half = (first + end) / 2;
     const auto at = [&](std::size_t i) { return entries_.begin() + std::ptrdiff_t(i); };
-    std::nth_element(at(first), at(half), at(end),
-                     [axis](const LightEntry& a, const LightEntry& b) { return a.place[axis] < b.place[axis]; });
+    std::nth_element(at(first), at(half), at(end), [axis](const LightEntry& a, const LightEntry& b) {
+        return a.place[axis] < b.place[axis];
+    });
     build(first, half);
     nodes_[index].second = nodes_.size();
     build(half, end);

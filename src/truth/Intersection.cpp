@@ -338,6 +338,7 @@ std::optional<Intersection> intersectTriangle(const Triangles& triangles, unsign
     const double v = glm::dot(glm::cross(first, place), across) / area;
     constexpr double kOver = 1e-3;
     if (!(u > -kOver && v > -kOver && u + v < 1 + kOver)) return {};
+    if (triangles.isHole && triangles.isHole(number, {1 - u - v, u, v})) return {};
     const dvec3 normal = across / std::sqrt(area);
     Intersection found(distance, normal);
     found.triangle = int(number);

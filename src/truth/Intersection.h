@@ -14,7 +14,8 @@ Box boxOf(const Shape& shape, unsigned part);
 Stretch within(const Box& box, const WorldRay& ray);
 
 /// The nearest hit within a stretch of the ray of a part of a shape that is no triangles.
-std::optional<Intersection> intersect(const Shape& shape, unsigned part, const WorldRay& ray, Stretch stretch);
+std::optional<Intersection> intersect(const Shape& shape, unsigned part, const WorldRay& ray,
+                                      Stretch stretch);
 /// Whether such a part is in the way there.
 bool blocks(const Shape& shape, unsigned part, const WorldRay& ray, Stretch stretch);
 

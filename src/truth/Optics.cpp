@@ -2,6 +2,7 @@
 
 #include "scene/Mesh.h"
 #include "scene/Water.h"
+#include "truth/Textured.h"
 #include "truth/Torus.h"
 
 #include <algorithm>
@@ -211,6 +212,7 @@ Shape surfaceOf(const scene::Object& object, double time) {
     Triangles triangles = std::visit(TrianglesOf{time, waved}, object.shape);
     if (waved) wave(triangles, object.wave, time);
     if (isFlat(object)) triangles.normals.clear();
+    triangles.isHole = holesOf(object);
     return inWorld(std::move(triangles), placement);
 }
 

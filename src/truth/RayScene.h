@@ -4,8 +4,9 @@
 /// Embree (3.13) finds the candidates where there is one, a tree of boxes elsewhere. Embree's numbers are
 /// floats. Every hit is therefore solved again in double precision: height fields by their exact cut, spheres
 /// and tori in closed form, ripples between the places where they turn, water cell by cell of its grid,
-/// displaced surfaces above each of their triangles, triangles by their plane. Rays start where they enter the scene's box, so that a distant eye or lamp costs
-/// no digits, and Embree's begin a little earlier, so that it misses no layer close by.
+/// displaced surfaces above each of their triangles, triangles by their plane. Rays start where they enter
+/// the scene's box, so that a distant eye or lamp costs no digits, and Embree's begin a little earlier, so
+/// that it misses no layer close by.
 
 #include "base/Math.h"
 #include "base/Result.h"
@@ -16,6 +17,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -48,6 +50,9 @@ struct Triangles {
     std::vector<dvec3> positions;
     std::vector<dvec3> normals; ///< unit, one a position; empty: the triangles' own
     std::vector<std::uint32_t> indices;
+    /// Whether nothing is at a place of a triangle, by the weights of its corners; empty: something is
+    /// everywhere.
+    std::function<bool(unsigned triangle, const dvec3& weights)> isHole{};
 };
 
 /// A sheet over a rectangle of its placement's xz plane with the height amplitude sin(wave . (x, z)).

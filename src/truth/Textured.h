@@ -3,6 +3,7 @@
 
 #include "truth/Optics.h"
 
+#include <functional>
 #include <optional>
 
 namespace lucent::truth {
@@ -18,5 +19,9 @@ struct Textured {
 /// Bilinear between texels in linear light (glTF 2.0, 3.8.4). Tangents are those of the triangle's own plane,
 /// turned into that of the interpolated normal: u along the first of them, v against the second (3.7.2.1).
 std::optional<Textured> texturedAt(const Optics& optics, const Hit& hit);
+
+/// Where the alpha of a mesh's colour says that nothing is (Textures::cutoff); empty without such places. The
+/// mesh must live as long.
+std::function<bool(unsigned triangle, const dvec3& weights)> holesOf(const scene::Object& object);
 
 } // namespace lucent::truth

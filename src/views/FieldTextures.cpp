@@ -1,7 +1,5 @@
 #include "views/FieldTextures.h"
 
-#include <glm/gtc/packing.hpp>
-
 #include <algorithm>
 #include <cmath>
 
@@ -224,7 +222,9 @@ Textured ImageCache::textured(const scene::Mesh& mesh, const scene::Textures& te
     };
     MeshTextures& vertices = *meshes_.at(&mesh).value;
     vertices.addCoordinates(context_);
-    const auto wrap = [](const scene::TextureUse& use) { return float(int(use.u) + 3 * int(use.v)); };
+    const auto wrap = [](const scene::TextureUse& use) {
+        return float(int(use.u) + 3 * int(use.v) + (use.second ? 9 : 0));
+    };
     return {.coordinates = vertices.coordinates().handle(),
             .colors = vertices.colors().handle(),
             .color = handleOf(textures.color),
@@ -234,7 +234,9 @@ Textured ImageCache::textured(const scene::Mesh& mesh, const scene::Textures& te
             .wraps = {wrap(textures.color), wrap(textures.emission), wrap(textures.roughness),
                       wrap(textures.normal)},
             // a white texel is no normal: of none x and y count nothing
-            .normalScale = textures.normal.image < 0 ? 0 : textures.normalScale};
+            .normalScale = textures.normal.image < 0 ? 0 : textures.normalScale,
+            .cutoff = textures.cutoff,
+            .hasHoles = textures.hasHoles()};
 }
 
 Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image>& image) {
@@ -250,11 +252,11 @@ Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image
         if (scalar) {
             context_.device().upload(entry.value->handle(), 0, image->pixels);
         } else {
-            std::vector<float> texels(std::size_t(image->width) * image->height * 4, 1.0f);
-            for (std::size_t i = 0; i < texels.size() / 4; ++i)
-                std::copy_n(&image->pixels[3 * i], 3, &texels[4 * i]);
-            std::vector<std::uint16_t> halves(texels.size());
-            std::transform(texels.begin(), texels.end(), halves.begin(), glm::packHalf1x16);
+            const std::uint16_t one = halfFrom(1);
+            std::vector<std::uint16_t> halves(std::size_t(image->width) * image->height * 4, one);
+            for (std::size_t i = 0; i < halves.size() / 4; ++i)
+                for (std::size_t c = 0; c < 3; ++c)
+                    halves[4 * i + c] = halfFrom(image->pixels[3 * i + c]);
             context_.device().upload(entry.value->handle(), 0, halves);
         }
     }

@@ -61,7 +61,7 @@ void MeshTextures::addTriangles(gl::Context& context) {
 
 void MeshTextures::addCoordinates(gl::Context& context) {
     if (coordinates_) return;
-    coordinates_ = coordinateTexture(context.device(), source_->coordinates);
+    coordinates_ = coordinateTexture(context.device(), source_->coordinates, source_->secondCoordinates);
     const std::vector<vec3> white(std::size_t(vertexImageSize(1).x), vec3(1)); // a row
     colors_ =
         vertexTexture(context.device(), source_->colors.empty() ? white : source_->colors, "views.colors");
@@ -137,6 +137,7 @@ void setMesh(graph::Draw& draw, const gl::Program& program, const graph::Indices
                            .object = number,
                            .firstCorner = mesh.firstCorner,
                            .normalScale = mesh.textured ? mesh.textured->normalScale : 0,
+                           .cutoff = mesh.textured ? mesh.textured->cutoff : 0,
                            .wraps = mesh.textured ? mesh.textured->wraps : vec4(0)};
 }
 
@@ -161,6 +162,8 @@ Drawing DrawnMesh::drawing(gl::Context& context, graph::PassBuilder& pass, ViewK
                            std::vector<std::string> defines) const {
     constexpr const char* kStems[] = {"views/solid", "views/shadow",       "views/peel",
                                       "views/count", "views/voxel_bounds", "views/voxel_slice"};
+    const bool hasHoles = textured && textured->hasHoles;
+    if (hasHoles) defines.push_back("HOLES");
     const gl::Program* program = context.program(kStems[int(kind)], defines);
     const auto draws = kind == ViewKind::Peel ? drawTriangles : drawMesh;
     if (kind == ViewKind::Peel)
@@ -169,6 +172,10 @@ Drawing DrawnMesh::drawing(gl::Context& context, graph::PassBuilder& pass, ViewK
         sampleFrom(pass);
     return [=, drawn = *this](const graph::Resources& resources, graph::Commands& commands, const Eye& eye,
                               ivec2 size, graph::Draw draw) {
+        if (hasHoles) {
+            draw.textures.push_back({"uCoordinates", drawn.textured->coordinates});
+            draw.textures.push_back({"uColor", drawn.textured->color});
+        }
         draws(commands, *program, resources, drawn, eye, size, number, std::move(draw));
     };
 }

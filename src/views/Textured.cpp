@@ -16,11 +16,13 @@ graph::Texture textureOf(gl::Device& device, const scene::TextureImage& image) {
     return texture;
 }
 
-graph::Texture coordinateTexture(gl::Device& device, const std::vector<vec2>& coordinates) {
-    const ivec2 size = vertexImageSize(coordinates.size());
-    std::vector<vec2> rows = coordinates;
-    rows.resize(std::size_t(size.x) * std::size_t(size.y)); // the last row filled up
-    graph::Texture texture(device, {.size = size, .format = Format::RG32F}, "views.coordinates");
+graph::Texture coordinateTexture(gl::Device& device, const std::vector<vec2>& first,
+                                 const std::vector<vec2>& second) {
+    const ivec2 size = vertexImageSize(first.size());
+    std::vector<vec4> rows(std::size_t(size.x) * std::size_t(size.y)); // the last row filled up
+    for (std::size_t i = 0; i < first.size(); ++i)
+        rows[i] = vec4(first[i], second.empty() ? vec2(0) : second[i]);
+    graph::Texture texture(device, {.size = size, .format = Format::RGBA32F}, "views.coordinates");
     device.upload(texture.handle(), 0, rows);
     return texture;
 }

@@ -16,14 +16,18 @@ struct DrawnMesh;
 /// A picture on the GPU; shaders read linear light, whatever its encoding.
 graph::Texture textureOf(gl::Device& device, const scene::TextureImage& image);
 
-/// Mesh::coordinates as a texture of vertexImageSize(), RG32F.
-graph::Texture coordinateTexture(gl::Device& device, const std::vector<vec2>& coordinates);
+/// Coordinates of vertices as a texture of vertexImageSize(), RGBA32F: those of the second set behind the
+/// first's, which may be empty.
+graph::Texture coordinateTexture(gl::Device& device, const std::vector<vec2>& first,
+                                 const std::vector<vec2>& second = {});
 
 /// What a mesh with textures is drawn with.
 struct Textured {
     graph::TextureHandle coordinates, colors, color, emission, roughness, normal;
     vec4 wraps; ///< of shaders/views/mesh_block.glsl
     float normalScale;
+    float cutoff;
+    bool hasHoles; ///< where the colour's alpha is below the cutoff
 };
 
 /// Images of a view (shaders/views/textured.glsl).

@@ -5,6 +5,7 @@
 #include "tests/support/Gl.h"
 #include "tests/support/Misplaced.h"
 #include "truth/Glass.h"
+#include "views/Eye.h"
 
 #include <gtest/gtest.h>
 
@@ -216,6 +217,46 @@ TEST_F(TexturedTest, ColoursOfVerticesAreLinearBetweenThem) {
     scene.objects.clear();
     add(mesh, scene::Matt{});
     EXPECT_LE(misplaced(16), 0.01);
+}
+
+TEST_F(TexturedTest, OneByTheSecondCoordinatesLiesThere) {
+    scene::Mesh mesh = fullBall();
+    for (const vec2& coordinate : mesh.coordinates)
+        mesh.secondCoordinates.push_back({coordinate.y, coordinate.x + 0.3f});
+    mesh.parts[0].textures.normal.second = true;
+    mesh.parts[0].textures.color.second = true;
+    scene.camera.type = scene::Camera::Type::Perspective;
+    scene.camera.eye = {0.3f, 0.5f, 1.6f};
+    scene.lights = {scene::PointLight{.position = {0.3f, 0.7f, 1.8f},
+                                      .intensity = 3}}; // facets shade none of what is seen
+    add(mesh, scene::Matt{});
+    views::samplingOf(scene).pixelSamples = 1; // texels are about as large as pixels
+    EXPECT_LE(misplaced(4), 0.01);
+}
+
+// A ball with holes over a plane, which is lit through them.
+TEST_F(TexturedTest, HolesLetLightAndSightThrough) {
+    scene::Mesh ball = fullBall();
+    ball.images[0] = imageOf({8, 4}, Encoding::Srgb, [](int x, int y) {
+        return Texel{200, 180, 90, std::uint8_t((x + y) % 2 ? 255 : 0)};
+    });
+    ball.parts[0].textures.cutoff = 0.5f;
+    scene.size = {96, 96};
+    views::samplingOf(scene).pixelSamples =
+        1; // edges are everywhere, of which means would be known by noise alone
+    scene.camera.type = scene::Camera::Type::Perspective;
+    scene.camera.eye = {0.3f, 0.9f, 2.2f};
+    add(ball, scene::Matt{});
+    add(texturedPlane(), scene::Matt{}).transform.translate = {0, -0.6f, 0};
+    scene.lights = {scene::PointLight{.position = {0.4f, 1.9f, 1.8f}, .intensity = 3}};
+    EXPECT_LE(misplaced(64), 0.01);
+    addSky();
+    EXPECT_LE(misplaced(256), 0.02); // as in mirrors
+    // Without them it is a closed ball: holes are no error of that size.
+    const Image holed = picture();
+    ball.parts[0].textures.cutoff = 0;
+    std::get<scene::MeshShape>(scene.objects[0].shape).mesh = std::make_shared<const scene::Mesh>(ball);
+    EXPECT_NE(picture().pixels, holed.pixels);
 }
 
 TEST_F(TexturedTest, TheEnvironmentIsSeenInWhatATextureMakesSmooth) {

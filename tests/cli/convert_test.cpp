@@ -38,7 +38,7 @@ TEST_F(ConvertMesh, RefusesWhatIsNoMeshAndOptionsOfHeights) {
                   "out.mesh: is a mesh; --normals, --size, --rotate, --margin and --floor-gap make heights");
     write("heights.pfm", Image(2, 2, 1));
     expectRefusal("convert heights.pfm -o out.mesh",
-                  "heights.pfm: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM6");
+                  "heights.pfm: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM7");
     write("bad.obj", "v 0 0\n");
     expectRefusal("convert bad.obj -o out.mesh", "bad.obj:1: v has \"\"; must be a number");
 }

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 namespace lucent::scene {
 namespace {
@@ -258,6 +259,33 @@ TEST(BroughtModel, TheBoxAroundItJustFitsTheFrameAtAnySize) {
     }
 }
 
+TEST(BroughtModel, LampsAndCameraOfItsFileTakeThePlacesOfOurs) {
+    Mesh mesh = twoParts();
+    mesh.lights = {{.position = {2, 9, 5}, .color = {1, 0.5f, 0.25f}, .intensity = 100},
+                   {.kind = FileLight::Kind::Spot, .position = {2, 4, 9}, .innerAngle = 20, .outerAngle = 90},
+                   {.kind = FileLight::Kind::Distant, .direction = {0, -1, 0}, .intensity = 10}};
+    mesh.cameras = {{.eye = {2, 4, 20}, .fov = 25, .aspect = 2}};
+    const Result<Scene> scene = opened(mesh);
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->lights.size(), 3u);
+    const auto& point = std::get<PointLight>(scene->lights[0]);
+    EXPECT_EQ(point.position, vec3(2, 9, 5));
+    EXPECT_EQ(point.color, vec3(1, 0.5f, 0.25f));
+    EXPECT_EQ(point.intensity, 100);
+    EXPECT_EQ(point.falloff, LightFalloff::InverseSquare);
+    EXPECT_EQ(std::get<SpotLight>(scene->lights[1]).outerAngle, 89.9f);
+    EXPECT_EQ(std::get<DistantLight>(scene->lights[2]).irradiance, 10);
+    EXPECT_EQ(scene->camera.eye, vec3(2, 4, 20));
+    EXPECT_EQ(scene->camera.target, vec3(2, 4, 5)); // as far as the middle
+    EXPECT_EQ(scene->camera.fov, 25);
+    EXPECT_EQ(scene->size, ivec2(768, 384));
+    // What is white and faces them: 100 / 25 + 1 / 16 + 10 of lamps, three sevenths of it from the sky; it
+    // ends where the brightest may, and the glass throws a caustic as bright as white.
+    const float white = (100.0f / 25 + 1.0f / 16 + 10) / std::numbers::pi_v<float> / 0.7f;
+    EXPECT_NEAR(std::exp2(scene->view.exposure) * white, kBrightest, 1e-3f);
+    EXPECT_NEAR(scene->environment->intensity, 0.3f * white, 1e-4f);
+}
+
 TEST(BroughtModel, AMeasuredMaterialIsShownOnABall) {
     const auto brdf = [](const dvec3& toLight, const dvec3& toEye) {
         return vec3(0.2f, 0.1f, float(0.05 * toLight.z * toEye.z));
@@ -277,7 +305,7 @@ TEST(BroughtModel, AMeasuredMaterialIsShownOnABall) {
 
 TEST(BroughtModel, WhatIsNoMeshOrHasNoExtentIsRefused) {
     EXPECT_EQ(sceneOfMesh("model.glb", Bytes(9)).error().message,
-              "model.glb: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM6");
+              "model.glb: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM7");
     EXPECT_EQ(opened(Mesh{.positions = {vec3(1)}, .indices = {0, 0, 0}}).error().message,
               "model.glb: is a single point; must have some extent");
 }

@@ -94,22 +94,47 @@ TEST(MeshFile, KeepsEveryBit) {
     EXPECT_EQ(back->parts[0].values.clear(), mesh.parts[0].values.clear());
 }
 
-TEST(MeshFile, OfTheVersionBeforeIsReadWithoutColors) {
-    Mesh mesh = movingMesh();
+TEST(MeshFile, OfTheVersionBeforeIsReadWithoutWhatIsNew) {
+    const Mesh mesh = movingMesh();
     const Bytes now = encodeMesh(mesh);
-    // A count of no colours stood nowhere then, nor did the one part's word on them.
     Bytes before = now;
+    const auto drop = [&](std::size_t at, std::size_t bytes) {
+        before.erase(before.begin() + std::ptrdiff_t(at), before.begin() + std::ptrdiff_t(at + bytes));
+    };
+    // From the end: no cameras, no lamps; before the count of pictures the part's cutoff, and, before its
+    // scale and its word on colours, which coordinates each of its four textures lies by.
+    drop(before.size() - 8, 8);
+    drop(before.size() - 4 - 4, 4);
+    const std::size_t uses = before.size() - 4 - 5 - 4 * 7;
+    for (std::size_t i = 4; i-- > 0;)
+        drop(uses + 7 * i + 6, 1);
     const std::size_t lists = 12 * mesh.positions.size() + 4 * mesh.indices.size() +
                               12 * mesh.normals.size() + 8 * mesh.joints.size() +
                               16 * mesh.jointWeights.size();
-    const std::size_t counts = 6 * 4, flag = now.size() - 4 - 1; // the count of textures comes last
-    before.erase(before.begin() + std::ptrdiff_t(flag));
-    before.erase(before.begin() + std::ptrdiff_t(8 + lists + counts),
-                 before.begin() + std::ptrdiff_t(8 + lists + counts + 4));
-    before[7] = std::byte('5');
+    drop(8 + lists + 6 * 4, 4); // the count of second coordinates
+    before[7] = std::byte('6');
     const Result<Mesh> read = decodeMesh(before, "a");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(encodeMesh(*read), now);
+}
+
+TEST(MeshFile, LampsAndCamerasAreKeptAndChecked) {
+    Mesh mesh = movingMesh();
+    mesh.lights = {{.kind = FileLight::Kind::Spot, .position = {1, 2, 3}, .intensity = 5, .innerAngle = 10}};
+    mesh.cameras = {{.perspective = false, .eye = {4, 5, 6}, .height = 2, .aspect = 1.5f}};
+    const Result<Mesh> back = decodeMesh(encodeMesh(mesh), "a");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->lights[0].kind, FileLight::Kind::Spot);
+    EXPECT_EQ(back->lights[0].position, vec3(1, 2, 3));
+    EXPECT_EQ(back->lights[0].innerAngle, 10);
+    EXPECT_FALSE(back->cameras[0].perspective);
+    EXPECT_EQ(back->cameras[0].height, 2);
+    EXPECT_EQ(back->cameras[0].aspect, 1.5f);
+    mesh.cameras[0].height = 0;
+    EXPECT_TRUE(decodeMesh(encodeMesh(mesh), "a").error().message.starts_with("a: has a camera"));
+    mesh.cameras.clear();
+    mesh.lights[0].direction = vec3(2);
+    EXPECT_TRUE(decodeMesh(encodeMesh(mesh), "a").error().message.starts_with("a: has a lamp"));
 }
 
 TEST(MeshFile, ColorsOfVerticesAreKeptAndChecked) {
@@ -135,7 +160,7 @@ TEST(MeshFile, CutFilesAreRefused) {
     for (std::size_t length = 0; length < file.size(); ++length)
         EXPECT_FALSE(decodeMesh(std::span(file).first(length), "a")) << length;
     EXPECT_EQ(decodeMesh(std::span(file).first(7), "a").error().message,
-              "a: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM6");
+              "a: is no mesh file; must be glTF 2.0, OBJ or start with LUCENTM7");
     // Behind the magic and the count of 3 positions (36 bytes) stand 20 - 12 = 8 bytes.
     EXPECT_EQ(decodeMesh(std::span(file).first(20), "a").error().message,
               "a: the mesh file ends in its positions, of which 8 bytes are there; must have 36");

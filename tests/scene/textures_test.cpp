@@ -113,6 +113,44 @@ TEST(Textures, ATransformMovesTheCoordinates) {
     EXPECT_NEAR(turned.y, -2, 1e-6);
 }
 
+TEST(Textures, OneThatLiesElsewhereHasCoordinatesOfItsOwn) {
+    std::string said;
+    const auto moved = [](const std::string& offset) {
+        return R"({ "index": 0, "extensions": { "KHR_texture_transform": { "offset": [)" + offset + "] } } }";
+    };
+    const Mesh mesh = squareWith(
+        R"("pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } }, "normalTexture": )" +
+            moved("0.5, 2") + R"(, "emissiveTexture": )" + moved("0, 1") + R"(, "emissiveFactor": [1, 1, 1])",
+        &said, having("m/my picture.png", picture()), R"(, "extensionsUsed": [ "KHR_texture_transform" ])");
+    EXPECT_EQ(said, "warning: m/a.glb: not read: emissiveTexture, which has a third set of coordinates\n");
+    ASSERT_EQ(mesh.secondCoordinates.size(), mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        EXPECT_EQ(mesh.secondCoordinates[i], mesh.coordinates[i] + vec2(0.5f, 2));
+    EXPECT_FALSE(mesh.parts[0].textures.color.second);
+    EXPECT_TRUE(mesh.parts[0].textures.normal.second);
+    EXPECT_EQ(mesh.parts[0].textures.emission.image, -1);
+}
+
+TEST(Textures, AlphaCutsHolesOrIsNamed) {
+    std::string said;
+    const auto cutoffOf = [&](const std::string& alpha) {
+        return squareWith(R"("pbrMetallicRoughness": { "baseColorTexture": { "index": 0 },
+                             "baseColorFactor": [1, 1, 1, 0.5] }, )" +
+                              alpha,
+                          &said)
+            .parts[0]
+            .textures.cutoff;
+    };
+    EXPECT_EQ(cutoffOf(R"("alphaMode": "OPAQUE")"), 0);
+    EXPECT_EQ(cutoffOf(R"("alphaMode": "MASK")"), 1); // the factor's half of the usual half
+    EXPECT_EQ(cutoffOf(R"("alphaMode": "MASK", "alphaCutoff": 0.25)"), 0.5f);
+    EXPECT_EQ(said, "");
+    EXPECT_EQ(cutoffOf(R"("alphaMode": "BLEND")"), 1);
+    EXPECT_EQ(said, "warning: m/a.glb: not read: alphaMode BLEND (drawn as MASK)\n");
+    squareWith(R"("alphaMode": "MASK")", &said);
+    EXPECT_EQ(said, "warning: m/a.glb: not read: alphaMode MASK\n");
+}
+
 TEST(Textures, WhatCannotBeReadIsNamedAndLeftOut) {
     std::string said;
     const Mesh gone = squareWith(
@@ -125,7 +163,7 @@ TEST(Textures, WhatCannotBeReadIsNamedAndLeftOut) {
     squareWith(R"("pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } },
                   "normalTexture": { "index": 0, "texCoord": 1 })",
                &said);
-    EXPECT_EQ(said, "warning: m/a.glb: not read: normalTexture, which has coordinates of its own\n");
+    EXPECT_EQ(said, "warning: m/a.glb: not read: textures of what has no second texture coordinates\n");
     const Mesh glass = squareWith(
         R"("pbrMetallicRoughness": { "baseColorTexture": { "index": 0 }, "roughnessFactor": 0,
              "metallicFactor": 0 }, "extensions": { "KHR_materials_transmission": { "transmissionFactor": 1 },

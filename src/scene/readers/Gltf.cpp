@@ -5,6 +5,7 @@
 #include "scene/readers/GltfMaterial.h"
 #include "scene/readers/GltfNumbers.h"
 #include "scene/readers/GltfTextures.h"
+#include "scene/readers/GltfView.h"
 #include "scene/readers/TinyGltf.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -129,6 +130,7 @@ public:
             return error_;
         if (mesh_.positions.empty() || !finishParts())
             return Error{name_ + ": holds no triangles; must hold at least one"};
+        addView();
         if (!unread_.empty()) warnOnce(name_ + ": not read: " + listed(unread_));
         return std::move(mesh_);
     }
@@ -166,7 +168,6 @@ private:
         const auto known = knownGltfExtensions();
         for (const std::string& extension : model_.extensionsUsed)
             if (std::find(known.begin(), known.end(), extension) == known.end()) unread_.insert(extension);
-        if (!model_.cameras.empty()) unread_.insert("cameras");
         return true;
     }
 
@@ -411,7 +412,13 @@ private:
     bool readCoordinates(const tinygltf::Primitive& primitive, Mesh& piece) {
         const tinygltf::Material* material = element(model_.materials, primitive.material);
         if (!material || !hasTextures(*material)) return true;
-        const TextureMapping mapping = textures_.mappingOf(*material);
+        const std::vector<TextureMapping> mappings = textures_.mappingsOf(*material);
+        return readSet(primitive, mappings[0], piece, piece.coordinates) &&
+               (mappings.size() < 2 || readSet(primitive, mappings[1], piece, piece.secondCoordinates));
+    }
+
+    bool readSet(const tinygltf::Primitive& primitive, const TextureMapping& mapping, const Mesh& piece,
+                 std::vector<vec2>& coordinates) {
         const auto found = primitive.attributes.find("TEXCOORD_" + std::to_string(mapping.set));
         if (found == primitive.attributes.end()) return true;
         const Result<std::vector<double>> numbers =
@@ -421,8 +428,7 @@ private:
             return fail("has " + std::to_string(numbers->size() / 2) + " texture coordinates for " +
                         std::to_string(piece.positions.size()) + " positions; must be as many");
         for (std::size_t i = 0; i < numbers->size(); i += 2)
-            piece.coordinates.emplace_back(mapping.textureFromVertex *
-                                           dvec3((*numbers)[i], (*numbers)[i + 1], 1));
+            coordinates.emplace_back(mapping.textureFromVertex * dvec3((*numbers)[i], (*numbers)[i + 1], 1));
         return true;
     }
 
@@ -527,6 +533,7 @@ private:
         };
         take(piece.positions);
         if (!piece.coordinates.empty()) take(piece.coordinates);
+        if (!piece.secondCoordinates.empty()) take(piece.secondCoordinates);
         if (!piece.colors.empty()) take(piece.colors);
         take(piece.joints);
         take(piece.jointWeights);
@@ -675,6 +682,10 @@ private:
             mesh_.coordinates.resize(first, vec2(0)); // of what has no textures
             append(mesh_.coordinates, piece.coordinates);
         }
+        if (!piece.secondCoordinates.empty()) {
+            mesh_.secondCoordinates.resize(first, vec2(0));
+            append(mesh_.secondCoordinates, piece.secondCoordinates);
+        }
         if (!piece.colors.empty()) {
             mesh_.colors.resize(first, vec3(1)); // of what has none
             append(mesh_.colors, piece.colors);
@@ -738,7 +749,8 @@ private:
             append(mesh_.indices, indices);
         }
         mesh_.images = textures_.takeImages();
-        if (!mesh_.coordinates.empty()) mesh_.coordinates.resize(mesh_.positions.size(), vec2(0));
+        for (std::vector<vec2>* coordinates : {&mesh_.coordinates, &mesh_.secondCoordinates})
+            if (!coordinates->empty()) coordinates->resize(mesh_.positions.size(), vec2(0));
         if (!mesh_.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), vec3(1));
         return !mesh_.indices.empty();
     }
@@ -748,9 +760,26 @@ private:
             part.textures = textures_.texturesOf(material);
         else if (showsTextures(part.values) && hasTextures(material))
             unread_.insert("textures of what has no texture coordinates");
+        for (TextureUse* use :
+             {&part.textures.color, &part.textures.emission, &part.textures.roughness, &part.textures.normal})
+            if (use->second && mesh_.secondCoordinates.empty()) {
+                unread_.insert("textures of what has no second texture coordinates");
+                *use = {};
+            }
         // Emission beside a texture, which mostly blackens it, counts nothing without that.
         if (material.emissiveTexture.index >= 0 && part.textures.emission.image < 0)
             part.values.base = vec3(0);
+    }
+
+    // Of the scene, where its nodes hold them at rest.
+    void addView() {
+        for (const int index : order_) {
+            if (!at(index).inScene) continue;
+            if (const auto light = lightOf(model_, node(index), at(index).rootFromNode))
+                mesh_.lights.push_back(*light);
+            const auto camera = cameraOf(model_, node(index), at(index).rootFromNode);
+            if (camera && mesh_.cameras.empty()) mesh_.cameras.push_back(*camera);
+        }
     }
 
     static constexpr std::size_t kMostVertices = std::size_t(1) << 24, kMostCorners = 6 * kMostVertices;

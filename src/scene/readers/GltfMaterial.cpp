@@ -23,6 +23,7 @@ constexpr std::string_view kKnown[] = {kTransmission,
                                        kScatter,
                                        kDiffuse,
                                        kSpecular,
+                                       "KHR_lights_punctual",
                                        "KHR_mesh_quantization",
                                        "KHR_texture_transform"};
 
@@ -60,7 +61,9 @@ public:
         nameWhen(property(kSpecular, "specularColorTexture"), "specularColorTexture");
         nameWhen(property(kTransmission, "transmissionTexture"), "transmissionTexture");
         nameWhen(property(kScatter, "multiscatterColorTexture"), "multiscatterColorTexture");
-        nameWhen(gltf_.alphaMode != "OPAQUE", "alphaMode " + gltf_.alphaMode);
+        const bool hasHoles = showsTextures(m) && pbr.baseColorTexture.index >= 0;
+        nameWhen(gltf_.alphaMode == "BLEND" && hasHoles, "alphaMode BLEND (drawn as MASK)");
+        nameWhen(gltf_.alphaMode != "OPAQUE" && !hasHoles, "alphaMode " + gltf_.alphaMode);
         return m;
     }
 

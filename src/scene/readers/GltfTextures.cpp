@@ -1,5 +1,6 @@
 #include "scene/readers/GltfTextures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -44,6 +45,15 @@ Wrap wrapOf(int mode) {
                                                            : Wrap::Repeat;
 }
 
+// Of the texture's own alpha. What blends is there or not: the nearest that light paths can tell apart.
+float cutoffOf(const tinygltf::Material& material) {
+    if (material.alphaMode == "OPAQUE") return 0;
+    const auto& factor = material.pbrMetallicRoughness.baseColorFactor;
+    const double alpha = factor.size() == 4 ? factor[3] : 1;
+    const double cutoff = material.alphaMode == "MASK" ? material.alphaCutoff : 0.5;
+    return float(std::min(cutoff / std::max(alpha, 1e-3), 2.0)); // no alpha reaches 2
+}
+
 int hexDigit(char c) {
     const std::string_view digits = "0123456789abcdef";
     const std::size_t place = digits.find(char(c | 0x20));
@@ -63,30 +73,38 @@ std::string decodedUri(const std::string& uri) {
     return name;
 }
 
-TextureMapping GltfTextures::mappingOf(const tinygltf::Material& material) const {
+std::vector<TextureMapping> GltfTextures::mappingsOf(const tinygltf::Material& material) const {
     const auto& pbr = material.pbrMetallicRoughness;
+    std::vector<TextureMapping> mappings;
     for (const Texture& one : {textureOf(pbr.baseColorTexture), textureOf(pbr.metallicRoughnessTexture),
                                textureOf(material.normalTexture), textureOf(material.emissiveTexture)})
-        if (one.index >= 0) return one.mapping;
-    return {};
+        if (one.index >= 0 && std::find(mappings.begin(), mappings.end(), one.mapping) == mappings.end() &&
+            mappings.size() < kMostMappings)
+            mappings.push_back(one.mapping);
+    return mappings;
 }
 
 Textures GltfTextures::texturesOf(const tinygltf::Material& material) {
     const auto& pbr = material.pbrMetallicRoughness;
-    const TextureMapping own = mappingOf(material);
+    const std::vector<TextureMapping> mappings = mappingsOf(material);
     const auto use = [&](const char* name, const auto& info, Encoding encoding) {
         const Texture texture = textureOf(info);
-        if (texture.index >= 0 && texture.mapping != own) {
-            unread_.insert(std::string(name) + ", which has coordinates of its own");
+        if (texture.index < 0) return TextureUse{};
+        const auto found = std::find(mappings.begin(), mappings.end(), texture.mapping);
+        if (found == mappings.end()) {
+            unread_.insert(std::string(name) + ", which has a third set of coordinates");
             return TextureUse{};
         }
-        return useOf(texture.index, encoding);
+        TextureUse taken = useOf(texture.index, encoding);
+        taken.second = found != mappings.begin();
+        return taken;
     };
     return {.color = use("baseColorTexture", pbr.baseColorTexture, Encoding::Srgb),
             .emission = use("emissiveTexture", material.emissiveTexture, Encoding::Srgb),
             .roughness = use("metallicRoughnessTexture", pbr.metallicRoughnessTexture, Encoding::Linear),
             .normal = use("normalTexture", material.normalTexture, Encoding::Linear),
-            .normalScale = float(material.normalTexture.scale)};
+            .normalScale = float(material.normalTexture.scale),
+            .cutoff = cutoffOf(material)};
 }
 
 TextureUse GltfTextures::useOf(int index, Encoding encoding) {

@@ -20,6 +20,9 @@ struct TextureMapping {
     bool operator==(const TextureMapping&) const = default;
 };
 
+/// A mesh has so many sets of coordinates.
+inline constexpr std::size_t kMostMappings = 2;
+
 /// Takes the textures of one material after the other, and decodes each picture that they use once.
 class GltfTextures {
 public:
@@ -30,9 +33,10 @@ public:
         : model_(model), name_(name), read_(read), unread_(unread) {}
 
     /// The coordinates of a material: those of the first of its textures (base colour, metallic-roughness,
-    /// normal, emission). Others that lie elsewhere are left out, and named.
-    TextureMapping mappingOf(const tinygltf::Material& material) const;
-    /// Of a material; pictures that cannot be read are left out, and named with why.
+    /// normal, emission) and of the first that lies elsewhere; at most kMostMappings.
+    std::vector<TextureMapping> mappingsOf(const tinygltf::Material& material) const;
+    /// Of a material; what lies by further coordinates and pictures that cannot be read are left out, and
+    /// named.
     Textures texturesOf(const tinygltf::Material& material);
     /// What all textures taken so far refer to.
     std::vector<std::shared_ptr<const TextureImage>> takeImages() { return std::move(images_); }

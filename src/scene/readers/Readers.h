@@ -1,6 +1,6 @@
 #pragma once
 /// Readers of foreign files, kept apart so that a page fetches them only when a scene needs one: they turn
-/// glTF, OBJ, EXR and TIFF into the plain forms (LUCENTM6, PFM, PNG) that the loader reads.
+/// glTF, OBJ, EXR and TIFF into the plain forms (LUCENTM7, PFM, PNG) that the loader reads.
 
 #include "base/File.h"
 #include "base/Image.h"
