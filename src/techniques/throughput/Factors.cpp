@@ -1,6 +1,7 @@
 #include "techniques/throughput/Factors.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -268,8 +269,27 @@ std::size_t Factors::bytes() const {
 
 namespace {
 
+constexpr std::uint64_t kMostBytes = std::uint64_t(2) << 30; // of factors, while they are made too
+
+// Counts what several threads keep.
+class Room {
+public:
+    template <class List>
+    void take(const List& list) {
+        bytes_ += list.size() * sizeof(list[0]);
+    }
+    bool isFull() const { return bytes_ > kMostBytes; }
+    Error error(std::size_t vertices) const {
+        return {"close factors of " + std::to_string(vertices) + " vertices are more than " +
+                    std::to_string(kMostBytes >> 20) + " MiB; must be of fewer vertices",
+                Fault::Machine};
+    }
+
+private:
+    std::atomic<std::uint64_t> bytes_{0};
+};
+
 Result<Factors> denseOf(const FactorRows& rows, std::size_t count, const Work& work) {
-    constexpr std::uint64_t kMostBytes = std::uint64_t(2) << 30;
     const std::uint64_t bytes = std::uint64_t(count) * count * sizeof(vec3);
     if (bytes > kMostBytes)
         return Error{"all factors of " + std::to_string(count) + " vertices are " +
@@ -291,16 +311,20 @@ Result<Factors> denseOf(const FactorRows& rows, std::size_t count, const Work& w
 
 Result<Factors> sparseOf(const FactorRows& rows, std::size_t count, float threshold, const Work& work) {
     std::vector<std::vector<std::pair<std::uint32_t, vec3>>> kept(count);
+    Room room;
     if (Status s = forEach(count, work,
                            [&](std::size_t j) {
+                               if (room.isFull()) return;
                                std::vector<vec3> row(count);
                                rows.fill(std::uint32_t(j), row);
                                for (std::uint32_t i = 0; i < count; ++i)
                                    if (std::max({row[i].r, row[i].g, row[i].b}) >= threshold)
                                        kept[j].emplace_back(i, row[i]);
+                               room.take(kept[j]);
                            });
         !s)
         return s.error();
+    if (room.isFull()) return room.error(count);
     Factors factors{
         .method = Global::Sparse, .count = count, .dense = {}, .close = {}, .inner = {}, .outer = {}};
     for (const auto& row : kept)
@@ -358,6 +382,9 @@ bool isFar(const Cluster& a, const Cluster& b) {
     const vec3 gap = glm::max(glm::max(a.low - b.high, b.low - a.high), vec3(0));
     return glm::length(gap) >= 0.3f * std::min(glm::length(a.high - a.low), glm::length(b.high - b.low));
 }
+
+// Factors that a block may have: each thread keeps one whole, and 10,000 vertices have no larger far ones.
+constexpr std::size_t kMostInBlock = std::size_t(1) << 23;
 
 // What is left of a block: rows are vertices that receive, columns those that are lit.
 class Block {
@@ -424,13 +451,17 @@ public:
 
     Result<Factors> run(const Work& work) {
         const std::size_t count = close_.size();
+        Room room;
         if (Status s = forEach(count, partOf(work, 0, 0.35),
                                [&](std::size_t j) {
+                                   if (room.isFull()) return;
                                    exact_[j] = rows_.close(std::uint32_t(j));
+                                   room.take(exact_[j]);
                                    sums_[j] = sumOf(std::uint32_t(j));
                                });
             !s)
             return s.error();
+        if (room.isFull()) return room.error(count);
         std::vector<Pair> pairs{{0, 0}};
         double done = 0.35;
         while (!pairs.empty()) { // one size of blocks after another
@@ -490,7 +521,7 @@ private:
         const Cluster &to = tree_.clusters[std::size_t(pair.to)],
                       &from = tree_.clusters[std::size_t(pair.from)];
         Made made;
-        if (isFar(to, from)) {
+        if (isFar(to, from) && std::size_t(to.count()) * from.count() <= kMostInBlock) {
             std::vector<vec3> tolerances;
             Block block(to.count(), from.count());
             for (const std::uint32_t j : verticesOf(to)) {

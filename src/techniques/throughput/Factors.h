@@ -81,8 +81,9 @@ struct Factors {
     bool operator==(const Factors&) const = default;
 };
 
-/// @return  Error where the work was stopped, or (Fault::Machine) where all factors of so many vertices are
-///          more than 2 GiB
+/// @return  Error where the work was stopped, or (Fault::Machine) where the factors of so many vertices are
+/// more
+///          than 2 GiB
 Result<Factors> factorsOf(const FactorRows& rows, const Hats& hats, const FactorOptions& options,
                           const Work& work);
 
