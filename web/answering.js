@@ -1,4 +1,5 @@
 /** What a module that is started as a worker does. */
+import { nextTask } from './task.js';
 
 /**
  * Answers the requests that such a worker gets, each with its number; on a page nothing happens.
@@ -23,7 +24,7 @@ export async function workThrough(step, report, slice) {
   for (let share = 0; share < 1; ) {
     share = step(slice);
     if (report(share) === false) return false;
-    await new Promise((done) => setTimeout(done));
+    await nextTask();
   }
   return true;
 }

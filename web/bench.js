@@ -1,5 +1,6 @@
 /** The benchmark page: runs the sweep step by step, with progress and cancel, and offers what it found as JSON. */
 import createBench from './lucent-bench.js';
+import { nextTask } from './task.js';
 import { callWasm } from './wasm.js';
 
 const kSliceMs = 50;
@@ -71,7 +72,7 @@ async function measure(parts, quick) {
     find('share').value = share;
     const left = share > 0.02 ? `, about ${seconds((spent / share) * (1 - share))} left` : '';
     find('part').value = `${bench.text('part')}: ${Math.round(100 * share)} %${left}`;
-    await new Promise((done) => setTimeout(done));
+    await nextTask();
   }
   return { report: bench.report(), text: bench.text('report_text'), spent: performance.now() - start };
 }

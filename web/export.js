@@ -2,11 +2,11 @@
  * Pictures at sizes of their own and sequences of them, drawn by a viewer without an element beside what the page shows.
  * Fetched when one is asked for.
  */
+import { nextTask } from './task.js';
+
 const kSwing = 50; // degrees to each side: from farther aside a relief shows little
 const kBitsPerPixel = 0.4; // of a frame of video
 const kTurn = 360; // degrees
-
-const nextTask = () => new Promise((done) => setTimeout(done));
 
 // ---- vectors: arrays of 3
 

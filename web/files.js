@@ -1,6 +1,7 @@
 /** Brings files to the module: scenes with everything they name, in a form that it reads. */
 import { Service } from './job.js';
 import { LucentError } from './runtime.js';
+import { nextTask } from './task.js';
 
 const kForeign = /\.(exr|tiff?|glb|gltf|obj)$/i;
 // Keys that make a material another kind than relief,
@@ -266,13 +267,14 @@ export async function openScene(start, files) {
 }
 
 /**
- * Gives fetched files to the module for one load and takes them back, so that two scenes may use the same names. Throws a
+ * Gives fetched files to the module for one load, which ends where another of the same viewer begins. Throws a
  * LucentError. @return  the scene's sources: see collect(); the files themselves where nobody says them
  */
-export function loadFiles({ runtime, handle }, { path, files, sources }) {
+export async function loadFiles({ runtime, handle }, { path, files, sources }) {
   for (const [name, bytes] of files) runtime.call('file_put', name, bytes);
-  const message = runtime.text('viewer_load', handle, path);
-  for (const name of files.keys()) runtime.call('file_forget', name);
+  const load = runtime.call('viewer_load', handle, path);
+  while (runtime.call('viewer_load_on', handle, load)) await nextTask();
+  const message = runtime.text('viewer_load_error', handle);
   if (message) throw new LucentError('scene', message);
   return sources ?? sourcesOf([...files].filter(([name]) => name !== path));
 }

@@ -152,6 +152,7 @@ struct Renderer::State {
     ivec2 screen{0}; // and in which it is shown
     bool started = false, coarse = false;
     bool dragged = false;
+    int taken = 0;                    // objects that are on the GPU: see takeObjects()
     int rested = 0;                   // places of slice() up to which it has rested: see rests()
     bool atOnce = false;              // nobody waits for a look before the picture is complete
     float defaultError = 0;           // of scenes that ask for none
@@ -247,6 +248,7 @@ struct Renderer::State {
         return allAround || (!isCoarse() && pixelSamples(scene) > 1);
     }
     bool rests(int place, double since);
+    Result<bool> takeObjects(const scene::Scene& scene);
     std::vector<technique::Guest*> needed(const scene::Scene& scene) const;
     technique::Guest* replacing(const technique::Picture& picture) const;
     bool replaces(const technique::Picture& picture) const;

@@ -65,7 +65,7 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
                             Effort effort) {
     const bool looked = started && coarse && complete() && revision == newRevision;
     if (started && complete())
-        rested = 0; // else changes that follow each other fast would let nothing be drawn
+        rested = taken = 0; // else changes that follow each other fast would let nothing be drawn
     drop();
     auto copy = std::make_unique<scene::Scene>(asked);
     const bool isFrugal = asked.quality.maxError == 0;
@@ -229,6 +229,17 @@ bool Renderer::State::rests(int place, double since) {
     return true;
 }
 
+// Takes objects to the GPU for one slice of time. @return whether all are there
+Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
+    const double begins = now();
+    while (!atOnce && !dragged && taken < int(scene.objects.size())) {
+        const Result<views::Drawable::Ptr> one = views::drawableOf(scene, taken++, images, &waters);
+        if (!one) return one.error();
+        if (now() - begins > kSliceMs) return false;
+    }
+    return true;
+}
+
 Status Renderer::State::slice(const scene::Scene& scene) {
     const double begins = now();
     if (next == 0) sample = stages[stage].sample;
@@ -243,6 +254,9 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     }
     if (surfaceShown && shownKey != surfaceKeyOf(scene))
         surfaceShown = surfaceDrawn = false; // water has moved, or the samples of the pixels
+    const Result<bool> areThere = takeObjects(scene);
+    if (!areThere) return areThere.error();
+    if (!*areThere) return Done{};
     Result<Moment> moment = momentOf(scene);
     if (!moment) return moment.error();
     if (rests(0, begins)) return Done{};

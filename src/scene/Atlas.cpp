@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -90,29 +92,71 @@ bool forEachMiddle(const Corners& t, Found found) {
     return true;
 }
 
+// Texels of a plane without end, of which few are used: in tiles, since neighbours are asked for one after
+// another.
+template <class Texel>
+class Texels {
+public:
+    // Null where nothing was made.
+    Texel* find(std::int64_t x, std::int64_t y) {
+        Tile* tile = tileAt(x, y, false);
+        return tile && tile->isMade[placeIn(x, y)] ? &tile->texels[placeIn(x, y)] : nullptr;
+    }
+    Texel& findOrMake(std::int64_t x, std::int64_t y, const Texel& made) {
+        Tile& tile = *tileAt(x, y, true);
+        const std::size_t place = placeIn(x, y);
+        if (!tile.isMade[place]) tile.texels[place] = made;
+        tile.isMade[place] = true;
+        return tile.texels[place];
+    }
+
+private:
+    static constexpr int kBits = 4; // of a side
+    static constexpr std::size_t kInTile = std::size_t(1) << 2 * kBits;
+    struct Tile {
+        std::array<Texel, kInTile> texels;
+        std::bitset<kInTile> isMade;
+    };
+    static std::size_t placeIn(std::int64_t x, std::int64_t y) {
+        constexpr std::int64_t kInside = (1 << kBits) - 1;
+        return std::size_t((y & kInside) << kBits | (x & kInside));
+    }
+    Tile* tileAt(std::int64_t x, std::int64_t y, bool makes) {
+        const std::uint64_t key = std::uint64_t(std::uint32_t(x >> kBits)) << 32 | std::uint32_t(y >> kBits);
+        if (last_ && key == lastKey_) return last_;
+        const auto found = tiles_.find(key);
+        if (found == tiles_.end() && !makes) return nullptr;
+        lastKey_ = key;
+        return last_ = found != tiles_.end() ? found->second.get()
+                                             : (tiles_[key] = std::make_unique<Tile>()).get();
+    }
+    std::unordered_map<std::uint64_t, std::unique_ptr<Tile>> tiles_;
+    Tile* last_ = nullptr;
+    std::uint64_t lastKey_ = 0;
+};
+
 // Where a growing chart lies already, so that no second layer of it comes to lie there.
 class Mask {
 public:
     // Takes the triangle in, unless it meets another layer.
     bool take(const Corners& corners, const dvec3& heights) {
         const dvec3 slope = slopeOf(corners, heights);
-        const auto heightAt = [&](double x, double y) { return slope.x * x + slope.y * y + slope.z; };
+        const auto heightAt = [&](std::int64_t x, std::int64_t y) {
+            return slope.x * (double(x) + 0.5) + slope.y * (double(y) + 0.5) + slope.z;
+        };
         bool free = forEachMiddle(corners, [&](std::int64_t x, std::int64_t y) {
-            const auto found = texels_.find(key(x, y));
-            return found == texels_.end() ||
-                   (!found->second.covered &&
-                    isNear(found->second, heightAt(double(x) + 0.5, double(y) + 0.5)));
+            const Texel* found = texels_.find(x, y);
+            return !found || (!found->covered && isNear(*found, heightAt(x, y)));
         });
         for (int i = 0; i < 3 && free; ++i) {
-            const auto found = texels_.find(keyAt(corners[std::size_t(i)]));
-            free = found == texels_.end() || isNear(found->second, heights[i]);
+            const Texel* found = texels_.find(columnOf(corners, i), rowOf(corners, i));
+            free = !found || isNear(*found, heights[i]);
         }
         if (!free) return false;
         for (int i = 0; i < 3; ++i)
-            texels_.try_emplace(keyAt(corners[std::size_t(i)]), Texel{heights[i]});
+            texels_.findOrMake(columnOf(corners, i), rowOf(corners, i), {heights[i]});
         forEachMiddle(corners, [&](std::int64_t x, std::int64_t y) {
-            const double height = heightAt(double(x) + 0.5, double(y) + 0.5);
-            texels_.try_emplace(key(x, y), Texel{height}).first->second.covered = true;
+            texels_.findOrMake(x, y, {heightAt(x, y)}).covered = true;
             return true;
         });
         return true;
@@ -120,14 +164,14 @@ public:
 
 private:
     struct Texel {
-        double height;
+        double height = 0;
         bool covered = false; // its middle
     };
-    static std::uint64_t key(std::int64_t x, std::int64_t y) {
-        return std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y);
+    static std::int64_t columnOf(const Corners& t, int corner) {
+        return std::int64_t(std::floor(t[std::size_t(corner)].x));
     }
-    static std::uint64_t keyAt(const dvec2& place) {
-        return key(std::int64_t(std::floor(place.x)), std::int64_t(std::floor(place.y)));
+    static std::int64_t rowOf(const Corners& t, int corner) {
+        return std::int64_t(std::floor(t[std::size_t(corner)].y));
     }
     static bool isNear(const Texel& texel, double height) {
         return std::abs(texel.height - height) <= kSameLayer;
@@ -140,7 +184,7 @@ private:
         const dvec2 slope((h * v.y - k * u.y) / det, (k * u.x - h * v.x) / det);
         return {slope, heights[0] - glm::dot(slope, t[0])};
     }
-    std::unordered_map<std::uint64_t, Texel> texels_;
+    Texels<Texel> texels_;
 };
 
 struct Box {

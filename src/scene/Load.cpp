@@ -16,8 +16,12 @@
 #include "scene/Strokes.h"
 
 #include <algorithm>
+#include <any>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <type_traits>
 
 namespace lucent::scene {
 namespace {
@@ -42,11 +46,33 @@ Result<std::shared_ptr<const Mesh>> decodeShape(std::span<const std::byte> bytes
     return std::shared_ptr<const Mesh>(std::make_shared<Mesh>(std::move(*mesh)));
 }
 
+// What an interrupted load need not decode again.
+struct Decoded {
+    std::map<std::string, std::any> values; // by file and decoder
+    std::chrono::steady_clock::time_point until{};
+    bool pauses = false, isNew = false; // something was decoded since the load began or went on
+
+    template <class Value>
+    bool find(const std::string& key, Value& value) const {
+        const auto found = values.find(key);
+        if (found != values.end()) value = *std::any_cast<Value>(&found->second);
+        return found != values.end();
+    }
+    template <class Value>
+    void add(const std::string& key, const Value& value) {
+        values.emplace(key, value);
+        isNew = true;
+    }
+    // Before something is decoded: whether it must wait.
+    bool isOver() { return pauses = isNew && std::chrono::steady_clock::now() > until; }
+};
+
 // Turns the tree into a scene. Functions return false after the first complaint, which is kept.
 class Loader : JsonReading {
 public:
-    Loader(const std::string& path, const ReadFile& read, std::span<const ParamTable* const> techniques)
-        : JsonReading(path), read_(read), techniques_(techniques) {}
+    Loader(const std::string& path, const ReadFile& read, std::span<const ParamTable* const> techniques,
+           Decoded& decoded)
+        : JsonReading(path), read_(read), techniques_(techniques), decoded_(decoded) {}
 
     Result<Scene> load(const Json& root) {
         Scene scene;
@@ -104,15 +130,33 @@ private:
     }
 
     // --- files ---
+    // Functions do the same for every place; others depend on what stands beside it.
+    template <class Decode>
+    static std::string roleOf(const Place& place, Decode decode) {
+        if constexpr (std::is_pointer_v<Decode>)
+            return std::to_string(reinterpret_cast<std::uintptr_t>(decode));
+        else
+            return place.path;
+    }
     // Reads a file that the scene names and decodes it: `decode(bytes, name)`.
     template <class Value, class Decode>
     bool readFile(const Place& place, const std::string& file, Value& value, Decode decode) {
+        return readFile(place, file, value, decode, roleOf(place, decode));
+    }
+    // @param role  by which a file is decoded in the same way
+    template <class Value, class Decode>
+    bool readFile(const Place& place, const std::string& file, Value& value, Decode decode,
+                  const std::string& role) {
         const std::string name = resolvePath(path(), file);
+        const std::string key = name + " " + role;
+        if (decoded_.find(key, value)) return true;
+        if (decoded_.isOver()) return false;
         const Result<Bytes> bytes = read_(name);
         if (!bytes) return fail(place, ": " + bytes.error().message);
         auto decoded = decode(*bytes, name);
         if (!decoded) return fail(place, ": " + decoded.error().message);
         value = std::move(*decoded);
+        decoded_.add(key, value);
         return true;
     }
     template <class Decode>
@@ -454,10 +498,15 @@ private:
             return fail(place, " holds no paint; must have entering, leaving or strokes");
         const int side = map ? map->width : source.side;
         if (!spend(place, "side", std::to_string(side), bytesOfPaint(side))) return false;
-        Result<std::shared_ptr<const Painting>> painted =
-            paint(object, files.strokes, side, files.entering, files.leaving);
-        if (!painted) return fail(place, ": " + painted.error().message);
-        Painting whole = **painted;
+        std::shared_ptr<const Painting> played;
+        if (!decoded_.find(place.path, played)) {
+            if (decoded_.isOver()) return false;
+            Result<std::shared_ptr<const Painting>> painted =
+                paint(object, files.strokes, side, files.entering, files.leaving);
+            if (!painted) return fail(place, ": " + painted.error().message);
+            decoded_.add(place.path, played = *painted);
+        }
+        Painting whole = *played;
         whole.enteringFile = files.enteringFile;
         whole.leavingFile = files.leavingFile;
         whole.strokesFile = files.strokesFile;
@@ -638,7 +687,10 @@ private:
         const auto decode = [&](std::span<const std::byte> bytes, const std::string& name) {
             return loadHeights(source, bytes, name);
         };
-        return readFileName(member, source.file) && readFile(member, source.file, sourced, decode);
+        const bool isMesh =
+            source.kind == HeightSource::Kind::Mesh; // which turns and fits it as its place says
+        return readFileName(member, source.file) &&
+               readFile(member, source.file, sourced, decode, isMesh ? member.path : std::string(foundKey));
     }
     // Keys that only a mesh's depth uses would otherwise be ignored in silence.
     bool refuseMeshKeys(const Place& place, HeightSource::Kind kind) {
@@ -662,6 +714,7 @@ private:
 
     const ReadFile& read_;
     std::span<const ParamTable* const> techniques_;
+    Decoded& decoded_;
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const Mesh>> meshes_; // by source and part
     double bytes_ = 0; // that what was read asks for
 };
@@ -670,11 +723,37 @@ private:
 
 Result<Scene> load(const std::string& path, const ReadFile& read,
                    std::span<const ParamTable* const> techniques) {
-    const Result<Bytes> bytes = read(path);
-    if (!bytes) return bytes.error();
-    const Result<Json> root = parseJson(*bytes, path);
-    if (!root) return root.error();
-    return Loader(path, read, techniques).load(*root);
+    return *Loading(path, read, techniques).advance(std::numeric_limits<double>::infinity());
+}
+
+struct Loading::State {
+    std::string path;
+    ReadFile read;
+    std::span<const ParamTable* const> techniques;
+    Decoded decoded{};
+    std::optional<Result<Json>> root{};
+
+    Result<Json> parse() const {
+        const Result<Bytes> bytes = read(path);
+        return bytes ? parseJson(*bytes, path) : Result<Json>(bytes.error());
+    }
+};
+
+Loading::Loading(const std::string& path, ReadFile read, std::span<const ParamTable* const> techniques)
+    : state_(std::make_unique<State>(State{path, std::move(read), techniques})) {}
+Loading::~Loading() = default;
+
+std::optional<Result<Scene>> Loading::advance(double ms) {
+    using Clock = std::chrono::steady_clock;
+    State& s = *state_;
+    if (!s.root) s.root = s.parse();
+    if (!*s.root) return s.root->error();
+    const std::chrono::duration<double, std::milli> patience(std::min(ms, 1e9));
+    s.decoded.until = Clock::now() + std::chrono::duration_cast<Clock::duration>(patience);
+    s.decoded.pauses = s.decoded.isNew = false;
+    Result<Scene> scene = Loader(s.path, s.read, s.techniques, s.decoded).load(**s.root);
+    if (s.decoded.pauses) return std::nullopt;
+    return scene;
 }
 
 Result<std::vector<std::string>> dependencies(const std::string& path, std::span<const std::byte> scene) {

@@ -4,6 +4,8 @@
 #include "base/File.h"
 #include "scene/Scene.h"
 
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +20,22 @@ namespace lucent::scene {
 /// @return            the scene, complete, or "FILE:LINE: place.key is X; must be Y"
 Result<Scene> load(const std::string& path, const ReadFile& read,
                    std::span<const ParamTable* const> techniques);
+
+/// The same step by step, for who must not be kept waiting: what is decoded stays, and the rest is read anew.
+class Loading {
+public:
+    /// @param techniques  must outlive this
+    Loading(const std::string& path, ReadFile read, std::span<const ParamTable* const> techniques);
+    ~Loading();
+
+    /// Works on until at least one file is decoded and `ms` are over. @return nothing while there is more to
+    /// do
+    std::optional<Result<Scene>> advance(double ms);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// Files that a scene names, resolved against its path and in the order of the file: what a page fetches
 /// before it calls load().

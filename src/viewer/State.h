@@ -49,6 +49,7 @@ struct Viewer::State {
     gl::Context* context;
     gl::ImGuiHost* imguiHost;
     ImGuiContext* imgui = nullptr;
+    std::unique_ptr<scene::Loading> loading;   // of the scene that comes next
     std::unique_ptr<frame::Renderer> renderer; // made when first drawn
 
     std::unique_ptr<scene::Scene> scene;

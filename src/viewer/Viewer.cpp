@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <limits>
 
 namespace lucent::viewer {
 
@@ -49,13 +50,24 @@ void Viewer::release() {
 }
 
 Status Viewer::load(const std::string& path, const ReadFile& read) {
-    Result<scene::Scene> scene = scene::load(path, read, technique::tables());
-    if (!scene) {
-        showMessage(scene.error().message);
-        return scene.error();
+    beginLoad(path, read);
+    return *advanceLoad(std::numeric_limits<double>::infinity());
+}
+
+void Viewer::beginLoad(const std::string& path, const ReadFile& read) {
+    state_->loading = std::make_unique<scene::Loading>(path, read, technique::tables());
+}
+
+std::optional<Status> Viewer::advanceLoad(double ms) {
+    std::optional<Result<scene::Scene>> scene = state_->loading->advance(ms);
+    if (!scene) return std::nullopt;
+    state_->loading.reset();
+    if (!*scene) {
+        showMessage(scene->error().message);
+        return Status(scene->error());
     }
-    state_->adopt(std::move(*scene));
-    return Done{};
+    state_->adopt(std::move(**scene));
+    return Status(Done{});
 }
 
 Status Viewer::openEnvironment(const std::string& name, std::span<const std::byte> bytes) {

@@ -31,6 +31,10 @@ public:
     /// Loads a scene file through `read`. On error the scene that was showing stays and the message is shown
     /// on the canvas until dismissed.
     Status load(const std::string& path, const ReadFile& read);
+    /// The same step by step; another that begins ends this one.
+    void beginLoad(const std::string& path, const ReadFile& read);
+    /// Works on for some `ms`. @return nothing while there is more to do
+    std::optional<Status> advanceLoad(double ms);
     /// A picture becomes the environment of the scene that is showing.
     Status openEnvironment(const std::string& name, std::span<const std::byte> bytes);
     /// Shows what another viewer shows, as it stands now, with steps and controls of its own: for pictures of

@@ -6,13 +6,18 @@
 
 namespace lucent::views {
 
+Result<Drawable::Ptr> drawableOf(const scene::Scene& scene, int number, ImageCache& images,
+                                 const Waters* waters) {
+    const scene::Object& object = scene.objects[std::size_t(number)];
+    return object.isField()       ? DrawnField::create(object, number, images)
+           : object.isDisplaced() ? DrawnDisplaced::create(object, number, images)
+                                  : DrawnMesh::create(object, number, images, waters);
+}
+
 Result<Drawables> drawablesOf(const scene::Scene& scene, ImageCache& images, const Waters* waters) {
     Drawables list;
     for (int i = 0; i < int(scene.objects.size()); ++i) {
-        const scene::Object& object = scene.objects[std::size_t(i)];
-        Result<Drawable::Ptr> one = object.isField()       ? DrawnField::create(object, i, images)
-                                    : object.isDisplaced() ? DrawnDisplaced::create(object, i, images)
-                                                           : DrawnMesh::create(object, i, images, waters);
+        Result<Drawable::Ptr> one = drawableOf(scene, i, images, waters);
         if (!one) return one.error();
         list.push_back(std::move(*one));
     }

@@ -63,7 +63,8 @@ struct Drawable {
     /// @param defines  switches of the view's shaders
     virtual Drawing drawing(gl::Context& context, graph::PassBuilder& pass, ViewKind kind, int number,
                             std::vector<std::string> defines) const = 0;
-    /// Whether views show where rays leave it: what rays are cast at themselves shows only where they come in.
+    /// Whether views show where rays leave it: what rays are cast at themselves shows only where they come
+    /// in.
     virtual bool hasBack() const { return true; }
     /// Whether it draws only the nearest of its points on a ray: alone it needs no depth test.
     virtual bool drawsNearest() const { return false; }
@@ -81,6 +82,9 @@ using Drawables = std::vector<Drawable::Ptr>;
 ///
 /// @param waters  the scene's, advanced to the time that is drawn; null: water lies still
 Result<Drawables> drawablesOf(const scene::Scene& scene, ImageCache& images, const Waters* waters = nullptr);
+/// One of them: what it needs on the GPU comes there, once.
+Result<Drawable::Ptr> drawableOf(const scene::Scene& scene, int number, ImageCache& images,
+                                 const Waters* waters = nullptr);
 
 /// Those of which something is so.
 template <class Is>

@@ -11,7 +11,9 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 using namespace lucent;
 using viewer::Viewer;
@@ -27,6 +29,11 @@ struct Page {
     std::map<std::string, Bytes> files;
     std::map<int, std::unique_ptr<Viewer>> viewers;
     int lastViewer = 0;
+    struct Load {
+        int number = 0;
+        std::string error;
+    };
+    std::map<int, Load> loads;                         // of each viewer
     std::vector<std::pair<std::string, Bytes>> packed; // files of a scene for another module
     Image linear;                                      // that viewer_linear answered with
     Bytes baked;                                       // that bake_scene answered with
@@ -59,12 +66,13 @@ const char* answer(std::vector<std::pair<std::string, Bytes>> files) {
 
 const char* answer(const Status& status) { return answer(status ? std::string() : status.error().message); }
 
-Result<Bytes> readFetched(const std::string& path) {
-    const auto found = page().files.find(path);
-    if (found == page().files.end())
+Result<Bytes> readOf(const std::map<std::string, Bytes>& files, const std::string& path) {
+    const auto found = files.find(path);
+    if (found == files.end())
         return Error{path + ": was not fetched; must be put before the scene is loaded"};
     return found->second;
 }
+Result<Bytes> readFetched(const std::string& path) { return readOf(page().files, path); }
 
 std::span<const std::byte> bytesOf(const std::uint8_t* bytes, int size) {
     return std::as_bytes(std::span(bytes, std::size_t(size)));
@@ -184,11 +192,32 @@ int viewer_create() {
     return p.lastViewer;
 }
 
-void viewer_destroy(int viewer) { page().viewers.erase(viewer); }
-
-const char* viewer_load(int viewer, const char* path) {
-    return answer(viewerOf(viewer).load(path, readFetched));
+void viewer_destroy(int viewer) {
+    page().viewers.erase(viewer);
+    page().loads.erase(viewer);
 }
+
+int viewer_load(int viewer, const char* path) {
+    const auto files = std::make_shared<const std::map<std::string, Bytes>>(std::exchange(page().files, {}));
+    const std::string scene = path;
+    viewerOf(viewer).beginLoad(scene, [files](const std::string& name) { return readOf(*files, name); });
+    Page::Load& load = page().loads[viewer];
+    load.error.clear();
+    return ++load.number;
+}
+
+int viewer_load_on(int viewer, int number) {
+    constexpr double kSliceMs = 30;
+    Page::Load& load = page().loads[viewer];
+    if (!page().viewers.contains(viewer) || load.number != number) return 0;
+    const std::optional<Status> done = viewerOf(viewer).advanceLoad(kSliceMs);
+    if (!done) return 1;
+    load.error = done->ok() ? std::string() : done->error().message;
+    ++load.number; // ended
+    return 0;
+}
+
+const char* viewer_load_error(int viewer) { return answer(page().loads[viewer].error); }
 
 const char* viewer_open_environment(int viewer, const char* name, const std::uint8_t* bytes, int size) {
     return answer(viewerOf(viewer).openEnvironment(name, bytesOf(bytes, size)));

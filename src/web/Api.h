@@ -29,8 +29,14 @@ const char* bake_scene(const char* path, const char* technique);
 
 int viewer_create(); ///< handle > 0
 void viewer_destroy(int viewer);
-/// "" or the message; the files must have been put. After an error the old scene stays.
-const char* viewer_load(int viewer, const char* path);
+/// Begins to load a scene, with all files that were put and are taken back by this. @return a number of this
+/// load
+int viewer_load(int viewer, const char* path);
+/// Works on for some tens of ms. @return 1 while there is more to do; 0 when that load has ended, or another
+/// has begun
+int viewer_load_on(int viewer, int load);
+/// "" or the message of the load that ended last. After an error the old scene stays.
+const char* viewer_load_error(int viewer);
 /// A picture becomes the environment of the scene; "" or the message.
 const char* viewer_open_environment(int viewer, const char* name, const std::uint8_t* bytes, int size);
 void viewer_copy(int viewer, int other); ///< see Viewer::copy()

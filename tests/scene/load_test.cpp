@@ -73,6 +73,33 @@ TEST(Load, SceneOfTheSpecificationIsRead) {
     EXPECT_EQ(scene->quality.maxError, 0.01f);
 }
 
+// With no time at all one file is decoded each time, and each once, whoever names it.
+TEST(Load, GoesOnWhereItWasInterrupted) {
+    Files files;
+    files.put("h.pfm", test::smallHeights());
+    files.put("colors.pfm", Image(2, 2, 3));
+    const std::string coin = R"("shape": { "type": "heightfield", "heights": "h.pfm" },
+                                "material": { "diffuseMap": "colors.pfm" } })";
+    files.put("scene.json", "{ \"lucent\": 1, \"objects\": [ { \"name\": \"a\", " + coin +
+                                ", { \"name\": \"b\", " + coin + " ] }");
+    std::map<std::string, int> reads;
+    const ReadFile read = [&](const std::string& path) {
+        ++reads[path];
+        return files.reader()(path);
+    };
+    Loading loading("scene.json", read, {});
+    std::optional<Result<Scene>> scene;
+    int steps = 0;
+    for (; !scene && steps < 10; ++steps)
+        scene = loading.advance(0);
+    ASSERT_TRUE(scene && *scene) << (scene ? scene->error().message : "does not end");
+    EXPECT_EQ(steps, 2);
+    EXPECT_EQ(reads["h.pfm"], 1);
+    EXPECT_EQ(reads["scene.json"], 1);
+    EXPECT_EQ(reads["colors.pfm"], 1);
+    EXPECT_EQ((*scene)->objects[0].material.diffuseMap, (*scene)->objects[1].material.diffuseMap);
+}
+
 TEST(Load, OnlyObjectsAreRequired) {
     const Result<Scene> scene = test::load(
         {}, R"({ "lucent": 1, "objects": [ { "shape": { "type": "heightfield", "heights": "h.pfm" } } ] })");
