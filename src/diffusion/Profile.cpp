@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 namespace lucent::diffusion {
 
@@ -64,65 +63,6 @@ struct Layer {
 double fall(double transport, double d) {
     return (1 + transport * d) * std::exp(-transport * d) / (d * d * d);
 }
-
-/// A profile of one colour, ready to be asked for many distances.
-class Profile {
-public:
-    Profile(const Medium& medium, Shape shape, double thickness)
-        : medium_(medium), isBurley_(shape == Shape::Burley) {
-        if (shape == Shape::Multipole && medium.isLayered()) {
-            stack_.emplace(medium, thickness);
-            total_ = stack_->total();
-            return;
-        }
-        if (medium.albedo() == 0) return;
-        if (shape != Shape::Multipole) thickness = 0;
-        const Layer layer(medium, thickness);
-        total_ = medium.albedo() * layer.share * layer.leaving(layer.depth);
-        if (isBurley_)
-            burley_ = medium.extinction() * (1.85 - total_ + 7 * std::pow(std::abs(total_ - 0.8), 3));
-        else
-            poles_ = polesOf(medium, thickness, kPoleError);
-    }
-
-    double total() const { return total_; }
-
-    double at(double r) const {
-        if (total_ == 0) return 0;
-        if (stack_) return stack_->at(r);
-        if (isBurley_)
-            return total_ * burley_ / (8 * kPi * r) * (std::exp(-burley_ * r) + std::exp(-burley_ * r / 3));
-        double sum = 0;
-        for (const Pole& pole : poles_)
-            sum += pole.weight * kernel(medium_, std::hypot(r, pole.depth));
-        return sum;
-    }
-
-    double within(double r) const {
-        if (total_ == 0) return 0;
-        if (stack_) return stack_->within(r);
-        if (isBurley_)
-            return -total_ * (0.25 * std::expm1(-burley_ * r) + 0.75 * std::expm1(-burley_ * r / 3));
-        // A pole leaves -e^(-sigma d) / d as the integral of its d fall(d).
-        const double transport = medium_.transport();
-        double beyond = 0;
-        for (const Pole& pole : poles_) {
-            const double d = std::hypot(r, pole.depth);
-            beyond += pole.weight * std::exp(-transport * d) / d;
-        }
-        return total_ - 0.5 * medium_.albedo() * beyond;
-    }
-
-private:
-    static constexpr double kPoleError = 1e-6; ///< far below any table's
-
-    Medium medium_;
-    bool isBurley_;
-    double total_ = 0;
-    double burley_ = 0; ///< s over the mean free path, 1/m
-    std::vector<Pole> poles_;
-    std::optional<Stack> stack_;
-};
 
 /// Integral of F_t(c) c weight(c) dc.
 template <class Weight>
@@ -272,6 +212,62 @@ double kernel(const Medium& medium, double d) {
     return medium.albedo() / (4 * kPi) * fall(medium.transport(), d);
 }
 
+Profile::Profile(const Medium& medium, Shape shape, double thickness) : medium_(medium) {
+    if (shape == Shape::Multipole && medium.isLayered()) {
+        stack_ = std::make_shared<const Stack>(medium, thickness);
+        total_ = stack_->total();
+        depth_ = stack_->depth();
+        return;
+    }
+    if (medium.extinction() == 0) return;
+    constexpr double kPoleError = 1e-6; // far below any table's
+    if (shape != Shape::Multipole) thickness = 0;
+    const Layer layer(medium, thickness);
+    depth_ = layer.depth;
+    total_ = medium.albedo() * layer.share * layer.leaving(layer.depth);
+    if (shape == Shape::Burley)
+        burley_ = medium.extinction() * (1.85 - total_ + 7 * std::pow(std::abs(total_ - 0.8), 3));
+    else if (total_ > 0)
+        poles_ = polesOf(medium, thickness, kPoleError);
+}
+
+double Profile::at(double r) const {
+    if (total_ == 0) return 0;
+    if (stack_) return stack_->at(r);
+    if (burley_ > 0)
+        return total_ * burley_ / (8 * kPi * r) * (std::exp(-burley_ * r) + std::exp(-burley_ * r / 3));
+    double sum = 0;
+    for (const Pole& pole : poles_)
+        sum += pole.weight * kernel(medium_, std::hypot(r, pole.depth));
+    return sum;
+}
+
+double Profile::within(double r) const {
+    if (total_ == 0) return 0;
+    if (stack_) return stack_->within(r);
+    if (burley_ > 0) return -total_ * (0.25 * std::expm1(-burley_ * r) + 0.75 * std::expm1(-burley_ * r / 3));
+    // A pole leaves -e^(-sigma d) / d as the integral of its d fall(d).
+    const double transport = medium_.transport();
+    double beyond = 0;
+    for (const Pole& pole : poles_) {
+        const double d = std::hypot(r, pole.depth);
+        beyond += pole.weight * std::exp(-transport * d) / d;
+    }
+    return total_ - 0.5 * medium_.albedo() * beyond;
+}
+
+double Profile::reach(double epsilon, double most) const {
+    if (total_ == 0) return 0;
+    const double wanted = (1 - epsilon) * total_;
+    if (within(most) <= wanted) return most;
+    double low = 0, high = most;
+    while (high - low > 1e-9 * high) {
+        const double middle = 0.5 * (low + high);
+        (within(middle) < wanted ? low : high) = middle;
+    }
+    return high;
+}
+
 double reflectance(const Medium& medium, Shape shape, double thickness, double r) {
     return Profile(medium, shape, thickness).at(r);
 }
@@ -303,32 +299,14 @@ double totalTransmittance(const Medium& medium, double thickness) {
     return medium.albedo() * layer.share * layer.leaving(thickness - layer.depth);
 }
 
-double sourceDepth(const Medium& medium, Shape shape, double thickness) {
-    if (shape == Shape::Multipole && medium.isLayered()) return Stack(medium, thickness).depth();
-    if (medium.extinction() == 0) return 0;
-    return Layer(medium, shape == Shape::Multipole ? thickness : 0).depth;
+std::array<Profile, 3> profilesOf(const std::array<Medium, 3>& media, Shape shape, double thickness) {
+    return {Profile(media[0], shape, thickness), Profile(media[1], shape, thickness),
+            Profile(media[2], shape, thickness)};
 }
 
-double reach(const Medium& medium, Shape shape, double thickness, double epsilon, double most) {
-    const Profile profile(medium, shape, thickness);
-    if (profile.total() == 0) return 0;
-    const double wanted = (1 - epsilon) * profile.total();
-    if (profile.within(most) <= wanted) return most;
-    double low = 0, high = most;
-    while (high - low > 1e-9 * high) {
-        const double middle = 0.5 * (low + high);
-        (profile.within(middle) < wanted ? low : high) = middle;
-    }
-    return high;
-}
-
-Table tableOf(const std::array<Medium, 3>& media, Shape shape, double thickness, double reach, double error,
-              bool whole) {
+Table tableOf(const std::array<Profile, 3>& profiles, double reach, double error, bool whole) {
     Table table{reach, {vec3(0), vec3(0)}, 0};
     if (reach == 0) return table;
-    std::vector<Profile> profiles;
-    for (const Medium& medium : media)
-        profiles.emplace_back(medium, shape, thickness);
     for (const Profile& profile : profiles) {
         std::size_t count = 32;
         double reached = 0;

@@ -8,9 +8,12 @@
 #include "scene/Scene.h"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace lucent::diffusion {
+
+class Stack;
 
 /// A layer of another medium.
 struct Slab {
@@ -96,13 +99,40 @@ double kernel(const Medium& medium, double d);
 /// same light and only its spread differs; it knows no thickness.
 enum class Shape : int { Dipole, Multipole, Burley };
 
-/// R_d(r) on a plane: radiant exitance at distance r over the flux that entered at a point, 1/m².
-///
-/// @param r  m, >= 0; Burley's profile is infinite at 0
+/// R_d of one colour, to be asked many times: layers are solved once.
+class Profile {
+public:
+    Profile(const Medium& medium, Shape shape, double thickness);
+
+    /// R_d(r) on a plane: radiant exitance at distance r over the flux that entered at a point, 1/m².
+    ///
+    /// @param r  m, >= 0; Burley's profile is infinite at 0
+    double at(double r) const;
+    /// Its integral over the plane in closed form: the share that leaves again.
+    double total() const { return total_; }
+    /// Its integral over a disc of radius r around the place where light enters, in closed form.
+    double within(double r) const;
+    /// m, of the source of diffuse light that is nearest to the surface: profiles have no detail much finer.
+    /// 0 where nothing collides.
+    double depth() const { return depth_; }
+    /// The distance within which all but `epsilon` of the integral lies (dissertation 2007, eq. 6.16 with the
+    /// 2 pi r that an area integral has), m; 0 where nothing scatters. Profiles that reach further (without
+    /// absorption they fall as 1/r only in that integral) end at `most`.
+    ///
+    /// @param most  m, > 0: the object's own extent, beyond which nothing can receive light
+    double reach(double epsilon, double most) const;
+
+private:
+    Medium medium_;
+    double total_ = 0, depth_ = 0;
+    double burley_ = 0; // s over the mean free path, 1/m; 0: another shape
+    std::vector<Pole> poles_;
+    std::shared_ptr<const Stack> stack_; // of layers
+};
+
+/// Profile::at(), total() and within() of a profile that is asked once.
 double reflectance(const Medium& medium, Shape shape, double thickness, double r);
-/// Its integral over the plane in closed form: the share that leaves again.
 double totalReflectance(const Medium& medium, Shape shape, double thickness);
-/// Its integral over a disc of radius r around the place where light enters, in closed form.
 double reflectanceWithin(const Medium& medium, Shape shape, double thickness, double r);
 
 /// What leaves a slab, and what lies on it, at the other side, 1/m². 0 for a half space.
@@ -111,16 +141,8 @@ double transmittance(const Medium& medium, double thickness, double r);
 /// share that collides in the slab; the rest passes straight and is no part of the profiles.
 double totalTransmittance(const Medium& medium, double thickness);
 
-/// m, of the source of diffuse light that is nearest to the surface: profiles have no detail much finer. 0
-/// where nothing collides.
-double sourceDepth(const Medium& medium, Shape shape, double thickness);
-
-/// The distance within which all but `epsilon` of the profile's integral lies (dissertation 2007, eq. 6.16
-/// with the 2 pi r that an area integral has), m; 0 where nothing scatters. Profiles that reach further
-/// (without absorption they fall as 1/r only in that integral) end at `most`.
-///
-/// @param most  m, > 0: the object's own extent, beyond which nothing can receive light
-double reach(const Medium& medium, Shape shape, double thickness, double epsilon, double most);
+/// The profiles of the three colours.
+std::array<Profile, 3> profilesOf(const std::array<Medium, 3>& media, Shape shape, double thickness);
 
 /// A profile over r in [0, reach], sampled where it bends most and linear between.
 struct Table {
@@ -140,8 +162,7 @@ inline constexpr int kMostEntries = 2048; ///< WebGL2 promises textures of this 
 ///               less than this share of the light. The table is as long as it needs, kMostEntries at most
 /// @param whole  each colour keeps its full integral although it is cut at `reach`. False where the reach is
 ///               the object's own extent (reach() gave `most`): nothing lies beyond, so nothing is cut
-Table tableOf(const std::array<Medium, 3>& media, Shape shape, double thickness, double reach, double error,
-              bool whole = true);
+Table tableOf(const std::array<Profile, 3>& profiles, double reach, double error, bool whole = true);
 
 /// R_d of a table at r, as shaders read it.
 vec3 valueAt(const Table& table, double r);

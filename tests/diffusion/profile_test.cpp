@@ -155,7 +155,7 @@ TEST(Profile, ReachHoldsAllButEpsilon) {
     for (const Medium& medium : kMarble)
         for (const Shape shape : {Shape::Dipole, Shape::Multipole, Shape::Burley})
             for (const double epsilon : {0.1, 0.01, 1e-4}) {
-                const double r = reach(medium, shape, 0.002, epsilon, 10);
+                const double r = Profile(medium, shape, 0.002).reach(epsilon, 10);
                 EXPECT_NEAR(reflectanceWithin(medium, shape, 0.002, r) /
                                 totalReflectance(medium, shape, 0.002),
                             1 - epsilon, 1e-7);
@@ -167,10 +167,10 @@ TEST(Profile, ReachIsFiniteWithoutAbsorptionAndWithoutScattering) {
     // What lies beyond r falls as 1/r: the mean depth of both poles over r.
     const double internal = diffuseReflectance(1.3);
     const double depth = (1 + 2.0 / 3 * (1 + internal) / (1 - internal)) / 2550;
-    EXPECT_NEAR(reach(milk, Shape::Dipole, 0, 1e-4, 100), depth / 1e-4, 1e-3 * depth / 1e-4);
-    EXPECT_EQ(reach(milk, Shape::Dipole, 0, 1e-4, 0.02), 0.02);
-    EXPECT_EQ(reach({0, 5, 1.3}, Shape::Dipole, 0, 0.01, 1), 0);
-    EXPECT_EQ(reach({0, 0, 1.3}, Shape::Multipole, 0.1, 0.01, 1), 0);
+    EXPECT_NEAR(Profile(milk, Shape::Dipole, 0).reach(1e-4, 100), depth / 1e-4, 1e-3 * depth / 1e-4);
+    EXPECT_EQ(Profile(milk, Shape::Dipole, 0).reach(1e-4, 0.02), 0.02);
+    EXPECT_EQ(Profile({0, 5, 1.3}, Shape::Dipole, 0).reach(0.01, 1), 0);
+    EXPECT_EQ(Profile({0, 0, 1.3}, Shape::Multipole, 0.1).reach(0.01, 1), 0);
     EXPECT_EQ(totalReflectance({0, 0, 1.3}, Shape::Burley, 0), 0);
     EXPECT_EQ(reflectance({0, 7, 1.3}, Shape::Burley, 0, 0), 0);
     EXPECT_EQ(transmittance({0, 7, 1.3}, 1, 0), 0);
@@ -201,8 +201,8 @@ TEST(Table, IntegratesToTheClosedForm) {
     const std::array<Medium, 3> media = {kMarble[0], kMarble[1], kMarble[2]};
     for (const Shape shape : {Shape::Dipole, Shape::Multipole, Shape::Burley})
         for (const double epsilon : {0.1, 0.01, 0.001}) {
-            const double extent = reach(media[0], shape, 0.003, epsilon, 10);
-            const Table table = tableOf(media, shape, 0.003, extent, 1e-3);
+            const double extent = Profile(media[0], shape, 0.003).reach(epsilon, 10);
+            const Table table = tableOf(profilesOf(media, shape, 0.003), extent, 1e-3);
             for (int i = 0; i < 3; ++i) // values are floats: 6e-8 each
                 EXPECT_NEAR(integralOf(table, i), totalReflectance(media[std::size_t(i)], shape, 0.003),
                             1e-6);
@@ -212,8 +212,8 @@ TEST(Table, IntegratesToTheClosedForm) {
 TEST(Table, KeepsItsErrorBetweenEntries) {
     const std::array<Medium, 3> media = {kMarble[0], kMarble[1], kMarble[2]};
     for (const double error : {1e-1, 1e-2, 1e-3}) {
-        const double extent = reach(media[0], Shape::Dipole, 0, 1e-3, 10);
-        const Table table = tableOf(media, Shape::Dipole, 0, extent, error);
+        const double extent = Profile(media[0], Shape::Dipole, 0).reach(1e-3, 10);
+        const Table table = tableOf(profilesOf(media, Shape::Dipole, 0), extent, error);
         EXPECT_LE(table.error, error);
         EXPECT_LT(table.values.size(), std::size_t(kMostEntries));
         // Rescaling for what is cut moves all values by epsilon, and for the interpolation by its error.
@@ -228,22 +228,22 @@ TEST(Table, KeepsItsErrorBetweenEntries) {
 TEST(Table, IsNotScaledUpWhereNothingIsCut) {
     // A mean free path a hundred times the object: nearly all light leaves elsewhere, and must not come back.
     const Medium thin{1, 0.01, 1.3};
-    const double extent = reach(thin, Shape::Dipole, 0, 0.01, 0.01);
+    const double extent = Profile(thin, Shape::Dipole, 0).reach(0.01, 0.01);
     EXPECT_EQ(extent, 0.01);
-    const Table table = tableOf({thin, thin, thin}, Shape::Dipole, 0, extent, 1e-3, false);
+    const Table table = tableOf(profilesOf({thin, thin, thin}, Shape::Dipole, 0), extent, 1e-3, false);
     EXPECT_NEAR(integralOf(table, 0), reflectanceWithin(thin, Shape::Dipole, 0, extent), 1e-9);
     EXPECT_NEAR(double(table.values.back().x) / reflectance(thin, Shape::Dipole, 0, extent), 1, 1e-4);
 }
 
 TEST(Table, OfWhatDoesNotScatterIsBlack) {
     const Table table =
-        tableOf({Medium{0, 1, 1.3}, Medium{0, 0, 1.3}, kMarble[2]}, Shape::Dipole, 0, 0.01, 1e-3);
+        tableOf(profilesOf({Medium{0, 1, 1.3}, Medium{0, 0, 1.3}, kMarble[2]}, Shape::Dipole, 0), 0.01, 1e-3);
     for (const vec3& value : table.values) {
         EXPECT_EQ(value.x, 0);
         EXPECT_EQ(value.y, 0);
         EXPECT_GT(value.z, 0);
     }
-    EXPECT_EQ(valueAt(tableOf({}, Shape::Burley, 0, 0, 1e-3), 0.5), vec3(0));
+    EXPECT_EQ(valueAt(tableOf(profilesOf({}, Shape::Burley, 0), 0, 1e-3), 0.5), vec3(0));
 }
 
 TEST(Table, HardCasesStayFinite) {
@@ -251,10 +251,11 @@ TEST(Table, HardCasesStayFinite) {
                             {2550, 1e9, 3.0}, {1e9, 1e9, 0.3},  {2550, 1, 0.5}, {20400, 0, 1.0}};
     for (const Medium& medium : cases)
         for (const Shape shape : {Shape::Dipole, Shape::Multipole, Shape::Burley}) {
-            const double extent = reach(medium, shape, 0.01, 0.01, 0.1);
+            const double extent = Profile(medium, shape, 0.01).reach(0.01, 0.1);
             EXPECT_GT(extent, 0);
             EXPECT_LE(extent, 0.1);
-            const Table table = tableOf({medium, medium, medium}, shape, 0.01, extent, 1e-2, extent < 0.1);
+            const Table table =
+                tableOf(profilesOf({medium, medium, medium}, shape, 0.01), extent, 1e-2, extent < 0.1);
             for (const vec3& value : table.values) {
                 EXPECT_TRUE(std::isfinite(value.x));
                 EXPECT_GE(value.x, 0);

@@ -130,10 +130,10 @@ TEST(Stack, DiscsHoldTheIntegralOfTheProfile) {
 
 TEST(Stack, TablesKeepTheirErrorAndTheirIntegral) {
     const Medium medium = layered(kSkin, {slabOf(kMarble, 3e-4)});
-    const double extent = reach(medium, kShape, 0, 1e-3, 10);
+    const double extent = Profile(medium, kShape, 0).reach(1e-3, 10);
     EXPECT_NEAR(reflectanceWithin(medium, kShape, 0, extent) / totalReflectance(medium, kShape, 0), 0.999,
                 1e-6);
-    const Table table = tableOf({medium, kMarble, kSkin}, kShape, 0, extent, 1e-3);
+    const Table table = tableOf(profilesOf({medium, kMarble, kSkin}, kShape, 0), extent, 1e-3);
     EXPECT_LE(table.error, 1e-3);
     for (int i = 1; i < 100; ++i) {
         const double r = extent * i / 100; // cut at 1e-3 of the light, which scales the others up
@@ -143,9 +143,9 @@ TEST(Stack, TablesKeepTheirErrorAndTheirIntegral) {
 
 TEST(Stack, SourceStandsAtAnOpticalDepthOfOne) {
     const Medium medium = layered({1000, 0, 1.3}, {{2000, 0, 1.3, 2e-4}});
-    EXPECT_NEAR(sourceDepth(medium, kShape, 0), 2e-4 + 0.6 / 1000, 1e-12); // 0.4 of it lies in the layer
-    EXPECT_NEAR(sourceDepth(medium, Shape::Dipole, 0), 1e-3, 1e-12);
-    EXPECT_EQ(sourceDepth({0, 0, 1.3}, kShape, 0), 0);
+    EXPECT_NEAR(Profile(medium, kShape, 0).depth(), 2e-4 + 0.6 / 1000, 1e-12); // 0.4 of it lies in the layer
+    EXPECT_NEAR(Profile(medium, Shape::Dipole, 0).depth(), 1e-3, 1e-12);
+    EXPECT_EQ(Profile({0, 0, 1.3}, kShape, 0).depth(), 0);
 }
 
 /// Where light of a thin ray from above leaves, by walks at random through planes between which Fresnel's

@@ -16,14 +16,24 @@ namespace {
 
 constexpr int kMostTexels = 1 << 22; // of occlusion at once: 64 MiB
 
-// Share of the light that entered which leaves again, of each colour.
-vec3 wholeOf(const scene::Material& material, const Settings& settings) {
-    const std::array<diffusion::Medium, 3> media = diffusion::mediaOf(material);
-    vec3 whole;
-    for (int i = 0; i < 3; ++i)
-        whole[i] = float(diffusion::totalReflectance(media[std::size_t(i)], settings.profile,
-                                                     double(material.translucent().thickness)));
-    return whole;
+struct WholeKey {
+    std::array<diffusion::Medium, 3> media;
+    diffusion::Shape shape;
+    double thickness;
+    bool operator==(const WholeKey&) const = default;
+};
+
+// Share of the light that entered which leaves again, of each colour: known, as each picture asks for it.
+vec3 wholeOf(const Kept& known, const scene::Material& material, const Settings& settings) {
+    const WholeKey key{diffusion::mediaOf(material), settings.profile,
+                       double(material.translucent().thickness)};
+    return known.of<vec3>(key, [&] {
+        vec3 whole;
+        for (int i = 0; i < 3; ++i)
+            whole[i] =
+                float(diffusion::totalReflectance(key.media[std::size_t(i)], key.shape, key.thickness));
+        return whole;
+    });
 }
 
 void fit(gl::Context& context, graph::Texture& texture, ivec2 size, const char* label) {
@@ -178,7 +188,7 @@ Status Entering::addSeen(graph::FrameGraph& graph, gl::Context& context, const A
         const scene::Material& material = mesh.object->material;
         blocks.push_back(
             {.view = views::viewBlock(in.eye, in.size),
-             .share = vec4(in.irradiance ? vec3(1) : wholeOf(material, settings), 0),
+             .share = vec4(in.irradiance ? vec3(1) : wholeOf(wholes_, material, settings), 0),
              .object = mesh.index,
              .ior = in.irradiance ? 1 : material.translucent().surfaceIor(), // at 1 all of it enters
              .roughness = material.translucent().roughness,

@@ -2,6 +2,7 @@
 /// Light that enters scattering objects: the sum of the light samples on all of their surfaces and on what
 /// the camera shows of them, slice by slice.
 
+#include "base/Kept.h"
 #include "techniques/subsurface/Splatting.h"
 #include "views/ObjectKey.h"
 
@@ -61,6 +62,7 @@ private:
     std::optional<Entered> seen_;
     std::optional<EnteredKey> key_, wanted_; // of the sum that is complete; of the one that grows
     bool onLayers_ = false, isKept_ = false;
+    Kept wholes_; // shares that leave again, by medium
 };
 
 } // namespace lucent::subsurface

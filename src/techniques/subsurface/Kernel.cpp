@@ -158,12 +158,14 @@ std::vector<vec4> tabulated(const Radial& values, double reach, double scale) {
     return table;
 }
 
-double leastDepth(const std::array<diffusion::Medium, 3>& media, const KernelWish& wish) {
+using Profiles = std::array<diffusion::Profile, 3>;
+
+double leastDepth(const std::array<diffusion::Medium, 3>& media, const Profiles& profiles,
+                  const KernelWish& wish) {
     double least = std::numeric_limits<double>::infinity();
-    for (const diffusion::Medium& medium : media) {
-        const bool layered = wish.shape == diffusion::Shape::Multipole && medium.isLayered();
-        const double depth =
-            layered ? diffusion::sourceDepth(medium, wish.shape, wish.thickness) : 1 / medium.extinction();
+    for (std::size_t c = 0; c < 3; ++c) {
+        const bool layered = wish.shape == diffusion::Shape::Multipole && media[c].isLayered();
+        const double depth = layered ? profiles[c].depth() : 1 / media[c].extinction();
         if (depth > 0) least = std::min(least, depth);
     }
     return least;
@@ -177,16 +179,15 @@ struct Cut {
     dvec3 total{0};
 };
 
-Cut cutOf(const std::array<diffusion::Medium, 3>& media, const KernelWish& wish) {
+Cut cutOf(const Profiles& profiles, const KernelWish& wish) {
     constexpr double kTableError = 1e-4; // far below any that is asked for: bends are taken from it
     // Far light of bands costs little, and sources along the normal leave light where a plane has none.
     const double beyond = (wish.split || wish.shares ? 0.1 : 1) * wish.epsilon;
     const double size = wish.sharpest * wish.size;
     Cut cut;
-    for (const diffusion::Medium& medium : media)
-        cut.reach = std::max(cut.reach, diffusion::reach(medium, wish.shape, wish.thickness, beyond, size));
-    const diffusion::Table table =
-        diffusion::tableOf(media, wish.shape, wish.thickness, cut.reach, kTableError, cut.reach < size);
+    for (const diffusion::Profile& profile : profiles)
+        cut.reach = std::max(cut.reach, profile.reach(beyond, size));
+    const diffusion::Table table = diffusion::tableOf(profiles, cut.reach, kTableError, cut.reach < size);
     cut.profile = sampled([&](double r) { return dvec3(diffusion::valueAt(table, r)); }, cut.reach, 4096);
     cut.total = Rings(cut.profile, cut.reach).total();
     return cut;
@@ -224,8 +225,9 @@ double latticeSpacing(double epsilon, double depth) { return 2 * kPi * depth / s
 
 Kernel kernelOf(const std::array<diffusion::Medium, 3>& media, const KernelWish& wish) {
     Kernel kernel;
-    Cut cut = cutOf(media, wish);
-    const double depth = leastDepth(media, wish);
+    const Profiles profiles = diffusion::profilesOf(media, wish.shape, wish.thickness);
+    Cut cut = cutOf(profiles, wish);
+    const double depth = leastDepth(media, profiles, wish);
     const double epsilon = (wish.split ? kOfLattice : 1) * wish.epsilon;
     // Burley's profile is infinite in its middle, which no lattice sums.
     const bool singular = wish.shape == diffusion::Shape::Burley;
@@ -282,11 +284,10 @@ Kernel kernelOf(const std::array<diffusion::Medium, 3>& media, const KernelWish&
 double papersSplats(const std::array<diffusion::Medium, 3>& media, const KernelWish& wish, double width) {
     double splats = 0;
     for (const diffusion::Medium& medium : media) {
-        const double reach = diffusion::reach(medium, wish.shape, wish.thickness, wish.epsilon, wish.size);
+        const diffusion::Profile profile(medium, wish.shape, wish.thickness);
+        const double reach = profile.reach(wish.epsilon, wish.size);
         const double nearest = std::min(reach, 1e-3 / medium.extinction()); // the middle may be infinite
-        const double overlapping =
-            diffusion::reflectance(medium, wish.shape, wish.thickness, nearest) /
-            (wish.epsilon * diffusion::reflectance(medium, wish.shape, wish.thickness, reach));
+        const double overlapping = profile.at(nearest) / (wish.epsilon * profile.at(reach));
         splats = std::max(splats, 0.5 * overlapping * width / reach);
     }
     return splats;

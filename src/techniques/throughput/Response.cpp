@@ -18,23 +18,21 @@ dvec3 evenPolynomial(double value, double slope, double bend, double cut) {
 }
 
 // R_d of poles and its first two derivatives over r: each pole leaves w k(d), d² = r² + z².
-dvec3 derivativesAt(const diffusion::Medium& medium, double r) {
+dvec3 derivativesAt(const diffusion::Profile& profile, double r) {
     const double step = 1e-4 * r;
-    const double before = diffusion::reflectance(medium, kShape, 0, r - step),
-                 here = diffusion::reflectance(medium, kShape, 0, r),
-                 after = diffusion::reflectance(medium, kShape, 0, r + step);
+    const double before = profile.at(r - step), here = profile.at(r), after = profile.at(r + step);
     return {here, (after - before) / (2 * step), (after - 2 * here + before) / (step * step)};
 }
 
 // The near part of a colour's profile, or its share.
-std::vector<double> nearOf(const diffusion::Medium& medium, double cut, std::size_t count, bool isShare) {
+std::vector<double> nearOf(const diffusion::Profile& profile, double cut, std::size_t count, bool isShare) {
     std::vector<double> values(count, 0);
-    if (medium.albedo() == 0) return values;
-    const dvec3 at = derivativesAt(medium, cut);
+    if (profile.total() == 0) return values;
+    const dvec3 at = derivativesAt(profile, cut);
     const dvec3 even = evenPolynomial(at.x, at.y, at.z, cut);
     for (std::size_t i = 0; i + 1 < count; ++i) { // the last one is 0 by its definition
         const double u = double(i) / double(count - 1), r = cut * u * u;
-        const double whole = diffusion::reflectance(medium, kShape, 0, r);
+        const double whole = profile.at(r);
         const double far = even.x + even.y * r * r + even.z * r * r * r * r;
         values[i] = isShare ? 1 - far / whole : whole - far;
     }
@@ -48,19 +46,20 @@ Response::Response(const Medium& medium, double extent, double cut) : medium_(me
     constexpr std::size_t kNearEntries = 512;
     for (diffusion::Medium& color : medium_.colors)
         color.above.clear();
-    whole_ = diffusion::tableOf(medium_.colors, kShape, 0, extent, kTableError, false);
+    const std::array<diffusion::Profile, 3> profiles = diffusion::profilesOf(medium_.colors, kShape, 0);
+    whole_ = diffusion::tableOf(profiles, extent, kTableError, false);
     finest_ = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < 3; ++c) {
         const diffusion::Medium& color = medium_.colors[c];
         if (color.extinction() == 0) continue;
-        finest_ = std::min(finest_, diffusion::sourceDepth(color, kShape, 0));
+        finest_ = std::min(finest_, profiles[c].depth());
         if (color.albedo() > 0) poles_[c] = diffusion::polesOf(color, 0, kTableError);
     }
     if (cut == 0) return;
     near_ = {cut, std::vector<vec3>(kNearEntries, vec3(0)), 0};
     for (int c = 0; c < 3; ++c) {
-        const std::vector<double> values = nearOf(medium_.colors[std::size_t(c)], cut, kNearEntries,
-                                                  medium_.geometry == DipoleGeometry::Offset);
+        const std::vector<double> values =
+            nearOf(profiles[std::size_t(c)], cut, kNearEntries, medium_.geometry == DipoleGeometry::Offset);
         for (std::size_t i = 0; i < values.size(); ++i)
             near_.values[i][c] = float(values[i]);
     }

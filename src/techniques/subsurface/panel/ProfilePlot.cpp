@@ -31,15 +31,14 @@ std::string format(const char* pattern, double value) {
     return text;
 }
 
-void addValues(ProfilePlot& plot, const std::array<diffusion::Medium, 3>& media, diffusion::Shape shape,
-               double thickness) {
+void addValues(ProfilePlot& plot, const std::array<diffusion::Profile, 3>& profiles) {
     const double reach = *std::max_element(plot.reach.begin(), plot.reach.end());
     if (reach == 0) return;
     for (int i = 1; i <= kPoints; ++i) {
         const double share = double(i) / kPoints, mm = reach * share * share;
         dvec3 value;
         for (int c = 0; c < 3; ++c)
-            value[c] = kMm * kMm * diffusion::reflectance(media[std::size_t(c)], shape, thickness, mm * kMm);
+            value[c] = kMm * kMm * profiles[std::size_t(c)].at(mm * kMm);
         plot.distances.push_back(mm);
         plot.values.push_back(value);
     }
@@ -51,15 +50,15 @@ ProfilePlot plotOf(const scene::Object& object, const Settings& settings) {
     const ParamTable& table = Subsurface::params();
     for (const Param& param : table.params)
         if (param.id == "profile") plot.profile = param.choices[std::size_t(settings.profile)];
-    const std::array<diffusion::Medium, 3> media = diffusion::mediaOf(object.material);
-    const double thickness = double(object.material.translucent().thickness);
+    const std::array<diffusion::Profile, 3> profiles =
+        diffusion::profilesOf(diffusion::mediaOf(object.material), settings.profile,
+                              double(object.material.translucent().thickness));
     const double most = 2 * double(views::boundsOf(object).radius());
     for (std::size_t c = 0; c < 3; ++c) {
-        plot.reach[c] =
-            diffusion::reach(media[c], settings.profile, thickness, double(settings.epsilon), most) / kMm;
-        plot.whole[c] = diffusion::totalReflectance(media[c], settings.profile, thickness);
+        plot.reach[c] = profiles[c].reach(double(settings.epsilon), most) / kMm;
+        plot.whole[c] = profiles[c].total();
     }
-    addValues(plot, media, settings.profile, thickness);
+    addValues(plot, profiles);
     return plot;
 }
 
