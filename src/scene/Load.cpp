@@ -1,6 +1,7 @@
 #include "scene/Load.h"
 
 #include "base/Text.h"
+#include "scene/Canvas.h"
 #include "scene/Displacement.h"
 #include "scene/Environment.h"
 #include "scene/HeightSource.h"
@@ -480,7 +481,6 @@ private:
     bool readPaint(const Place& place, Object& object) {
         PaintSource source;
         Painting files;
-        std::vector<Stroke> strokes;
         if (const std::string why = whyIdle(object, "paint"); !why.empty()) return fail(place, why);
         if (!readKeys(place, paintKeys(), {&source}) ||
             !readMap(place, "entering", files.enteringFile, files.entering, decodeEntering) ||
@@ -498,19 +498,43 @@ private:
             return fail(place, " holds no paint; must have entering, leaving or strokes");
         const int side = map ? map->width : source.side;
         if (!spend(place, "side", std::to_string(side), bytesOfPaint(side))) return false;
-        std::shared_ptr<const Painting> played;
-        if (!decoded_.find(place.path, played)) {
+        std::shared_ptr<Canvas> canvas;
+        if (!play(place, object, files, side, canvas)) return false;
+        files.entering = canvas->entering();
+        files.leaving = canvas->leaving();
+        files.scale = object.transform.scale;
+        object.painting = std::make_shared<const Painting>(std::move(files));
+        return true;
+    }
+    // Paints the strokes piece by piece: the atlas, its texels, one stroke after the other.
+    bool play(const Place& place, Object& object, const Painting& painting, int side,
+              std::shared_ptr<Canvas>& canvas) {
+        std::shared_ptr<const Atlas> atlas;
+        std::shared_ptr<const PaintSurface> surface;
+        if (!piece(place, "kept", object.kept, [&]() -> Result<Kept> { return object.kept; }) ||
+            !piece(place, "atlas", atlas, [&] { return atlasOf(object, side); }) ||
+            !piece(place, "texels", surface, [&] { return paintSurfaceOf(object, side); }) ||
+            !piece(place, "canvas", canvas, [&]() -> Result<std::shared_ptr<Canvas>> {
+                return std::make_shared<Canvas>(surface, object.transform.scale, painting.entering,
+                                                painting.leaving, 0);
+            }))
+            return false;
+        while (canvas->strokes().size() < painting.strokes.size()) {
             if (decoded_.isOver()) return false;
-            Result<std::shared_ptr<const Painting>> painted =
-                paint(object, files.strokes, side, files.entering, files.leaving);
-            if (!painted) return fail(place, ": " + painted.error().message);
-            decoded_.add(place.path, played = *painted);
+            canvas->add(painting.strokes[canvas->strokes().size()]);
+            decoded_.isNew = true;
         }
-        Painting whole = *played;
-        whole.enteringFile = files.enteringFile;
-        whole.leavingFile = files.leavingFile;
-        whole.strokesFile = files.strokesFile;
-        object.painting = std::make_shared<const Painting>(std::move(whole));
+        return true;
+    }
+    // What is made of a place, unless it was made before the load was interrupted.
+    template <class Value, class Make>
+    bool piece(const Place& place, const char* what, Value& value, const Make& make) {
+        const std::string key = place.path + " " + what;
+        if (decoded_.find(key, value)) return true;
+        if (decoded_.isOver()) return false;
+        Result<Value> made = make();
+        if (!made) return fail(place, ": " + made.error().message);
+        decoded_.add(key, value = std::move(*made));
         return true;
     }
     // The name of a script, or the strokes themselves.

@@ -1,4 +1,5 @@
 #include "scene/Load.h"
+#include "scene/Painting.h"
 #include "tests/base/Png.h"
 #include "tests/scene/Files.h"
 
@@ -98,6 +99,32 @@ TEST(Load, GoesOnWhereItWasInterrupted) {
     EXPECT_EQ(reads["scene.json"], 1);
     EXPECT_EQ(reads["colors.pfm"], 1);
     EXPECT_EQ((*scene)->objects[0].material.diffuseMap, (*scene)->objects[1].material.diffuseMap);
+}
+
+// The atlas, its texels and each stroke are pieces of their own, and paint the same bits.
+TEST(Load, PaintsStrokeByStroke) {
+    Files files;
+    files.put("scene.json", R"({ "lucent": 1, "objects": [ { "name": "a", "shape": { "type": "plane" },
+        "material": { "scattering": 100, "absorption": 1 },
+        "paint": { "side": 32, "strokes": [
+            { "brush": "translucency", "value": 0.5, "fill": { "low": [-1, -1, -1], "high": [0, 1, 1] } },
+            { "brush": "glow", "value": [1, 0.5, 0], "radius": 0.3,
+              "dabs": [ [0, 0, 0, 0, 1, 0, 1] ] } ] } } ] })");
+    const ReadFile read = files.reader();
+    const Result<Scene> atOnce = load("scene.json", read, {});
+    ASSERT_TRUE(atOnce) << atOnce.error().message;
+    Loading loading("scene.json", read, {});
+    std::optional<Result<Scene>> scene;
+    int steps = 0;
+    for (; !scene && steps < 20; ++steps)
+        scene = loading.advance(0);
+    ASSERT_TRUE(scene && *scene) << (scene ? scene->error().message : "does not end");
+    EXPECT_GE(steps, 4); // atlas, texels, two strokes
+    const Painting &whole = *atOnce->objects[0].painting, &pieces = *(*scene)->objects[0].painting;
+    EXPECT_EQ(pieces.entering->pixels, whole.entering->pixels);
+    EXPECT_EQ(pieces.leaving->pixels, whole.leaving->pixels);
+    EXPECT_NE(pieces.leaving->pixels, std::vector<float>(32 * 32 * 4, 1.0f));
+    EXPECT_EQ(pieces.strokes.size(), 2u);
 }
 
 TEST(Load, OnlyObjectsAreRequired) {
