@@ -252,7 +252,7 @@ Result<truth::Picture> solve(const scene::Scene& scene) {
     const int samples = scene.environment && model != TruthModel::Dipole ? kSkySamples : kSamples;
     if (model == TruthModel::Light)
         return truth::traceLight(scene, scene.size,
-                                 {.aov = scene::Aov::Color, .photons = kRays, .samples = kSamples}, {}, {},
+                                 {.aov = scene::Aov::Color, .photons = kRays, .samples = samples}, {}, {},
                                  cancel);
     if (model == TruthModel::Dipole) {
         truth::DipoleOptions options = dipoleOptionsOf(scene);
