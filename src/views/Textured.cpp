@@ -27,23 +27,48 @@ graph::Texture coordinateTexture(gl::Device& device, const std::vector<vec2>& fi
     return texture;
 }
 
-TexturedImages recordTextured(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                              const std::vector<DrawnMesh>& meshes, graph::TextureId surface, ivec2 size) {
-    TexturedImages images;
-    if (meshes.empty()) return images;
+void TexturedView::fit(gl::Context& context, ivec2 size) {
+    const auto make = [&](graph::Texture& texture, Format format, const char* label) {
+        const graph::TextureDesc desc{.size = size, .format = format};
+        if (texture && texture.desc() == desc) return;
+        texture = graph::Texture(context.device(), desc, label);
+        surfaceChanged();
+    };
+    make(factors_, Format::RGBA16F, "views.factors");
+    make(facets_, Format::RGBA32F, "views.facets");
+    make(emission_, Format::RGBA16F, "views.emission");
+}
+
+TexturedImages TexturedView::record(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                                    const std::vector<DrawnMesh>& meshes, graph::TextureId surface,
+                                    ivec2 size) {
+    if (meshes.empty()) {
+        *this = {};
+        return {};
+    }
+    fit(context, size);
+    std::vector<std::pair<int, Textured>> of;
+    for (const DrawnMesh& mesh : meshes)
+        of.emplace_back(mesh.index, *mesh.textured);
+    if (of != of_) surfaceChanged();
+    of_ = std::move(of);
+    const auto imported = [&](const graph::Texture& texture) {
+        return graph.import(texture.handle(), texture.desc(), texture.label());
+    };
+    const TexturedImages images{imported(factors_), imported(facets_), imported(emission_)};
+    if (*isDrawn_) return images;
     const gl::Program* program = context.program("views/textured", {"TEXTURED"});
     graph.addPass("views.textured", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("textures of " + std::to_string(meshes.size()) + " object(s)");
         pass.sample(surface);
         for (const DrawnMesh& mesh : meshes)
             mesh.sampleFrom(pass);
-        images = {pass.createColor("views.factors", {.size = size, .format = Format::RGBA16F}),
-                  pass.createColor("views.facets", {.size = size, .format = Format::RGBA32F}),
-                  pass.createColor("views.emission", {.size = size, .format = Format::RGBA16F})};
-        for (const graph::TextureId image : {images.factors, images.facets, images.emission})
+        for (const graph::TextureId image : {images.factors, images.facets, images.emission}) {
+            pass.write(image);
             pass.clear(image, vec4(0));
+        }
         pass.clear(pass.createDepth("views.depth", size), 1.0f);
-        return [=](const graph::Resources& resources, graph::Commands& commands) {
+        return [=, isDrawn = isDrawn_](const graph::Resources& resources, graph::Commands& commands) {
             for (const DrawnMesh& mesh : meshes) {
                 const Textured& textured = *mesh.textured;
                 graph::Draw draw{.depthTest = graph::DepthTest::Less};
@@ -53,8 +78,11 @@ TexturedImages recordTextured(graph::FrameGraph& graph, gl::Context& context, co
                                  {"uNormal", textured.normal}};
                 drawMesh(commands, *program, resources, mesh, eye, size, mesh.index, std::move(draw));
             }
+            *isDrawn = true;
         };
     });
+    for (const graph::TextureId image : {images.factors, images.facets, images.emission})
+        graph.keep(image); // read by later slices
     return images;
 }
 

@@ -7,6 +7,8 @@
 #include "views/Eye.h"
 
 #include <array>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace lucent::views {
@@ -28,6 +30,7 @@ struct Textured {
     float normalScale;
     float cutoff;
     bool hasHoles; ///< where the colour's alpha is below the cutoff
+    bool operator==(const Textured&) const = default;
 };
 
 /// Images of a view (shaders/views/textured.glsl).
@@ -36,11 +39,27 @@ struct TexturedImages {
     explicit operator bool() const { return bool(factors); }
 };
 
-/// Draws what the textures of some meshes say where a surface image shows them; no pass without such meshes.
-///
-/// @param eye, size  of the surface image
-TexturedImages recordTextured(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                              const std::vector<DrawnMesh>& meshes, graph::TextureId surface, ivec2 size);
+/// What the textures of some meshes say where a surface image shows them. Images that were drawn stay while
+/// the surface and the meshes do: light alone may change, or be summed slice by slice.
+class TexturedView {
+public:
+    /// The next surface is another one.
+    void surfaceChanged() { isDrawn_ = std::make_shared<bool>(false); }
+
+    /// Draws what is not there yet; no images without meshes.
+    ///
+    /// @param eye, size  of the surface image
+    TexturedImages record(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                          const std::vector<DrawnMesh>& meshes, graph::TextureId surface, ivec2 size);
+
+private:
+    void fit(gl::Context& context, ivec2 size);
+
+    std::vector<std::pair<int, Textured>> of_; // object, its textures
+    // Set when the pass has run, which a picture that is given up never does.
+    std::shared_ptr<bool> isDrawn_ = std::make_shared<bool>(false);
+    graph::Texture factors_, facets_, emission_;
+};
 
 /// What shaders/views/textured.glsl samples; nothing without images.
 void sampleTextured(graph::PassBuilder& pass, const TexturedImages& images);

@@ -317,6 +317,39 @@ TEST_F(TexturedTest, CoordinatesFarOutsideFindTexelsAllTheSame) {
     }
 }
 
+// What textures say of a view is kept while surface and textures stay, and not a picture longer.
+TEST_F(TexturedTest, PicturesOfOneRendererAreThoseOfAFreshOne) {
+    scene::Mesh red = texturedBall();
+    red.images = {imageOf({2, 1}, Encoding::Srgb, [](int x, int) {
+        return x == 0 ? Texel{255, 40, 40, 255} : Texel{200, 200, 0, 255};
+    })};
+    red.parts[0].textures.color.image = 0;
+    scene::Mesh blue = red;
+    blue.images = {imageOf({1, 1}, Encoding::Srgb, [](int, int) { return Texel{40, 40, 255, 255}; })};
+    scene.lights = {scene::DistantLight{.direction = {0, -1, -0.5f}, .irradiance = 3}};
+    add(red, scene::Matt{});
+    frame::Renderer renderer(*context);
+    int revision = 0;
+    const auto expectFresh = [&](const char* change) {
+        const Status done = renderer.finish(scene, ++revision, scene.size);
+        ASSERT_TRUE(done) << done.error().message;
+        EXPECT_EQ(renderer.read(scene, scene.view.show)->pixels, picture().pixels) << change;
+    };
+    expectFresh("nothing");
+    std::get<scene::DistantLight>(scene.lights[0]).direction = {1, -1, 0};
+    expectFresh("the light");
+    scene.camera.eye.x += 0.3f;
+    expectFresh("the camera");
+    scene.objects[0].material.kind = scene::Translucent{.scattering = vec3(1000), .absorption = vec3(1)};
+    expectFresh("the kind of material");
+    scene.objects[0].material.kind = scene::Matt{};
+    expectFresh("the kind of material, back");
+    std::get<scene::MeshShape>(scene.objects[0].shape).mesh = std::make_shared<const scene::Mesh>(blue);
+    expectFresh("the mesh");
+    addSky(); // in several slices
+    expectFresh("the environment");
+}
+
 TEST_F(TexturedTest, WithoutTexturesItIsTheMaterialAlone) {
     scene.camera.eye = {0, 0, 2};
     scene.lights = {scene::DistantLight{}};

@@ -182,7 +182,7 @@ graph::TextureId Brdf::recordLobes(graph::FrameGraph& graph, const Inputs& in,
     return mirrored;
 }
 
-Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
+Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) {
     if (in.solids.empty()) return Done{};
     const bool isGlossy = in.show == scene::Aov::Color &&
                           std::any_of(in.solids.begin(), in.solids.end(),
@@ -190,7 +190,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) const {
     std::vector<views::DrawnMesh> pictured = meshesOf(in.solids);
     std::erase_if(pictured, [](const views::DrawnMesh& mesh) { return !mesh.textured; });
     const views::TexturedImages textured =
-        recordTextured(graph, context_, in.eye, pictured, in.surface, in.size);
+        textured_.record(graph, context_, in.eye, pictured, in.surface, in.size);
     const graph::TextureId mirrored =
         isGlossy && in.first == 0 ? recordLobes(graph, in, textured) : graph::TextureId{};
     const graph::TextureId surface = in.surface, table = in.lightTable, target = in.target;

@@ -75,7 +75,9 @@ public:
 
     /// Adds the light of one slice to the pixels of matt and glossy objects in the target, and leaves the
     /// others as they are.
-    Status record(graph::FrameGraph& graph, const Inputs& in) const;
+    Status record(graph::FrameGraph& graph, const Inputs& in);
+    /// The next surface is another one.
+    void surfaceChanged() { textured_.surfaceChanged(); }
     /// Draws the pixels of mirrors.
     Status recordMirrors(graph::FrameGraph& graph, const MirrorInputs& in) const;
 
@@ -83,6 +85,7 @@ private:
     graph::TextureId recordLobes(graph::FrameGraph& graph, const Inputs& in,
                                  const views::TexturedImages& textured) const;
     gl::Context& context_;
+    views::TexturedView textured_;
 };
 
 } // namespace lucent::brdf

@@ -55,6 +55,7 @@ public:
         return (show == Aov::Color || show == Aov::Irradiance) &&
                std::any_of(scene.objects.begin(), scene.objects.end(), isMatt);
     }
+    void viewChanged() override { brdf_.surfaceChanged(); }
     Status shade(const technique::Passes& passes, const technique::Slice& slice) override {
         const technique::Picture& picture = passes.picture;
         const auto isMattHere = [](const views::Drawable& one) { return isMatt(*one.object); };
