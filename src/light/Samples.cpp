@@ -198,9 +198,11 @@ bool samplingActs(const scene::Scene& scene, std::string_view id) {
 }
 
 vec2 pixelOffset(int sample, int count) {
-    const auto wrapped = [](float at) { return at - std::floor(at + 0.5f); };
-    const float step = 1 / float(count);
-    return {wrapped(float(sample) * step), wrapped(float(sample * generatorOf(count) % count) * step)};
+    // Opposite ones follow each other: what is summed so far lies in the middle, too.
+    const int turn = sample % 2 ? -(sample + 1) / 2 : sample / 2;
+    const float row = float(turn) + (count % 2 ? 0 : 0.5f); // an even number has none in the middle
+    const auto wrapped = [&](float at) { return at - std::floor(at + 0.5f); };
+    return {wrapped(row / float(count)), wrapped(row * float(generatorOf(count)) / float(count))};
 }
 
 std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples) {

@@ -69,8 +69,9 @@ struct Sampling {
     int pixelSamples = 5;  ///< places over whose colours a pixel is the mean, > 0; 1: its middle alone
 };
 
-/// Where a sample of a pixel lies, in pixels from the middle: the first one there, all of them a rank-1
-/// lattice whose rows and columns are even, so that a straight edge errs by 1 / count at most.
+/// Where a sample of a pixel lies, in pixels from the middle: the first one there, or beside it where the
+/// count is even; all of them a rank-1 lattice whose rows and columns are even, so that a straight edge errs
+/// by 1 / count at most. Each second one lies opposite to the one before, so that their mean is the middle.
 ///
 /// @return  [-0.5, 0.5)²
 vec2 pixelOffset(int sample, int count);
