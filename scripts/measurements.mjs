@@ -254,7 +254,7 @@ function composeTables(run) {
     `<p>${measured.length} of ${run.compose.length} cells are drawn, ${met} of them within their target: at most 1 % of ` +
     'the light misplaced, 2 % by way of glass, mirrors or water, 3 % on what scatters, and the whole flux within 1 %. ' +
     'A cross marks those that miss one of the two.</p>\n' +
-    `<p>Not drawn: ${reasons.map(escaped).join('; ')}.</p>\n` +
+    (reasons.length ? `<p>Not drawn: ${reasons.map(escaped).join('; ')}.</p>\n` : '') +
     tables.join('')
   );
 }
