@@ -189,7 +189,7 @@ Result<Picture> traceLight(const scene::Scene& scene, ivec2 size, const LightOpt
     if (!picture) return picture.error();
 
     std::optional<SeenPlaces> indirectly;
-    if (color) indirectly.emplace(*optics, eye, size, mediaAtEye(*optics, scene.camera));
+    if (color) indirectly.emplace(*optics, eye, size, mediaAtEye(*optics, scene.camera), options.overPixels);
     const Tracer tracer(*optics, illumination, eye, size, options, indirectly ? &*indirectly : nullptr);
     const auto trace = [&](std::int64_t number, Brought& brought) { tracer.trace(number, brought); };
     Rays rays = tracer.hasWork()

@@ -20,7 +20,8 @@ struct LightOptions {
     int samples = 256;                ///< of each pixel, for light straight from what has a size; > 0
     std::uint64_t seed = 0;
     Attenuation attenuation = Attenuation::Ratio; ///< of light inside height fields
-    bool overPixels = false; ///< of the color: straight light, too, as the mean over each pixel
+    bool overPixels =
+        false; ///< of the color: straight light and what is seen through glass, too, as means over pixels
 };
 
 /// Irradiance, W/m², of the opaque surfaces that the camera sees with nothing before them; coverage is 1

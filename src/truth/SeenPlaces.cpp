@@ -5,24 +5,29 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace lucent::truth {
 
-SeenPlaces::SeenPlaces(const Optics& optics, const Eye& eye, ivec2 size, const Media& atEye) {
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            const std::size_t pixel = std::size_t(y) * std::size_t(size.x) + std::size_t(x);
-            const Beam beam = beamFrom(eye, dvec2(x, y) + 0.5, atEye);
-            if (!optics.disperses()) {
-                add(optics, eye, pixel, beam, 1, dvec3(1));
-                continue;
-            }
-            for (int channel = 0; channel < 3; ++channel) {
-                dvec3 only(0);
-                only[channel] = 1;
-                add(optics, eye, pixel, beam, channel, only);
-            }
+SeenPlaces::SeenPlaces(const Optics& optics, const Eye& eye, ivec2 size, const Media& atEye,
+                       bool overPixels) {
+    constexpr dvec2 kMiddle[] = {{0.5, 0.5}};
+    constexpr dvec2 kSpread[] = {{0.125, 0.625}, {0.375, 0.125}, {0.625, 0.875}, {0.875, 0.375}};
+    const std::span<const dvec2> places = overPixels ? std::span<const dvec2>(kSpread) : kMiddle;
+    const double share = 1 / double(places.size());
+    const auto addPlace = [&](std::size_t pixel, const dvec2& place) {
+        const Beam beam = beamFrom(eye, place, atEye);
+        if (!optics.disperses()) return add(optics, eye, pixel, beam, 1, dvec3(share));
+        for (int channel = 0; channel < 3; ++channel) {
+            dvec3 only(0);
+            only[channel] = share;
+            add(optics, eye, pixel, beam, channel, only);
         }
+    };
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x)
+            for (const dvec2& place : places)
+                addPlace(std::size_t(y) * std::size_t(size.x) + std::size_t(x), dvec2(x, y) + place);
     if (places_.empty()) return;
     cell_ = std::max_element(places_.begin(), places_.end(), [](const SeenPlace& a, const SeenPlace& b) {
                 return a.radius < b.radius;

@@ -12,11 +12,11 @@
 
 namespace lucent::truth {
 
-/// A place that a pixel's middle shows.
+/// A place that a pixel shows.
 struct SeenPlace {
     Hit hit;
     dvec3 viewer;      ///< unit, to where it is seen from
-    dvec3 weight;      ///< of its radiance in the pixel
+    dvec3 weight;      ///< of its radiance in the pixel, whose places have a share each
     double radius;     ///< m: a pixel's width, as far away as light had to come
     double area;       ///< m², of the shape's surface no further than that, by kAreaRays lines
     std::size_t pixel; ///< row by row
@@ -24,8 +24,12 @@ struct SeenPlace {
 
 class SeenPlaces {
 public:
-    /// Follows every pixel's beam as GlassEstimator does by the chain; what is seen directly is left out.
-    SeenPlaces(const Optics& optics, const Eye& eye, ivec2 size, const Media& atEye);
+    /// Follows beams as GlassEstimator does by the chain; what is seen directly is left out.
+    ///
+    /// @param overPixels  four places of each pixel, of which no two lie in a row or column, for its middle:
+    /// an
+    ///                    edge errs by an eighth of a pixel at most
+    SeenPlaces(const Optics& optics, const Eye& eye, ivec2 size, const Media& atEye, bool overPixels = false);
 
     const std::vector<SeenPlace>& all() const { return places_; }
 

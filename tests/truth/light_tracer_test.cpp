@@ -480,6 +480,26 @@ TEST(LightTracer, ThroughGlassAFloorOfTwoPartsIsAsBrightWhereTheyMeet) {
     }
 }
 
+// White up to a quarter of a pixel, black from there on, both seen and lit through a pane.
+TEST(LightTracer, ColoursOverPixelsAreMeansThroughGlassToo) {
+    scene::Scene scene = floorUnder(glass(scene::Box{{4, 0.5f, 4}}, 1.5f, {0, 2, 0}), 1);
+    scene.objects[1].visible = true;
+    const float edge = 0.25f * scene.camera.height / 16;
+    scene.objects[0] = matt(scene::Plane{{20, 40}}, {edge - 10, 0, 0});
+    scene.objects.push_back(matt(scene::Plane{{20, 40}}, {edge + 10, 0, 0}));
+    scene.objects.back().material.diffuse = vec3(0);
+    scene.lights = {scene::DistantLight{.direction = {0, -1, 0}, .irradiance = 2}};
+    const double shown = std::pow(0.96, 4) * 2 * double(0.8f) / kPi;
+    for (const bool overPixels : {false, true}) {
+        const Picture picture = traced(
+            scene, {16, 16}, {.aov = scene::Aov::Color, .photons = 1'000'000, .overPixels = overPixels});
+        double sum = 0;
+        for (int row = 0; row < 16; ++row)
+            sum += double(picture.values.at(8, row)[1]) / 16;
+        EXPECT_NEAR(sum, overPixels ? shown / 4 : 0, 0.03 * shown) << overPixels;
+    }
+}
+
 TEST(LightTracer, ColoursOverPixelsAreTheMeanOfWhatIsCovered) {
     // Half of the only pixel shows the floor, its middle included; what is beside it is nothing.
     scene::Scene scene = sceneOf({matt(scene::Plane{{0.5f, 2}})});
