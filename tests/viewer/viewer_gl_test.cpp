@@ -26,7 +26,7 @@ TEST_F(Picture, AnIdleViewerDrawsNothing) {
 TEST_F(Picture, SamplesOfThePixelsFollowTheCompletePictureWhileItIsStill) {
     load(kLampScene);
     const Image middles = window->read();
-    ASSERT_TRUE(viewer->set("technique.sampling.pixelSamples", "4").ok());
+    ASSERT_TRUE(viewer->set("technique.sampling.pixelSamples", "5").ok());
     viewer->draw(time += 0.02); // begins anew
     while (!stats()["complete"])
         viewer->draw(time += 0.02);
@@ -35,7 +35,7 @@ TEST_F(Picture, SamplesOfThePixelsFollowTheCompletePictureWhileItIsStill) {
     const int drawn = viewer->drawCount();
     settle();
     EXPECT_TRUE(stats()["finished"]);
-    EXPECT_EQ(viewer->drawCount(), drawn + 3);
+    EXPECT_EQ(viewer->drawCount(), drawn + 4);
     const int smooth = differences(middles, window->read()); // along the outline of the field
     EXPECT_GT(smooth, 200);
     EXPECT_LT(smooth, 20000);
