@@ -49,7 +49,7 @@ Result<std::shared_ptr<const Mesh>> decodeShape(std::span<const std::byte> bytes
 
 // What an interrupted load need not decode again.
 struct Decoded {
-    std::map<std::string, std::any> values; // by file and decoder
+    std::map<std::string, std::any> values; // by file and decoder, or by place and what it is
     std::chrono::steady_clock::time_point until{};
     bool pauses = false, isNew = false; // something was decoded since the load began or went on
 
@@ -149,15 +149,22 @@ private:
     bool readFile(const Place& place, const std::string& file, Value& value, Decode decode,
                   const std::string& role) {
         const std::string name = resolvePath(path(), file);
-        const std::string key = name + " " + role;
+        return piece(place, name + " " + role, value, [&]() -> Result<Value> {
+            const Result<Bytes> bytes = read_(name);
+            if (!bytes) return bytes.error();
+            auto decoded = decode(*bytes, name);
+            if (!decoded) return decoded.error();
+            return Value(std::move(*decoded));
+        });
+    }
+    // What is made for a place, unless it was made before the load was interrupted.
+    template <class Value, class Make>
+    bool piece(const Place& place, const std::string& key, Value& value, const Make& make) {
         if (decoded_.find(key, value)) return true;
         if (decoded_.isOver()) return false;
-        const Result<Bytes> bytes = read_(name);
-        if (!bytes) return fail(place, ": " + bytes.error().message);
-        auto decoded = decode(*bytes, name);
-        if (!decoded) return fail(place, ": " + decoded.error().message);
-        value = std::move(*decoded);
-        decoded_.add(key, value);
+        Result<Value> made = make();
+        if (!made) return fail(place, ": " + made.error().message);
+        decoded_.add(key, value = std::move(*made));
         return true;
     }
     template <class Decode>
@@ -511,10 +518,10 @@ private:
               std::shared_ptr<Canvas>& canvas) {
         std::shared_ptr<const Atlas> atlas;
         std::shared_ptr<const PaintSurface> surface;
-        if (!piece(place, "kept", object.kept, [&]() -> Result<Kept> { return object.kept; }) ||
-            !piece(place, "atlas", atlas, [&] { return atlasOf(object, side); }) ||
-            !piece(place, "texels", surface, [&] { return paintSurfaceOf(object, side); }) ||
-            !piece(place, "canvas", canvas, [&]() -> Result<std::shared_ptr<Canvas>> {
+        if (!piece(place, place.path + " kept", object.kept, [&]() -> Result<Kept> { return object.kept; }) ||
+            !piece(place, place.path + " atlas", atlas, [&] { return atlasOf(object, side); }) ||
+            !piece(place, place.path + " texels", surface, [&] { return paintSurfaceOf(object, side); }) ||
+            !piece(place, place.path + " canvas", canvas, [&]() -> Result<std::shared_ptr<Canvas>> {
                 return std::make_shared<Canvas>(surface, object.transform.scale, painting.entering,
                                                 painting.leaving, 0);
             }))
@@ -524,17 +531,6 @@ private:
             canvas->add(painting.strokes[canvas->strokes().size()]);
             decoded_.isNew = true;
         }
-        return true;
-    }
-    // What is made of a place, unless it was made before the load was interrupted.
-    template <class Value, class Make>
-    bool piece(const Place& place, const char* what, Value& value, const Make& make) {
-        const std::string key = place.path + " " + what;
-        if (decoded_.find(key, value)) return true;
-        if (decoded_.isOver()) return false;
-        Result<Value> made = make();
-        if (!made) return fail(place, ": " + made.error().message);
-        decoded_.add(key, value = std::move(*made));
         return true;
     }
     // The name of a script, or the strokes themselves.

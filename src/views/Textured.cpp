@@ -43,7 +43,7 @@ TexturedImages TexturedView::record(graph::FrameGraph& graph, gl::Context& conte
                                     const std::vector<DrawnMesh>& meshes, graph::TextureId surface,
                                     ivec2 size) {
     if (meshes.empty()) {
-        *this = {};
+        if (factors_) *this = {}; // gives memory back
         return {};
     }
     fit(context, size);
