@@ -294,7 +294,7 @@ Crossing march(View view, Ray ray, int inside) {
     float t = 0.0, end = 0.0; // of the way through a pixel or block
     ivec2 pixel = ivec2(floor(pixelAt(view, ray, 0.0) + 1e-3 * moves));
     int level = 0, empty = 0, steps = 0; // it starts on a surface; pixels without anything, one after the other
-    bool goesOn = true, meets = false, climbs = true;
+    bool goesOn = true, meets = false, leaves = false, climbs = true;
     while (goesOn && !meets) {
         int unseen = 0;
         while (goesOn && !meets && unseen == 0) {
@@ -359,8 +359,11 @@ Crossing march(View view, Ray ray, int inside) {
             pierceCandidates(view, ray, pixel, candidates, inside, nearest);
             meets = nearest.piercing.triangle != kNoTriangle;
 #ifdef USE_SOLID
-            if (there >= max(0.0, t - slack) && there <= end + slack && there < nearest.t)
-                return Crossing(kSolid, there, 0, false, vec3(0.0), pixel);
+            if (there >= max(0.0, t - slack) && there <= end + slack && there < nearest.t) {
+                crossing = Crossing(kSolid, there, 0, false, vec3(0.0), pixel);
+                goesOn = meets = false;
+                break;
+            }
 #endif
             if (!meets && unseen == 0) {
                 goesOn = end < 1e29;
@@ -370,14 +373,14 @@ Crossing march(View view, Ray ray, int inside) {
         if (!goesOn || meets) break;
         meetUnseen(view, ray, t, towards, inside, unseen, nearest);
         meets = nearest.piercing.triangle != kNoTriangle;
-        if (!meets && empty == kMostEmpty) {
-            standing.triangle = kNoTriangle;
-            return leaveAt(view, ray, t, towards, inside);
-        }
+        leaves = !meets && empty == kMostEmpty;
+        if (leaves) break;
         climbs = false;
         goesOn = end < 1e29;
         t = end;
     }
     if (meets) return crossingAt(ray, nearest, inside);
-    return crossing;
+    if (!leaves) return crossing;
+    standing.triangle = kNoTriangle;
+    return leaveAt(view, ray, t, towards, inside);
 }

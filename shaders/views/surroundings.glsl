@@ -252,21 +252,29 @@ int cubeOf(int object) {
 // way  [m] to what it meets first; 1e30: nothing
 vec4 lightAround(int cube, vec3 place, vec3 direction, out float way) {
     vec3 weight = vec3(1.0);
+    vec4 light;
     way = 1e30;
-    for (int mirrors = 0;; ++mirrors) {
-        Met met = kNothingMet;
-        for (int part = 0; part < 2; ++part) { // a cube of what the object itself shows follows its own
-            if (part == 1 && !(cube + 1 < AROUND.count && isOfItself(cube + 1))) break;
-            Met one = meetAround(cube + part, place - AROUND.cubes[cube].place.xyz, direction);
-            if (one.t < met.t) met = one;
+    Met met = kNothingMet;
+    int mirrors = 0, part = 0; // one loop over both: some compilers take seconds for loops within loops
+    while (true) {
+        Met one = meetAround(cube + part, place - AROUND.cubes[cube].place.xyz, direction);
+        if (one.t < met.t) met = one;
+        if (part == 0 && cube + 1 < AROUND.count && isOfItself(cube + 1)) { // of what the object itself shows
+            part = 1;
+            continue;
         }
         if (mirrors == 0) way = met.t;
-        if (met.t > 1e29) return vec4(weight, 1.0) * environmentAt(direction);
-        int next = mirrors < AROUND.further ? cubeOf(met.object) : -1;
-        if (next < 0) return vec4(weight * met.radiance, 1.0);
+        light = vec4(weight * met.radiance, 1.0);
+        if (met.t > 1e29) light = vec4(weight, 1.0) * environmentAt(direction);
+        int next = met.t < 1e29 && mirrors < AROUND.further ? cubeOf(met.object) : -1;
+        if (next < 0) break;
         weight *= AROUND.cubes[next].reflectance.rgb;
         place = met.place + AROUND.cubes[cube].place.xyz;
         direction = reflect(direction, met.normal);
         cube = next;
+        met = kNothingMet;
+        part = 0;
+        ++mirrors;
     }
+    return light;
 }
