@@ -132,19 +132,33 @@ dvec3 lookUpMerl(const Image& table, const dvec3& toLight, const dvec3& toEye) {
     return weights > 0 ? sum / weights : dvec3(0);
 }
 
-dvec3 lookUpBlocks(const Image& table, TableForm form, int n, const dvec3& toLight, const dvec3& toEye) {
-    const int m = table.width / n;
+// @param texelOf  a texel's colour from its block and its place there
+template <class TexelOf>
+dvec3 betweenBlocks(TableForm form, int n, int m, const dvec3& toLight, const dvec3& toEye, TexelOf texelOf) {
     const dvec2 block = squareFrom(toLight, form) * double(n) - 0.5,
                 texel = squareFrom(toEye, form) * double(m) - 0.5;
     const Between bx(block.x), by(block.y), tx(texel.x), ty(texel.y);
     dvec3 sum(0);
     for (int corner = 0; corner < 16; ++corner) {
         const int a = corner & 1, b = corner >> 1 & 1, c = corner >> 2 & 1, d = corner >> 3;
-        const float* value =
-            table.at(bx.clamped(a, n) * m + tx.clamped(c, m), by.clamped(b, n) * m + ty.clamped(d, m));
-        sum += bx.share(a) * by.share(b) * tx.share(c) * ty.share(d) * dvec3(value[0], value[1], value[2]);
+        sum += bx.share(a) * by.share(b) * tx.share(c) * ty.share(d) *
+               texelOf(ivec2(bx.clamped(a, n), by.clamped(b, n)), ivec2(tx.clamped(c, m), ty.clamped(d, m)));
     }
     return sum;
+}
+
+dvec3 lookUpBlocks(const Image& table, TableForm form, int n, const dvec3& toLight, const dvec3& toEye) {
+    const int m = table.width / n;
+    return betweenBlocks(form, n, m, toLight, toEye, [&](ivec2 block, ivec2 texel) {
+        const float* value = table.at(block.x * m + texel.x, block.y * m + texel.y);
+        return dvec3(value[0], value[1], value[2]);
+    });
+}
+
+// What a table holds of a BRDF: at the middles of a block and of a texel in it.
+vec3 texelOf(const Brdf& brdf, TableForm form, int n, int m, ivec2 block, ivec2 texel) {
+    return brdf(directionFrom((dvec2(block) + 0.5) / double(n), form),
+                directionFrom((dvec2(texel) + 0.5) / double(m), form));
 }
 
 } // namespace
@@ -169,6 +183,14 @@ dvec3 lookUp(const Image& table, TableForm form, int blocks, const dvec3& toLigh
     if (toLight.z <= 0 || toEye.z <= 0) return dvec3(0);
     return form == TableForm::Merl ? lookUpMerl(table, toLight, toEye)
                                    : lookUpBlocks(table, form, blocksOf(table, blocks), toLight, toEye);
+}
+
+dvec3 lookUp(const Brdf& brdf, TableForm form, int blocks, int texels, const dvec3& toLight,
+             const dvec3& toEye) {
+    if (toLight.z <= 0 || toEye.z <= 0) return dvec3(0);
+    return betweenBlocks(form, blocks, texels, toLight, toEye, [&](ivec2 block, ivec2 texel) {
+        return dvec3(texelOf(brdf, form, blocks, texels, block, texel));
+    });
 }
 
 dvec2 squareFrom(const dvec3& direction, TableForm form) {
@@ -202,8 +224,7 @@ Image tabulate(const Brdf& brdf, TableForm form, int blocks, int texels) {
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             const ivec2 at(x, y), block = at / texels, texel = at % texels;
-            const vec3 value = brdf(directionFrom((dvec2(block) + 0.5) / double(blocks), form),
-                                    directionFrom((dvec2(texel) + 0.5) / double(texels), form));
+            const vec3 value = texelOf(brdf, form, blocks, texels, block, texel);
             std::memcpy(table.at(x, y), &value, sizeof value);
         }
     return table;

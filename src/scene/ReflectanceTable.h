@@ -51,6 +51,12 @@ Status checkTable(const Image& table, TableForm form, int blocks);
 /// around.
 dvec3 lookUp(const Image& table, TableForm form, int blocks, const dvec3& toLight, const dvec3& toEye);
 
+/// What a table of a BRDF would say, of which only the texels around are taken: as lookUp(tabulate(...)).
+///
+/// @param form  one with blocks
+dvec3 lookUp(const Brdf& brdf, TableForm form, int blocks, int texels, const dvec3& toLight,
+             const dvec3& toEye);
+
 /// n of a table with blocks: `blocks`, or where that is 0 the root of the table's side.
 int blocksOf(const Image& table, int blocks);
 

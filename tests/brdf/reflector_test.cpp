@@ -134,6 +134,18 @@ TEST(Reflector, ExchangedDirectionsDifferByRoundingAlone) {
         EXPECT_LT(reciprocityError(materialOf(one, 0.6)), 5e-5f) << one.name; // powers of rounded cosines
 }
 
+// What is linear between texels is halved in size and quartered in error.
+TEST(Reflector, TablesOfMoreTexelsAreCloser) {
+    const scene::Material rough = materialOf({"", scene::CookTorrance{.roughness = 0.7f}}, 0.5);
+    for (const scene::TableForm form : {scene::TableForm::EqualArea, scene::TableForm::Projected}) {
+        const float coarse = tableError(rough, form, 8, 8, 512), fine = tableError(rough, form, 32, 32, 512);
+        EXPECT_GT(fine, 0);
+        EXPECT_LT(fine, 0.4f * coarse) << int(form); // the horizon, where it is steep, holds both up
+    }
+    const scene::Material matt = materialOf({"", scene::OrenNayar{.roughness = 0}}, 0.5);
+    EXPECT_LT(tableError(matt, scene::TableForm::Projected, 4, 4, 512), 1e-6f); // the same in all texels
+}
+
 TEST(Reflector, NormalisedLobesGiveBackTheirColour) {
     for (const float exponent : {0.0f, 3.0f, 50.0f, 1000.0f}) {
         scene::Material material;

@@ -50,6 +50,17 @@ TEST(ReflectanceTable, EqualAreaTexelsHaveEqualSolidAngles) {
         EXPECT_NEAR(double(count), kSide * kSide / 16.0, 0.02 * kSide * kSide / 16);
 }
 
+TEST(ReflectanceTable, IsLookedUpWithoutBeingMadeAsIfItWere) {
+    for (const TableForm form : {TableForm::EqualArea, TableForm::Projected}) {
+        const Image table = tabulate(smooth, form, 6, 9);
+        for (int i = 0; i < 100; ++i) {
+            const dvec3 l = direction(0.7 + 0.7 * std::sin(i * 1.7), i * 2.1),
+                        v = direction(0.7 + 0.7 * std::sin(i * 0.9), i * 1.3);
+            ASSERT_EQ(lookUp(smooth, form, 6, 9, l, v), lookUp(table, form, 6, l, v)) << i;
+        }
+    }
+}
+
 TEST(ReflectanceTable, ReadsBackWhatItWasMadeOf) {
     struct {
         TableForm form;

@@ -146,4 +146,28 @@ float reciprocityError(const scene::Material& material) {
     return worst;
 }
 
+float tableError(const scene::Material& material, scene::TableForm form, int blocks, int texels, int pairs) {
+    const scene::Brdf brdf = [&](const dvec3& toLight, const dvec3& toEye) {
+        return shareOf(material, kUp, vec3(toLight), vec3(toEye)) / float(toLight.z);
+    };
+    const bool isMerl = form == scene::TableForm::Merl;
+    const Image whole = isMerl ? scene::tabulate(brdf, form, blocks, texels) : Image();
+    const auto direction = [](double share, double turn) {
+        const double up = 0.02 + 0.98 * share, aside = std::sqrt(1 - up * up);
+        return dvec3(aside * std::cos(2 * kPi * turn), aside * std::sin(2 * kPi * turn), up);
+    };
+    double squares = 0, sum = 0;
+    for (int i = 0; i < pairs; ++i) { // a lattice of rank 1 in four dimensions
+        const auto at = [&](double step) { return std::fmod((i + 0.5) * step, 1.0); };
+        const dvec3 toLight = direction(at(0.8566749), at(0.7338919)),
+                    toEye = direction(at(0.6287067), at(0.5385973));
+        const dvec3 found = isMerl ? scene::lookUp(whole, form, blocks, toLight, toEye)
+                                   : scene::lookUp(brdf, form, blocks, texels, toLight, toEye);
+        const double exact = double(brdf(toLight, toEye).y), apart = found.y - exact;
+        squares += apart * apart;
+        sum += exact;
+    }
+    return float(std::sqrt(squares / pairs) / (sum / pairs));
+}
+
 } // namespace lucent::brdf

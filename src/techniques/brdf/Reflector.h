@@ -33,4 +33,11 @@ vec3 directionalAlbedo(const scene::Material& material, float cosine);
 /// value, of some hundred pairs: rounding alone, for models that are reciprocal.
 float reciprocityError(const scene::Material& material);
 
+/// How far a table of the BRDF is from it (scene/ReflectanceTable.h): the root of the mean squared difference
+/// of green over its mean, over pairs of directions that stand evenly by solid angle, to 1 degree above the
+/// surface.
+///
+/// @param blocks, texels  n and m; of no meaning to Merl
+float tableError(const scene::Material& material, scene::TableForm form, int blocks, int texels, int pairs);
+
 } // namespace lucent::brdf

@@ -2,7 +2,6 @@
 
 #include "scene/Environment.h"
 #include "scene/Keys.h"
-#include "scene/ReflectanceTable.h"
 #include "technique/Technique.h"
 #include "techniques/brdf/Reflector.h"
 
@@ -107,31 +106,8 @@ void addLaws(Proof& proof) {
 
 // --- tables
 
-// Root of the mean squared difference over the mean, over pairs of directions, evenly by solid angle.
-double tableError(const scene::Material& material, scene::TableForm form, int blocks, int texels) {
-    const auto brdf = [&](const dvec3& toLight, const dvec3& toEye) {
-        return shareOf(material, vec3(0, 0, 1), vec3(toLight), vec3(toEye)) / float(toLight.z);
-    };
-    const Image table = scene::tabulate(brdf, form, blocks, texels);
-    constexpr int kPairs = 4096;
-    double squares = 0, sum = 0;
-    const auto direction = [](double up, double turn) {
-        const double aside = std::sqrt(1 - up * up);
-        return dvec3(aside * std::cos(turn), aside * std::sin(turn), up);
-    };
-    for (int i = 0; i < kPairs; ++i) { // a lattice of rank 1 in four dimensions
-        const auto at = [&](double step) { return std::fmod((i + 0.5) * step, 1.0); };
-        const dvec3 toLight = direction(0.02 + 0.98 * at(0.8566749), 2 * double(kPi) * at(0.7338919)),
-                    toEye = direction(0.02 + 0.98 * at(0.6287067), 2 * double(kPi) * at(0.5385973));
-        const double exact = double(brdf(toLight, toEye).y),
-                     found = scene::lookUp(table, form, blocks, toLight, toEye).y;
-        squares += (found - exact) * (found - exact);
-        sum += exact;
-    }
-    return std::sqrt(squares / kPairs) / (sum / kPairs);
-}
-
 void addTables(Proof& proof, bool quick) {
+    constexpr int kPairs = 4096;
     scene::Material material;
     material.diffuse = vec3(0.3f);
     material.kind = scene::CookTorrance{.specular = vec3(0.8f), .roughness = 0.6f, .ior = 2};
@@ -142,10 +118,10 @@ void addTables(Proof& proof, bool quick) {
     for (const int side : {8, 16, 32, 64}) {
         if (quick && side > 32) continue;
         const std::string size = std::to_string(side) + " x " + std::to_string(side) + " blocks";
-        add("projected, " + size, tableError(material, scene::TableForm::Projected, side, side));
-        add("equal-area, " + size, tableError(material, scene::TableForm::EqualArea, side, side));
+        add("projected, " + size, tableError(material, scene::TableForm::Projected, side, side, kPairs));
+        add("equal-area, " + size, tableError(material, scene::TableForm::EqualArea, side, side, kPairs));
     }
-    add("merl", tableError(material, scene::TableForm::Merl, 1, 1));
+    add("merl", tableError(material, scene::TableForm::Merl, 1, 1, kPairs));
 }
 
 constexpr BenchPart kParts[] = {

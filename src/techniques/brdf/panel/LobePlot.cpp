@@ -14,9 +14,11 @@ namespace lucent::brdf {
 
 namespace {
 
-constexpr float kPlotHeight = 190; // CSS pixels
-constexpr float kMostAngle = 85;   // degrees: of a lamp at the horizon nothing would be seen
+constexpr float kLobeHeight = 190, kChartHeight = 156; // CSS pixels
+constexpr float kMostAngle = 85; // degrees: of a lamp at the horizon nothing would be seen
 constexpr float kAngles[] = {0, 60, 80};
+constexpr int kPairs = 256;                           // of directions, in which tables are judged
+constexpr float kLeastError = 1e-3f, kMostError = 10; // of the chart
 
 using viewer::Theme;
 namespace layout = viewer::layout;
@@ -48,6 +50,42 @@ vec3 towardsFirstLamp(const scene::Scene& scene, const scene::Object& object) {
     return length > 0 ? vec3(way.x, -way.z, way.y) / length : vec3(0, 0, 1);
 }
 
+// What of a material its laws depend on.
+struct LawsKey {
+    ReflectorValues values;
+    std::shared_ptr<const Image> table;
+    int form, blocks;
+    bool operator==(const LawsKey& b) const {
+        return values.diffuse == b.values.diffuse && values.specular == b.values.specular &&
+               values.lobe == b.values.lobe && table == b.table && form == b.form && blocks == b.blocks;
+    }
+};
+
+LawsKey keyOf(const scene::Material& material) {
+    const auto* measured = std::get_if<scene::MeasuredBrdf>(&material.kind);
+    if (measured) return {{}, measured->table, int(measured->form), measured->blocks};
+    return {reflectorOf(material), nullptr, 0, 0};
+}
+
+LobePlot::Laws makeLaws(const scene::Material& material) {
+    LobePlot::Laws laws;
+    for (int i = 0; i < 3; ++i)
+        laws.albedo[i] = directionalAlbedo(material, std::cos(radians(kAngles[i])));
+    laws.reciprocity = reciprocityError(material);
+    for (std::size_t i = 0; i < laws.projected.size(); ++i) {
+        const int n = LobePlot::kTableSizes[i / LobePlot::kTables],
+                  m = LobePlot::kTableSizes[i % LobePlot::kTables];
+        laws.projected[i] = tableError(material, scene::TableForm::Projected, n, m, kPairs);
+        laws.equalArea[i] = tableError(material, scene::TableForm::EqualArea, n, m, kPairs);
+    }
+    return laws;
+}
+
+// They take tens of milliseconds, and a lamp that moves changes none.
+const LobePlot::Laws& lawsOf(const scene::Object& object) {
+    return object.kept.of<LobePlot::Laws>(keyOf(object.material), [&] { return makeLaws(object.material); });
+}
+
 LobePlot plotOf(const scene::Scene& scene, const scene::Object& object) {
     const scene::Material& material = object.material;
     LobePlot plot;
@@ -69,9 +107,7 @@ LobePlot plotOf(const scene::Scene& scene, const scene::Object& object) {
         const float theta = radians(-89.9f + 179.8f * float(i) / LobePlot::kSlice);
         plot.slice.push_back(brdf(std::abs(theta), plot.lightTurn + (theta < 0 ? 0 : kPi)));
     }
-    for (int i = 0; i < 3; ++i)
-        plot.albedo[i] = directionalAlbedo(material, std::cos(radians(kAngles[i])));
-    plot.reciprocity = reciprocityError(material);
+    plot.laws = lawsOf(object);
     return plot;
 }
 
@@ -155,29 +191,78 @@ std::string jsonOf(const LobePlot& plot) {
         json.end();
     };
     json.beginObject().key("owner").value(plot.owner).key("model").value(plot.model);
-    json.key("lightAngle").value(plot.lightAngle).key("reciprocity").value(plot.reciprocity);
-    colors("albedo", {plot.albedo[0], plot.albedo[1], plot.albedo[2]});
+    const LobePlot::Laws& laws = plot.laws;
+    json.key("lightAngle").value(plot.lightAngle).key("reciprocity").value(laws.reciprocity);
+    colors("albedo", {laws.albedo[0], laws.albedo[1], laws.albedo[2]});
     colors("slice", plot.slice);
+    json.key("tables").beginObject().key("sizes").beginArray();
+    for (const int size : LobePlot::kTableSizes)
+        json.value(size);
+    json.end().key("projected").value(std::span<const float>(laws.projected));
+    json.key("equalArea").value(std::span<const float>(laws.equalArea)).end();
     json.key("text").value(describe(plot)).end();
     return json.text();
 }
 
+// Errors of tables over m, a line for each n; both logarithmic.
+void drawTables(ImDrawList& list, vec2 at, float width, const LobePlot::Laws& laws, const Theme& theme) {
+    constexpr ImU32 kProjected = IM_COL32(226, 120, 40, 255), kEqualArea = IM_COL32(60, 130, 230, 255);
+    list.AddText({at.x, at.y}, theme.muted, "Error of a table over texels of a block, m;");
+    list.AddText({at.x, at.y + 16}, theme.muted, "a line for each n:");
+    list.AddText({at.x + 112, at.y + 16}, kProjected, "projected");
+    list.AddText({at.x + 180, at.y + 16}, kEqualArea, "equal-area");
+    const vec2 low = at + vec2(44, 42), size(width - 68, kChartHeight - 60);
+    const float decades = std::log10(kMostError / kLeastError);
+    const auto heightOf = [&](float error) {
+        return low.y +
+               size.y * (1 - std::log10(std::clamp(error, kLeastError, kMostError) / kLeastError) / decades);
+    };
+    for (const auto& [error, name] :
+         {std::pair(10.0f, "1000 %"), std::pair(1.0f, "100 %"), std::pair(0.1f, "10 %"),
+          std::pair(0.01f, "1 %"), std::pair(0.001f, "0.1 %")}) {
+        const float y = heightOf(error);
+        list.AddLine({low.x, y}, {low.x + size.x, y}, theme.cardBorder);
+        list.AddText({at.x, y - 7}, theme.muted, name);
+    }
+    const auto across = [&](std::size_t m) { return low.x + size.x * float(m) / (LobePlot::kTables - 1); };
+    for (std::size_t m = 0; m < LobePlot::kTables; ++m)
+        list.AddText({across(m) - 6, low.y + size.y + 4}, theme.muted,
+                     std::to_string(LobePlot::kTableSizes[m]).c_str());
+    float under = low.y + size.y + 11; // of the number below
+    for (std::size_t n = LobePlot::kTables; n-- > 0;) {
+        const float thickness = 0.6f + 0.5f * float(n);
+        for (const auto& [errors, ink] :
+             {std::pair(&laws.equalArea, kEqualArea), std::pair(&laws.projected, kProjected)}) {
+            ImVec2 line[LobePlot::kTables];
+            for (std::size_t m = 0; m < LobePlot::kTables; ++m)
+                line[m] = {across(m), heightOf((*errors)[n * LobePlot::kTables + m])};
+            list.AddPolyline(line, LobePlot::kTables, ink, 0, thickness);
+        }
+        under = std::min(heightOf(laws.projected[(n + 1) * LobePlot::kTables - 1]), under - 11);
+        list.AddText({low.x + size.x + 4, under - 7}, theme.muted,
+                     std::to_string(LobePlot::kTableSizes[n]).c_str());
+    }
+}
+
 void drawPlot(ImDrawList& list, vec2 at, float width, const LobePlot& plot, const Theme& theme) {
-    const std::string numbers = format("Furnace %.1f %%", 100 * double(brightest(plot.albedo[0]))) +
-                                format(", at 60° %.1f %%", 100 * double(brightest(plot.albedo[1]))) +
-                                format(", at 80° %.1f %%", 100 * double(brightest(plot.albedo[2])));
+    const LobePlot::Laws& laws = plot.laws;
+    const std::string numbers = format("Furnace %.1f %%", 100 * double(brightest(laws.albedo[0]))) +
+                                format(", at 60° %.1f %%", 100 * double(brightest(laws.albedo[1]))) +
+                                format(", at 80° %.1f %%", 100 * double(brightest(laws.albedo[2])));
     list.AddText({at.x, at.y}, theme.muted, numbers.c_str());
     list.AddText({at.x, at.y + 18}, theme.muted,
-                 format("Reciprocity error %.1e", double(plot.reciprocity)).c_str());
-    const float scale = std::min(0.23f * width, kPlotHeight - 90);
-    drawLobe(list, at + vec2(0.25f * width, kPlotHeight - 50), scale, plot, theme);
-    drawSlice(list, at + vec2(0.76f * width, kPlotHeight - 36), scale, plot, theme);
+                 format("Reciprocity error %.1e", double(laws.reciprocity)).c_str());
+    const float scale = std::min(0.23f * width, kLobeHeight - 90);
+    drawLobe(list, at + vec2(0.25f * width, kLobeHeight - 50), scale, plot, theme);
+    drawSlice(list, at + vec2(0.76f * width, kLobeHeight - 36), scale, plot, theme);
+    drawTables(list, at + vec2(0, kLobeHeight), width, laws, theme);
 }
 
 std::vector<viewer::Figure> figures(const scene::Scene& scene) {
     std::vector<viewer::Figure> list;
     for (LobePlot& plot : lobePlots(scene)) {
-        viewer::Figure figure{plot.owner, describe(plot), jsonOf(plot), kPlotHeight, {}, Group::Material};
+        viewer::Figure figure{plot.owner, describe(plot), jsonOf(plot), kLobeHeight + kChartHeight,
+                              {},         Group::Material};
         figure.draw = [plot = std::move(plot)](ImDrawList& drawn, vec2 at, float width, const Theme& theme) {
             drawPlot(drawn, at, width, plot, theme);
         };
@@ -199,9 +284,12 @@ std::string describe(const LobePlot& plot) {
     std::string text =
         "Reflectance of " + plot.owner + ", " + std::string(plot.model) + ": of even light from all around";
     for (int i = 0; i < 3; ++i)
-        text += (i ? ", " : " ") + format("%.1f %%", 100 * double(brightest(plot.albedo[i]))) +
+        text += (i ? ", " : " ") + format("%.1f %%", 100 * double(brightest(plot.laws.albedo[i]))) +
                 format(" are seen from %.0f degrees", double(kAngles[i]));
-    return text + format("; light and view may be exchanged to %.1e.", double(plot.reciprocity));
+    return text + format("; light and view may be exchanged to %.1e", double(plot.laws.reciprocity)) +
+           "; a table of 32 x 32 blocks of 32 x 32 texels is" +
+           format(" %.2g %% off projected,", 100 * double(plot.laws.projected.back())) +
+           format(" %.2g %% with equal areas.", 100 * double(plot.laws.equalArea.back()));
 }
 
 extern const viewer::PanelPart kPanelPart;

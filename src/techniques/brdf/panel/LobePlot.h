@@ -4,6 +4,7 @@
 
 #include "scene/Scene.h"
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,8 @@ namespace lucent::brdf {
 struct LobePlot {
     static constexpr int kRings = 12, kSpokes = 24; ///< from the normal to the horizon, and around it
     static constexpr int kSlice = 90;               ///< directions from horizon to horizon
+    static constexpr std::size_t kTables = 4;
+    static constexpr int kTableSizes[kTables] = {4, 8, 16, 32};
 
     std::string owner;       ///< the object's name
     std::string_view model;  ///< as material.kind spells it
@@ -21,8 +24,13 @@ struct LobePlot {
     float lightTurn = 0;     ///< radians around it
     std::vector<vec3> lobe;  ///< BRDF [1/sr], ring after ring of spokes, the first ring at the normal
     std::vector<vec3> slice; ///< the same in the plane of light and normal, from the light's side
-    vec3 albedo[3];          ///< directionalAlbedo() at 0, 60 and 80 degrees
-    float reciprocity = 0;   ///< reciprocityError()
+    struct Laws {
+        vec3 albedo[3];        ///< directionalAlbedo() at 0, 60 and 80 degrees
+        float reciprocity = 0; ///< reciprocityError()
+        /// tableError() of the two forms with blocks, over n (rows) and m, each of kTableSizes.
+        std::array<float, kTables * kTables> projected, equalArea;
+    };
+    Laws laws; ///< which no light changes
 };
 
 /// One for each visible glossy object, in the scene's order.
