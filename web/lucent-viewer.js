@@ -11,7 +11,8 @@
  *
  * compare="truth" or "error" shows the picture beside its exact truth: that of the file which `truth` names (with its
  * own error in `truth-noise`), which belongs to the scene as src has it, or one that is computed when a person asks;
- * "methods" shows it beside the same scene drawn by other methods: beside-relief-method="march".
+ * "methods" shows it beside the same scene drawn by other methods: beside-relief-method="march"; "materials" beside the
+ * same scene of other materials.
  */
 import { reflect } from './attributes.js';
 import { BakeBar } from './bake.js';
@@ -380,7 +381,8 @@ export class LucentViewer extends HTMLElement {
   /**
    * How the picture stands to its truth: mode, divider, truth ('none', 'stale', 'fresh'), size, noise; of a finished
    * picture of the same scene rmse, relRmse, max, bias, p99, full; milliseconds, passes; place of the other picture,
-   * pixelsPerCssPixel. With "methods" also flip; left, the methods there, and right with name and the same numbers.
+   * pixelsPerCssPixel. With "methods" also flip; with it and "materials" left, what
+   * stands there, and right with name and, of methods, the same numbers.
    */
   comparison() {
     return JSON.parse(this.#ask('viewer_comparison') || '{"mode": "off", "truth": "none"}');
@@ -911,7 +913,7 @@ export class LucentViewer extends HTMLElement {
     if (!this.loaded) return;
     const comparison = this.comparison();
     const { mode, divider, truth } = comparison;
-    this.#divider.hidden = mode === 'off' || (truth === 'none' && mode !== 'methods');
+    this.#divider.hidden = mode === 'off' || (truth === 'none' && mode !== 'methods' && mode !== 'materials');
     this.#divider.value = divider;
     if (mode !== 'off' && truth === 'none' && this.truth && !this.#truthFetched && !this.#truth.busy) {
       this.#truthFetched = true;

@@ -15,7 +15,7 @@ namespace lucent::viewer {
 
 namespace {
 
-constexpr std::string_view kModes[] = {"off", "truth", "error", "methods"};
+constexpr std::string_view kModes[] = {"off", "truth", "error", "methods", "materials"};
 
 // Images and meshes that decide what a scene looks like, in a fixed order.
 std::vector<const void*> contentOf(const scene::Scene& scene) {
@@ -88,7 +88,8 @@ std::span<const Param> compareParams() {
                  .group = Group::View,
                  .doc =
                      "A second picture right of a divider: the exact one, how far yours is from it in false "
-                     "colours, or the same scene drawn by other methods, which are chosen below.",
+                     "colours, or the same scene drawn by other methods or of other materials, which are "
+                     "chosen below.",
                  .choices = kModes,
                  .attribute = "compare"}),
         declare(&CompareSettings::divider, {.id = "divider",
@@ -116,15 +117,23 @@ std::vector<BoundParam> bindCompare(CompareSettings& settings) {
 
 bool isPrecomputing(std::string_view path) { return path.ends_with(".precomputed"); }
 
+bool isOfRight(CompareMode mode, std::string_view path) {
+    if (mode == CompareMode::Methods)
+        return path.starts_with("technique.") || path.starts_with("quality.") || isPrecomputing(path);
+    return mode == CompareMode::Materials && path.starts_with("objects.") && !isPrecomputing(path) &&
+           path.find(".material.") != path.npos;
+}
+
+std::string besideOwner(std::string_view object) { return std::string(object) + ", right of the divider"; }
+
 std::vector<BoundParam> bindBeside(scene::Scene& right) {
     std::vector<BoundParam> settings;
     for (BoundParam& bound : scene::bindParams(right)) {
-        if (!bound.path.starts_with("technique.") && !bound.path.starts_with("quality.") &&
-            !isPrecomputing(bound.path))
+        if (!isOfRight(CompareMode::Methods, bound.path) && !isOfRight(CompareMode::Materials, bound.path))
             continue;
         bound.path.insert(0, kBeside);
-        bound.prefix.insert(0, "beside-");
-        bound.place = Group::Mode; // first, while two methods are compared
+        if (!bound.prefix.empty()) bound.prefix.insert(0, "beside-");
+        bound.place = Group::Mode; // first, while two pictures are compared
         settings.push_back(std::move(bound));
     }
     return settings;
@@ -139,6 +148,12 @@ scene::Scene withSettingsOf(scene::Scene scene, const scene::Scene& settings) {
         if (drawn.isScattering() && chosen.isScattering())
             drawn.translucent().precomputed = chosen.translucent().precomputed;
     }
+    return scene;
+}
+
+scene::Scene withMaterialsOf(scene::Scene scene, const scene::Scene& materials) {
+    for (std::size_t i = 0; i < std::min(scene.objects.size(), materials.objects.size()); ++i)
+        scene.objects[i].material = materials.objects[i].material;
     return scene;
 }
 

@@ -13,7 +13,11 @@
 
 namespace lucent::viewer {
 
-enum class CompareMode : int { Off, Truth, Error, Methods };
+enum class CompareMode : int { Off, Truth, Error, Methods, Materials };
+/// Whether the right side is drawn as the left one is.
+constexpr bool drawsRight(CompareMode mode) {
+    return mode == CompareMode::Methods || mode == CompareMode::Materials;
+}
 
 /// What a person chooses. Part of the view, not of the scene: no undo step, not in a scene file.
 struct CompareSettings {
@@ -25,16 +29,23 @@ struct CompareSettings {
 std::span<const Param> compareParams();
 std::vector<BoundParam> bindCompare(CompareSettings& settings);
 
-/// In front of the path of a setting: that with which the right side of Methods is drawn.
+/// In front of a parameter's path: that with which the right side of Methods or of Materials is drawn.
 inline constexpr std::string_view kBeside = "beside.";
+/// What differs in a mode where its path, without kBeside, is this: settings of techniques, or materials.
+bool isOfRight(CompareMode mode, std::string_view path);
 /// Whether a parameter of an object says how it is drawn, not what it is.
 bool isPrecomputing(std::string_view path);
-/// All settings of the right side: "beside.technique.relief.method", as attribute beside-relief-method.
+/// An object on the right side: "ball, right of the divider".
+std::string besideOwner(std::string_view object);
+/// All that may differ on the right side: "beside.technique.relief.method", as attribute
+/// beside-relief-method, and "beside.objects.ball.material.roughness".
 ///
-/// @param right  the scene whose settings they are
+/// @param right  the scene whose parameters they are
 std::vector<BoundParam> bindBeside(scene::Scene& right);
-/// `scene` with the settings of another one: the same light by other methods.
+/// `scene` with the settings of another one, of the same objects: the same light by other methods.
 scene::Scene withSettingsOf(scene::Scene scene, const scene::Scene& settings);
+/// `scene` with the materials of another one, of the same objects.
+scene::Scene withMaterialsOf(scene::Scene scene, const scene::Scene& materials);
 
 /// An exact picture and the scene that it shows.
 struct Truth {

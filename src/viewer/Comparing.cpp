@@ -51,7 +51,7 @@ void Viewer::State::dropTruth() {
 // Where the other picture lies: all of the picture, or what of it the truth shows.
 Rect Viewer::State::besidePlace() const {
     const vec2 room = pictureSize();
-    if (compare.mode == CompareMode::Methods) return {{0, 0}, room};
+    if (drawsRight(compare.mode)) return {{0, 0}, room};
     const vec2 shape(truth->image.size());
     const vec2 size = shape * std::min(room.x / shape.x, room.y / shape.y);
     const vec2 low = (room - size) / 2.0f;
@@ -71,8 +71,7 @@ void Viewer::State::moveDivider(float x) {
 
 // Null: there is none yet. An error that is not known yet leaves the truth in its place.
 const Image* Viewer::State::besideImage() {
-    if (compare.mode == CompareMode::Methods)
-        return other.image.size() == picturePixels ? &other.image : nullptr;
+    if (drawsRight(compare.mode)) return other.image.size() == picturePixels ? &other.image : nullptr;
     const bool isError = compare.mode == CompareMode::Error && truthIsFresh() && measured[0].numbers;
     return isError ? &error : &truth->image;
 }
@@ -91,26 +90,42 @@ std::optional<frame::Beside> Viewer::State::beside() {
 }
 
 std::string Viewer::State::besideName() {
-    if (compare.mode == CompareMode::Methods)
-        return besideImage() && other.of == pictureNumber ? methodText(true) : "being drawn";
+    if (drawsRight(compare.mode))
+        return besideImage() && other.of == pictureNumber ? differenceText(true) : "being drawn";
     if (!truthIsFresh()) return "truth of an earlier scene";
     return besideImage() == &error ? "error" : "truth";
 }
 
-// What the settings of one side are where they differ from those of the other: "Method march".
-std::string Viewer::State::methodText(bool ofRight) const {
+// What the settings or materials of one side are where they differ from those of the other: "Method march".
+std::string Viewer::State::differenceText(bool ofRight) const {
     std::string text;
     for (const Control& control : controls) {
         const std::string& path = control.bound.path;
-        if (!path.starts_with(kBeside)) continue;
+        if (!path.starts_with(kBeside) || !isOfRight(compare.mode, path.substr(kBeside.size()))) continue;
         const Control* left = find(path.substr(kBeside.size()));
         if (!left) continue;
         const auto valueOf = [](const Control& of) { return getText(*of.bound.param, of.bound.data); };
         if (valueOf(control) == valueOf(*left)) continue;
-        text += (text.empty() ? "" : ", ") + std::string(control.bound.param->label) + " " +
-                valueOf(ofRight ? control : *left);
+        const bool isOfOne = compare.mode == CompareMode::Materials && scene->objects.size() > 1;
+        text += (text.empty() ? "" : ", ") + (isOfOne ? ownerOf(left->bound) + " " : "") +
+                std::string(control.bound.param->label) + " " + valueOf(ofRight ? control : *left);
     }
-    return text.empty() ? "the same methods" : text;
+    if (!text.empty()) return text;
+    return compare.mode == CompareMode::Materials ? "the same materials" : "the same methods";
+}
+
+// Of both sides where their materials are compared.
+std::vector<Figure> Viewer::State::allFigures() const {
+    std::vector<Figure> all = figuresOf(*scene);
+    if (compare.mode != CompareMode::Materials) return all;
+    scene::Scene other = withMaterialsOf(*scene, *right);
+    for (scene::Object& object : other.objects)
+        object.name = besideOwner(object.name);
+    for (Figure& figure : figuresOf(other)) {
+        figure.place = Group::Mode; // as the controls of that side
+        all.push_back(std::move(figure));
+    }
+    return all;
 }
 
 std::string Viewer::State::numbersText(const measure::Metrics& m) const {
@@ -122,23 +137,22 @@ std::string Viewer::State::numbersText(const measure::Metrics& m) const {
 }
 
 std::string Viewer::State::compareText() {
-    const bool isMethods = compare.mode == CompareMode::Methods;
     std::string text;
     const auto add = [&](const std::string& line) { text += (text.empty() ? "" : "\n") + line; };
     const auto addSide = [&](const std::string& name, const Side& side) {
         const bool isKnown = truth && truthIsFresh() && side.of == pictureNumber && side.numbers;
         add(name + (isKnown ? ": " + numbersText(*side.numbers) : ""));
     };
-    if (isMethods) {
-        addSide("left: " + methodText(false), measured[0]);
-        addSide("right: " + methodText(true), measured[1]);
+    if (drawsRight(compare.mode)) {
+        addSide("left: " + differenceText(false), measured[0]);
+        addSide("right: " + differenceText(true), measured[1]);
     }
     if (!truth) return add("There is no truth of this scene yet."), text;
     if (!truthIsFresh()) return add("The scene has changed since its truth was made."), text;
     const measure::Metrics* numbers = measured[0].numbers ? &*measured[0].numbers : nullptr;
     if (measured[0].of != pictureNumber) return add("The error is being measured."), text;
     if (!numbers) return add("The picture cannot be measured."), text;
-    if (!isMethods) add(numbersText(*numbers));
+    if (!drawsRight(compare.mode)) add(numbersText(*numbers));
     if (!truth->noise)
         add("the truth's own noise is not known");
     else
@@ -153,18 +167,18 @@ std::string Viewer::State::compareText() {
 
 void Viewer::State::compareOverlay() {
     if (!scene || compare.mode == CompareMode::Off) return;
-    const bool isMethods = compare.mode == CompareMode::Methods;
+    const bool isDrawn = drawsRight(compare.mode);
     if (divided()) {
         const Rect place = besidePlace();
         const float x = dividerPlace();
-        drawDivider(x, place, {isMethods ? methodText(false) : "image", besideName()},
+        drawDivider(x, place, {isDrawn ? differenceText(false) : "image", besideName()},
                     grip == Grip::Divider || focus == "divider", theme(dark));
-        if (!isMethods && !truthIsFresh())
+        if (!isDrawn && !truthIsFresh())
             drawNotice("This truth shows the scene as it was before you changed it. Compute it again.",
                        {{x, place.low.y}, place.high}, theme(dark));
     }
     std::optional<ScaleEnds> scale;
-    if (divided() && besideImage() == &error && !isMethods)
+    if (divided() && besideImage() == &error && !isDrawn)
         scale = {"0", general(fullScale(measured[0].numbers->p99))};
     drawNumbersCard(compareText(), scale, openSize(), theme(dark));
 }
@@ -182,9 +196,9 @@ ComparisonReport Viewer::State::comparison() {
     report.scale = scale;
     const bool isMeasured = divided() && truthIsFresh() && measured[0].of == pictureNumber;
     if (isMeasured) report.numbers = measured[0].numbers;
-    if (scene && compare.mode == CompareMode::Methods) {
-        report.left = methodText(false);
-        report.right = methodText(true);
+    if (scene && drawsRight(compare.mode)) {
+        report.left = differenceText(false);
+        report.right = differenceText(true);
         if (isMeasured && measured[1].of == pictureNumber) report.rightNumbers = measured[1].numbers;
     }
     if (renderer) report.cost = renderer->stats();

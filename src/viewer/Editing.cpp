@@ -60,12 +60,20 @@ void Viewer::State::adopt(scene::Scene newScene) {
     light = 0;
     message.clear();
     asLoaded = right = *scene;
+    for (const BoundParam& bound : bindBeside(*right))
+        loaded.emplace(bound.path, getText(*bound.param, bound.data));
     asked.reset();
     dropTruth();
     dropTime.reset();
     balance.clear();
     bind();
     changed();
+}
+
+// A choice of how something is drawn.
+bool isMethod(const BoundParam& bound) {
+    return (bound.param->kind == Kind::Choice && bound.param->group != Group::None) ||
+           isPrecomputing(bound.path);
 }
 
 // The controls of the scene as it is now.
@@ -85,10 +93,11 @@ void Viewer::State::bind() {
     for (BoundParam& bound : bindCompare(compare))
         offerOfView(std::move(bound));
     for (BoundParam& bound : bindBeside(*right)) {
-        const bool isChoice = (bound.param->kind == Kind::Choice && bound.param->group != Group::None) ||
-                              isPrecomputing(bound.path);
-        bound.shown = compare.mode == CompareMode::Methods && isChoice &&
-                      !isIdle(*scene, bound.path.substr(kBeside.size()));
+        const std::string path = bound.path.substr(kBeside.size());
+        const bool isAsked = isOfRight(compare.mode, path) || !attributeName(bound).empty();
+        if (!isAsked && isOfRight(CompareMode::Materials, path)) continue; // there are many
+        const bool isOffered = compare.mode == CompareMode::Materials ? bound.shown : isMethod(bound);
+        bound.shown = isOfRight(compare.mode, path) && isOffered && !isIdle(*scene, path);
         const auto found = loaded.emplace(bound.path, getText(*bound.param, bound.data)).first;
         controls.push_back({std::move(bound), found->second});
     }
@@ -219,11 +228,13 @@ void Viewer::State::reset(const std::string& path) {
 // What belongs to the view alone is no step to take back, and changes no picture but by `matt`,
 // `accuracy` and layers of paint.
 Status Viewer::State::changeView(const BoundParam& bound, const std::string& value) {
+    const bool isBeside = bound.path.starts_with(kBeside);
+    if (isBeside && isOfRight(CompareMode::Materials, bound.path.substr(kBeside.size())))
+        return changeRight(bound.path.substr(kBeside.size()), value);
     const std::string before = getText(*bound.param, bound.data);
     if (Status set = setText(*bound.param, bound.data, value); !set)
         return Error{bound.path + " " + set.error().message};
     if (getText(*bound.param, bound.data) == before) return Done{};
-    const bool isBeside = bound.path.starts_with(kBeside);
     if (isBeside || bound.data == &compare.mode) dropSides();
     if (bound.data == &mode.mode || bound.data == &compare.mode || bound.path.starts_with("paint.") ||
         isBeside)
@@ -234,6 +245,16 @@ Status Viewer::State::changeView(const BoundParam& bound, const std::string& val
     if (seen) stale = true;
     ++revision;
     settled = false;
+    return Done{};
+}
+
+// Another kind of material takes other parameters with it.
+Status Viewer::State::changeRight(const std::string& path, const std::string& value) {
+    if (Status set = scene::setParam(*right, path, value); !set)
+        return Error{std::string(kBeside) + set.error().message};
+    dropSides();
+    bind();
+    ++revision;
     return Done{};
 }
 

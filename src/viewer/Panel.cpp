@@ -1,6 +1,7 @@
 #include "viewer/Panel.h"
 
 #include "base/Image.h"
+#include "viewer/Compare.h"
 
 #include <imgui_internal.h> // who is active
 
@@ -162,12 +163,15 @@ std::vector<Group> groupsOf(std::span<const Control> controls) {
 // "objects.coin" is called coin, its first layer "coin, layer 1", "lights.1" is called light 2, settings of
 // the picture beside it by their place, a technique as its table says.
 std::string ownerOf(const BoundParam& bound) {
-    const std::string_view path = bound.path;
+    std::string_view path = bound.path;
+    const bool isBeside = path.starts_with(kBeside);
+    if (isBeside) path.remove_prefix(kBeside.size());
     const std::size_t start = path.find('.') + 1;
     const std::string name(path.substr(start, path.find('.', start) - start));
+    if (isBeside && isOfRight(CompareMode::Materials, path)) return besideOwner(name);
+    if (isBeside) return "right of the divider";
     if (path.starts_with("objects."))
         return bound.label.empty() ? name : name + ", " + std::string(bound.label);
-    if (path.starts_with("beside.")) return "right of the divider";
     if (path.starts_with("lights.")) return "light " + std::to_string(std::atoi(name.c_str()) + 1);
     return std::string(bound.label);
 }
@@ -391,7 +395,10 @@ void Panel::Frame::ownerHeading(const std::string& owner) {
 void Panel::Frame::figureOf(const std::string& owner, Group group) {
     for (const Figure& figure : input_.figures)
         if (figure.owner == owner && figure.place == group) {
-            figure.draw(*list_, take(figure.height), width_, theme_);
+            const vec2 at = take(figure.height);
+            // Lines of a dozen figures that are scrolled out of sight would be more than a list can number.
+            if (ImGui::IsRectVisible(im(at), im(at + vec2(width_, figure.height))))
+                figure.draw(*list_, at, width_, theme_);
             take(kGap);
         }
 }

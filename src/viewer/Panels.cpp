@@ -78,7 +78,7 @@ void Viewer::State::frame() {
     panel.setCanvas(canvas());
 
     if (scene && figuresAt != revision) {
-        figures = figuresOf(*scene);
+        figures = allFigures();
         figuresAt = revision;
     }
     ImGui::NewFrame();

@@ -52,7 +52,7 @@ struct ComparisonReport {
     std::optional<Rect> place;   ///< of what is beside the picture, were the divider at its left; CSS pixels
     float scale = 1;             ///< pixels a CSS pixel
     std::optional<measure::Metrics> numbers;
-    std::string left, right; ///< of Methods: which
+    std::string left, right; ///< of Methods and Materials: which
     std::optional<measure::Metrics> rightNumbers;
     frame::Stats cost;
 };

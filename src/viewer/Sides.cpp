@@ -1,21 +1,24 @@
-// What is drawn for a comparison alone, once the picture is finished: the right side of Methods, and both
-// sides at the truth's size, where they are measured.
+// What is drawn for a comparison alone, once the picture is finished: the right side of Methods and of
+// Materials, and what is measured, at the truth's size.
 #include "viewer/State.h"
 
 namespace lucent::viewer {
 
 // What is still to be drawn; null while the picture itself is, or where nothing is.
 Viewer::State::Side* Viewer::State::nextSide() {
-    const bool isMethods = compare.mode == CompareMode::Methods;
     if (!divided() || phase != Phase::Done || stale || !shown || play.playing) return nullptr;
-    if (isMethods && other.of != pictureNumber) return &other;
+    if (drawsRight(compare.mode) && other.of != pictureNumber) return &other;
     if (!truthIsFresh()) return nullptr;
     if (measured[0].of != pictureNumber) return &measured[0];
-    return isMethods && measured[1].of != pictureNumber ? &measured[1] : nullptr;
+    const bool isOther = compare.mode == CompareMode::Methods; // of the same truth
+    return isOther && measured[1].of != pictureNumber ? &measured[1] : nullptr;
 }
 
 scene::Scene Viewer::State::sceneOf(const Side& side) {
-    scene::Scene drawn = &side == &measured[0] ? picture : withSettingsOf(picture, *right);
+    scene::Scene drawn = picture;
+    if (&side != &measured[0])
+        drawn = compare.mode == CompareMode::Materials ? withMaterialsOf(std::move(drawn), *right)
+                                                       : withSettingsOf(std::move(drawn), *right);
     leaveOutMissing(drawn);
     if (&side != &other) drawn.camera = scene->camera; // as the truth sees it
     return drawn;

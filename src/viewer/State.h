@@ -84,7 +84,8 @@ struct Viewer::State {
     bool stale = false, shown = false;              // the scene changed since; there is a picture to present
     std::vector<Figure> figures;
     std::uint64_t figuresAt = 0; // revision whose they are
-    bool settled = true;         // ImGui has nothing new to say
+    std::vector<Figure> allFigures() const;
+    bool settled = true; // ImGui has nothing new to say
     std::uint64_t shownHash = 0;
     int drawCount = 0;
     double frameTime = 0, hoverTime = 0;
@@ -111,14 +112,14 @@ struct Viewer::State {
     std::optional<Truth> truth;
     std::uint64_t freshAt = 0;         // revision at which `fresh` was found, 0: not yet
     bool fresh = false;                // the truth shows the scene as it is now
-    std::optional<scene::Scene> right; // whose settings the right side of Methods has
+    std::optional<scene::Scene> right; // whose settings or materials the right side has
     // What is drawn for the comparison alone, and of which picture.
     struct Side {
         Image image; // linear; empty: it could not be drawn
         std::uint64_t of = 0;
         std::optional<measure::Metrics> numbers;
     };
-    Side other;                             // the right side of Methods
+    Side other;                             // the right side of Methods and of Materials
     std::array<Side, 2> measured;           // both of them, at the truth's size
     Image error;                            // of the left one
     std::unique_ptr<frame::Renderer> sides; // draws them
@@ -178,6 +179,7 @@ struct Viewer::State {
     void setMaterials(const std::vector<scene::Material>& list);
     void reset(const std::string& path);
     void offerChoices(Control& control) const;
+    Status changeRight(const std::string& path, const std::string& value);
     Status changeView(const BoundParam& bound, const std::string& value);
     void assign(const void* member, vec3 value);
     void assign(const void* member, float value);
@@ -238,7 +240,7 @@ struct Viewer::State {
     // --- another picture beside it
     // Whether the picture ends at a divider.
     bool divided() const {
-        return scene && (compare.mode == CompareMode::Methods || (truth && compare.mode != CompareMode::Off));
+        return scene && (drawsRight(compare.mode) || (truth && compare.mode != CompareMode::Off));
     }
     bool truthIsFresh();
     void takeTruth(Truth newTruth);
@@ -249,7 +251,7 @@ struct Viewer::State {
     const Image* besideImage();
     std::optional<frame::Beside> beside();
     std::string besideName();
-    std::string methodText(bool ofRight) const;
+    std::string differenceText(bool ofRight) const;
     std::string numbersText(const measure::Metrics& numbers) const;
     std::string compareText();
     void compareOverlay();

@@ -200,6 +200,7 @@ TEST_F(CompareView, OffAgainShowsThePictureAsBefore) {
     EXPECT_GT(differences(before, window->read()), 10000);
     EXPECT_TRUE(viewer->key("c", {})); // error
     EXPECT_TRUE(viewer->key("c", {})); // methods
+    EXPECT_TRUE(viewer->key("c", {})); // materials
     EXPECT_TRUE(viewer->key("c", {})); // off
     settle();
     EXPECT_EQ(viewer->get("compare"), "off");
@@ -287,11 +288,45 @@ TEST_F(CompareView, MethodsMeasuresBothSidesAgainstTheTruth) {
     EXPECT_FALSE(viewer->undo()); // nothing of it changes the scene
 }
 
+TEST_F(CompareView, MaterialsShowsOtherSurfacesRightOfTheDivider) {
+    const std::string diffuse = "objects.field.material.diffuse", dark = "#402010";
+    load(kLampScene);
+    move({700, 390});
+    settle();
+    const auto middle = [&] { // above the cards, beside the handle
+        const float* shown = window->read().at(180, 150);
+        return vec3(shown[0], shown[1], shown[2]);
+    };
+    const vec3 bright = middle();
+    set(diffuse, dark);
+    const vec3 darkened = middle();
+    viewer->reset(diffuse);
+    ASSERT_GT(glm::distance(bright, darkened), 0.1f);
+    set("beside." + diffuse, dark);
+    set("compare", "materials");
+    set("divider", "0");
+    EXPECT_EQ(middle(), darkened);
+    set("divider", "1");
+    EXPECT_EQ(middle(), bright);
+    EXPECT_NE(comparison()["right"]["name"].get<std::string>().find("Diffuse"), std::string::npos);
+    EXPECT_NE(viewer->changes().find("\"beside." + diffuse), std::string::npos);
+    EXPECT_FALSE(viewer->set("beside.objects.field.material.exponent", "3").ok()); // no relief has one
+}
+
+// The truth shows the left side's materials.
+TEST_F(CompareView, MaterialsMeasuresTheLeftSideAlone) {
+    load(kLampScene);
+    set("beside.objects.field.material.diffuse", "#402010");
+    compare(picture(), "materials");
+    EXPECT_EQ(comparison()["rmse"].get<double>(), 0);
+    EXPECT_FALSE(comparison()["right"].contains("rmse"));
+}
+
 TEST_F(CompareView, AWrongModeSaysWhatIsExpected) {
     load(kLampScene);
     const Status wrong = viewer->set("compare", "both");
     ASSERT_FALSE(wrong.ok());
-    EXPECT_EQ(wrong.error().message, "compare is \"both\"; must be off, truth, error or methods");
+    EXPECT_EQ(wrong.error().message, "compare is \"both\"; must be off, truth, error, methods or materials");
 }
 
 } // namespace

@@ -142,6 +142,29 @@ test('two methods stand side by side with their errors after four actions', asyn
   await other.leave();
 });
 
+test('two materials stand side by side, and a link carries both', async () => {
+  const page = await openPage(stage, 'index.html#scene=made/dome.json', { viewport: { width: 1000, height: 900 } });
+  await complete(page);
+  await page.selectOption('#compare', 'materials');
+  assert.equal((await comparison(page)).right.name, 'the same materials');
+  await set(page, 'beside.objects.relief.material.diffuse', '#203060');
+  await quiet(page);
+  const found = await comparison(page);
+  assert.match(found.right.name, /^Diffuse/);
+  assert.notEqual(found.left, found.right.name);
+  const hash = await page.evaluate(() => location.hash);
+  assert.match(hash, /compare=materials/);
+  const other = await openPage(stage, 'index.html' + hash);
+  await complete(other);
+  assert.equal((await comparison(other)).right.name, found.right.name);
+  const figure = await open(kDome.replace('alt', 'compare="materials" beside-material-diffuse="#203060" alt'));
+  assert.equal((await comparison(figure)).right.name, found.right.name);
+  await figure.leave();
+  assert.deepEqual(page.problems, []);
+  await page.leave();
+  await other.leave();
+});
+
 test('the work shows its progress and ends when it is cancelled', async () => {
   const page = await open(kDome.replace('dome.json', 'sky.json'));
   await set(page, 'compare', 'truth');
