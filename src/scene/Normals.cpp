@@ -17,66 +17,107 @@ constexpr double kHalfTurn = std::numbers::pi;
 // Rows by columns of the picture, in double: the sums run over millions of texels.
 using Field = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Cosine transforms of rows, equally fast for all lengths N, primes too: X_k = Re e(k/2) sum_n x_n e(nk) with
-// e(a) = exp(-i pi a / N). As nk = (n^2 + k^2 - (k - n)^2) / 2, the sum is a convolution with a chirp
-// (Bluestein 1970), done by Fourier transforms whose length is a power of two.
-class CosineTransform {
+using Complex = std::complex<double>;
+
+// exp(-i pi a / b)
+Complex turned(std::size_t a, std::size_t b) { return std::polar(1.0, -kHalfTurn * double(a) / double(b)); }
+
+// X_k = sum_n x_n exp(-2 pi i nk / N), equally fast for all lengths N, primes too. The library's own is for
+// those of small factors alone. For others, as 2 nk = n^2 + k^2 - (k - n)^2, the sum is a convolution with a
+// chirp (Bluestein 1970), done by transforms whose length is a power of two.
+class FourierTransform {
 public:
-    explicit CosineTransform(Eigen::Index length) : length_(std::size_t(length)) {
-        for (std::size_t n = 0; n < length_; ++n) {
-            halfTurns_.push_back(std::polar(1.0, -kHalfTurn * double(n) / double(2 * length_)));
-            // The angle is taken modulo a full turn while it is still an integer.
-            chirp_.push_back(
-                std::polar(1.0, -kHalfTurn * double(n * n % (4 * length_)) / double(2 * length_)));
-        }
-        std::vector<Complex> kernel(std::bit_ceil(2 * length_));
-        for (std::size_t n = 0; n < length_; ++n)
+    explicit FourierTransform(std::size_t length) : length_(length) {
+        std::size_t rest = length;
+        for (const std::size_t factor : {2, 3, 5})
+            while (rest % factor == 0)
+                rest /= factor;
+        if (rest == 1 && length > 1) return; // it takes no single value
+        for (std::size_t n = 0; n < length;
+             ++n) // the angle is taken modulo a full turn while it is still an integer
+            chirp_.push_back(turned(n * n % (2 * length), length));
+        std::vector<Complex> kernel(std::bit_ceil(2 * length));
+        for (std::size_t n = 0; n < length; ++n)
             kernel[n] = kernel[(kernel.size() - n) % kernel.size()] = std::conj(chirp_[n]);
         fft_.fwd(kernel_, kernel);
-        padded_.resize(kernel.size());
     }
 
-    // X_k = sum_n x_n cos(pi k (2n + 1) / 2N)
-    void forward(Field& field) {
-        for (auto row : field.rowwise()) {
-            for (std::size_t n = 0; n < length_; ++n)
-                padded_[n] = row[Eigen::Index(n)];
-            sum();
-            for (std::size_t k = 0; k < length_; ++k)
-                row[Eigen::Index(k)] = (halfTurns_[k] * padded_[k]).real();
+    void apply(std::vector<Complex>& values) {
+        if (chirp_.empty()) {
+            fft_.fwd(spectrum_, values);
+            std::swap(spectrum_, values);
+            return;
         }
-    }
-
-    // x_n = (X_0 + 2 sum_k X_k cos(pi k (2n + 1) / 2N)) / N
-    void inverse(Field& field) {
-        for (auto row : field.rowwise()) {
-            for (std::size_t k = 0; k < length_; ++k)
-                padded_[k] = (k ? 2.0 : 1.0) / double(length_) * row[Eigen::Index(k)] * halfTurns_[k];
-            sum();
-            for (std::size_t n = 0; n < length_; ++n)
-                row[Eigen::Index(n)] = padded_[n].real();
-        }
-    }
-
-private:
-    using Complex = std::complex<double>;
-
-    // padded_[k] becomes sum_n padded_[n] exp(-i pi n k / N).
-    void sum() {
+        padded_.assign(kernel_.size(), 0.0);
         for (std::size_t n = 0; n < length_; ++n)
-            padded_[n] *= chirp_[n];
-        std::fill(padded_.begin() + std::ptrdiff_t(length_), padded_.end(), 0.0);
+            padded_[n] = values[n] * chirp_[n];
         fft_.fwd(spectrum_, padded_);
         for (std::size_t i = 0; i < kernel_.size(); ++i)
             spectrum_[i] *= kernel_[i];
         fft_.inv(padded_, spectrum_);
         for (std::size_t k = 0; k < length_; ++k)
-            padded_[k] *= chirp_[k];
+            values[k] = padded_[k] * chirp_[k];
+    }
+
+private:
+    std::size_t length_;
+    std::vector<Complex> chirp_, kernel_, padded_, spectrum_;
+    Eigen::FFT<double> fft_;
+};
+
+// Cosine transforms of rows, by Fourier transforms of the same length (Makhoul 1980): of a row's even places
+// forwards, then its odd ones backwards. Two rows are the real and the imaginary part of one.
+class CosineTransform {
+public:
+    explicit CosineTransform(Eigen::Index length)
+        : length_(std::size_t(length)), fourier_(length_), values_(length_) {
+        for (std::size_t k = 0; k < length_; ++k)
+            quarterTurns_.push_back(turned(k, 2 * length_));
+    }
+
+    // X_k = sum_n x_n cos(pi k (2n + 1) / 2N)
+    void forward(Field& field) {
+        for (Eigen::Index y = 0; y < field.rows(); y += 2) {
+            const Eigen::Index next = std::min(y + 1, field.rows() - 1);
+            for (std::size_t n = 0; n < length_; ++n)
+                values_[n] = Complex(field(y, placeOf(n)), field(next, placeOf(n)));
+            fourier_.apply(values_);
+            for (std::size_t k = 0; k < length_; ++k) {
+                const Complex a = values_[k], b = std::conj(values_[(length_ - k) % length_]);
+                field(next, Eigen::Index(k)) = 0.5 * (quarterTurns_[k] * (a - b)).imag();
+                field(y, Eigen::Index(k)) = 0.5 * (quarterTurns_[k] * (a + b)).real();
+            }
+        }
+    }
+
+    // x_n = (X_0 + 2 sum_k X_k cos(pi k (2n + 1) / 2N)) / N
+    void inverse(Field& field) {
+        const auto spectrumOf = [&](Eigen::Index y,
+                                    std::size_t k) { // of a row's places as forward() takes them
+            const double opposite = k ? field(y, Eigen::Index(length_ - k)) : 0;
+            return std::conj(quarterTurns_[k]) * Complex(field(y, Eigen::Index(k)), -opposite);
+        };
+        for (Eigen::Index y = 0; y < field.rows(); y += 2) {
+            const Eigen::Index next = std::min(y + 1, field.rows() - 1);
+            for (std::size_t k = 0; k < length_; ++k) // conjugate, which makes it the inverse
+                values_[k] =
+                    std::conj(spectrumOf(y, k) + Complex(0, 1) * spectrumOf(next, k)) / double(length_);
+            fourier_.apply(values_);
+            for (std::size_t n = 0; n < length_; ++n) {
+                field(next, placeOf(n)) = -values_[n].imag();
+                field(y, placeOf(n)) = values_[n].real();
+            }
+        }
+    }
+
+private:
+    Eigen::Index placeOf(std::size_t n) const {
+        return Eigen::Index(2 * n < length_ ? 2 * n : 2 * (length_ - n) - 1);
     }
 
     std::size_t length_;
-    std::vector<Complex> halfTurns_, chirp_, kernel_, padded_, spectrum_;
-    Eigen::FFT<double> fft_;
+    FourierTransform fourier_;
+    std::vector<Complex> values_, quarterTurns_;
 };
 
 void transformColumns(Field& field, CosineTransform& transform, void (CosineTransform::*direction)(Field&)) {
