@@ -20,8 +20,9 @@ namespace lucent::measure {
 namespace {
 
 constexpr std::string_view kLamps[] = {"point", "spot", "distant", "area", "projector", "environment"};
-constexpr std::string_view kBetween[] = {"nothing",    "matt box",        "relief 2.5 %", "mirror",
-                                         "glass ball", "absorbing glass", "marble ball",  "water"};
+constexpr std::string_view kBetween[] = {"nothing",         "matt box",    "pierced mesh",
+                                         "relief 2.5 %",    "mirror",      "glass ball",
+                                         "absorbing glass", "marble ball", "water"};
 constexpr std::string_view kReceivers[] = {
     "matt plane", "matt mesh",   "textured mesh",    "displaced mesh",      "relief 3 %",
     "relief 0",   "marble slab", "precomputed slab", "floor through glass", "floor in a mirror"};
@@ -112,11 +113,38 @@ void addLamp(scene::Scene& scene, std::string_view lamp) {
         scene.environment.emplace().map = windowMap();
 }
 
+// A plate with round holes, which its picture's alpha says.
+void pierce(scene::Object& object) {
+    constexpr float kSide = 0.4f;
+    constexpr int kTexels = 16;
+    scene::Mesh mesh = meshOf(scene::Plane{{kSide, kSide}});
+    for (const vec3& p : mesh.positions)
+        mesh.coordinates.push_back(0.5f + 2.0f * vec2(p.x, p.z) / kSide);
+    auto image = std::make_shared<scene::TextureImage>();
+    image->size = {kTexels, kTexels};
+    for (int i = 0; i < kTexels * kTexels; ++i) {
+        const vec2 angle = 2 * std::numbers::pi_v<float> / kTexels * (vec2(i % kTexels, i / kTexels) + 0.5f);
+        const float alpha = 0.5f - 0.25f * (std::cos(angle.x) + std::cos(angle.y));
+        image->texels.insert(image->texels.end(), {255, 255, 255, std::uint8_t(std::lround(255 * alpha))});
+    }
+    image->findLeast();
+    mesh.images = {std::move(image)};
+    scene::Mesh::Part& part = mesh.parts.emplace_back();
+    part.material = "plate";
+    part.indexCount = std::uint32_t(mesh.indices.size());
+    part.textures.color.image = 0;
+    part.textures.cutoff = 0.35f;
+    object.material.kind = scene::Matt{}; // which shows textures
+    object.shape = scene::MeshShape{
+        .source = "plate.mesh", .part = "", .mesh = std::make_shared<const scene::Mesh>(std::move(mesh))};
+}
+
 void addBetween(scene::Scene& scene, std::string_view between) {
     const vec3 place(0.1f, 0.55f, 0.05f);
     if (between == "nothing") return;
     scene::Object object = objectOf("between", scene::Sphere{0.16f}, place);
     if (between == "matt box") object.shape = scene::Box{vec3(0.25f)};
+    if (between == "pierced mesh") pierce(object);
     if (between == "relief 2.5 %") object = reliefOf("between", 0.4f, 0.05f, 0.01f, place);
     if (between == "mirror") {
         object.shape = scene::Box{{0.3f, 0.02f, 0.3f}};

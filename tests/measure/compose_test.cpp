@@ -15,6 +15,7 @@ TEST_F(Compose, ABoxAReliefAndAFloorShadeEachOtherWithinTheTarget) {
     for (const auto& [lamp, between, receiver] : {std::array{"distant", "matt box", "relief 3 %"},
                                                   {"spot", "relief 2.5 %", "relief 0"},
                                                   {"area", "matt box", "matt mesh"},
+                                                  {"spot", "pierced mesh", "matt mesh"},
                                                   {"projector", "matt box", "matt plane"}}) {
         const ComposeCell cell = measureCompose(*context, lamp, between, receiver);
         EXPECT_TRUE(cell.isMet()) << cell.name() << ": " << cell.misplaced << ", flux " << cell.flux;
@@ -25,6 +26,7 @@ TEST_F(Compose, ABoxAReliefAndAFloorShadeEachOtherWithinTheTarget) {
 TEST_F(Compose, WhatTheCameraDoesNotSeeStandsInTheWayOfScatteringAndOfCaustics) {
     for (const auto& [between, receiver] : {std::array{"relief 2.5 %", "marble slab"},
                                             {"relief 2.5 %", "floor through glass"},
+                                            {"pierced mesh", "floor through glass"},
                                             {"marble ball", "floor through glass"}}) {
         const ComposeCell cell = measureCompose(*context, "distant", between, receiver);
         EXPECT_TRUE(cell.isMet()) << cell.name() << ": " << cell.misplaced << ", flux " << cell.flux;
