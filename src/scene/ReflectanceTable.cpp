@@ -132,33 +132,44 @@ dvec3 lookUpMerl(const Image& table, const dvec3& toLight, const dvec3& toEye) {
     return weights > 0 ? sum / weights : dvec3(0);
 }
 
-// @param texelOf  a texel's colour from its block and its place there
-template <class TexelOf>
-dvec3 betweenBlocks(TableForm form, int n, int m, const dvec3& toLight, const dvec3& toEye, TexelOf texelOf) {
-    const dvec2 block = squareFrom(toLight, form) * double(n) - 0.5,
-                texel = squareFrom(toEye, form) * double(m) - 0.5;
-    const Between bx(block.x), by(block.y), tx(texel.x), ty(texel.y);
-    dvec3 sum(0);
-    for (int corner = 0; corner < 16; ++corner) {
-        const int a = corner & 1, b = corner >> 1 & 1, c = corner >> 2 & 1, d = corner >> 3;
-        sum += bx.share(a) * by.share(b) * tx.share(c) * ty.share(d) *
-               texelOf(ivec2(bx.clamped(a, n), by.clamped(b, n)), ivec2(tx.clamped(c, m), ty.clamped(d, m)));
+// The block and texel around a pair of directions, and the three beside each towards which they lie.
+struct Around {
+    Between bx, by, tx, ty;
+    int n, m;
+    Around(TableForm form, int n, int m, const dvec3& toLight, const dvec3& toEye)
+        : Around(squareFrom(toLight, form) * double(n) - 0.5, squareFrom(toEye, form) * double(m) - 0.5, n,
+                 m) {}
+    Around(dvec2 block, dvec2 texel, int n, int m)
+        : bx(block.x), by(block.y), tx(texel.x), ty(texel.y), n(n), m(m) {}
+    ivec2 block(int corner) const { return {bx.clamped(corner & 1, n), by.clamped(corner >> 1, n)}; }
+    ivec2 texel(int corner) const { return {tx.clamped(corner & 1, m), ty.clamped(corner >> 1, m)}; }
+    double share(int block, int texel) const {
+        return bx.share(block & 1) * by.share(block >> 1) * tx.share(texel & 1) * ty.share(texel >> 1);
     }
+};
+
+// @param valueOf  of the corners' numbers of block and texel
+template <class ValueOf>
+dvec3 mixed(const Around& around, ValueOf valueOf) {
+    dvec3 sum(0);
+    for (int texel = 0; texel < 4; ++texel)
+        for (int block = 0; block < 4; ++block)
+            sum += around.share(block, texel) * dvec3(valueOf(block, texel));
     return sum;
 }
 
 dvec3 lookUpBlocks(const Image& table, TableForm form, int n, const dvec3& toLight, const dvec3& toEye) {
     const int m = table.width / n;
-    return betweenBlocks(form, n, m, toLight, toEye, [&](ivec2 block, ivec2 texel) {
-        const float* value = table.at(block.x * m + texel.x, block.y * m + texel.y);
-        return dvec3(value[0], value[1], value[2]);
+    const Around around(form, n, m, toLight, toEye);
+    return mixed(around, [&](int block, int texel) {
+        const ivec2 at = around.block(block) * m + around.texel(texel);
+        const float* value = table.at(at.x, at.y);
+        return vec3(value[0], value[1], value[2]);
     });
 }
 
-// What a table holds of a BRDF: at the middles of a block and of a texel in it.
-vec3 texelOf(const Brdf& brdf, TableForm form, int n, int m, ivec2 block, ivec2 texel) {
-    return brdf(directionFrom((dvec2(block) + 0.5) / double(n), form),
-                directionFrom((dvec2(texel) + 0.5) / double(m), form));
+dvec3 directionOf(ivec2 at, int count, TableForm form) {
+    return directionFrom((dvec2(at) + 0.5) / double(count), form);
 }
 
 } // namespace
@@ -188,9 +199,13 @@ dvec3 lookUp(const Image& table, TableForm form, int blocks, const dvec3& toLigh
 dvec3 lookUp(const Brdf& brdf, TableForm form, int blocks, int texels, const dvec3& toLight,
              const dvec3& toEye) {
     if (toLight.z <= 0 || toEye.z <= 0) return dvec3(0);
-    return betweenBlocks(form, blocks, texels, toLight, toEye, [&](ivec2 block, ivec2 texel) {
-        return dvec3(texelOf(brdf, form, blocks, texels, block, texel));
-    });
+    const Around around(form, blocks, texels, toLight, toEye);
+    dvec3 lights[4], eyes[4];
+    for (int corner = 0; corner < 4; ++corner) {
+        lights[corner] = directionOf(around.block(corner), blocks, form);
+        eyes[corner] = directionOf(around.texel(corner), texels, form);
+    }
+    return mixed(around, [&](int block, int texel) { return brdf(lights[block], eyes[texel]); });
 }
 
 dvec2 squareFrom(const dvec3& direction, TableForm form) {
@@ -224,7 +239,7 @@ Image tabulate(const Brdf& brdf, TableForm form, int blocks, int texels) {
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             const ivec2 at(x, y), block = at / texels, texel = at % texels;
-            const vec3 value = texelOf(brdf, form, blocks, texels, block, texel);
+            const vec3 value = brdf(directionOf(block, blocks, form), directionOf(texel, texels, form));
             std::memcpy(table.at(x, y), &value, sizeof value);
         }
     return table;

@@ -95,6 +95,19 @@ vec3 cosineDirection(vec2 u) {
     return {r * std::cos(turn), r * std::sin(turn), std::sqrt(1 - u.x)};
 }
 
+// BRDF alone, 1/sr; for many directions.
+scene::Brdf brdfOf(const scene::Material& material) {
+    if (std::holds_alternative<scene::MeasuredBrdf>(material.kind))
+        return [&material](const dvec3& toLight, const dvec3& toEye) {
+            return shareOf(material, kUp, vec3(toLight), vec3(toEye)) / float(toLight.z);
+        };
+    return [reflector = glslOf(material)](const dvec3& toLight, const dvec3& toEye) {
+        const glsl::Angles angles = glsl::anglesOf(kUp, vec3(toLight), vec3(toEye));
+        return (glsl::mattShare(reflector, angles) + glsl::mirroredShare(reflector, angles)) /
+               float(toLight.z);
+    };
+}
+
 } // namespace
 
 vec3 shareOf(const scene::Material& material, vec3 normal, vec3 toLight, vec3 toEye) {
@@ -147,9 +160,7 @@ float reciprocityError(const scene::Material& material) {
 }
 
 float tableError(const scene::Material& material, scene::TableForm form, int blocks, int texels, int pairs) {
-    const scene::Brdf brdf = [&](const dvec3& toLight, const dvec3& toEye) {
-        return shareOf(material, kUp, vec3(toLight), vec3(toEye)) / float(toLight.z);
-    };
+    const scene::Brdf brdf = brdfOf(material);
     const bool isMerl = form == scene::TableForm::Merl;
     const Image whole = isMerl ? scene::tabulate(brdf, form, blocks, texels) : Image();
     const auto direction = [](double share, double turn) {

@@ -17,7 +17,7 @@ namespace {
 constexpr float kLobeHeight = 190, kChartHeight = 156; // CSS pixels
 constexpr float kMostAngle = 85; // degrees: of a lamp at the horizon nothing would be seen
 constexpr float kAngles[] = {0, 60, 80};
-constexpr int kPairs = 256;                           // of directions, in which tables are judged
+constexpr int kPairs = 128;                           // of directions, in which tables are judged
 constexpr float kLeastError = 1e-3f, kMostError = 10; // of the chart
 
 using viewer::Theme;
