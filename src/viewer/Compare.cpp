@@ -151,10 +151,11 @@ scene::Scene withSettingsOf(scene::Scene scene, const scene::Scene& settings) {
     return scene;
 }
 
-scene::Scene withMaterialsOf(scene::Scene scene, const scene::Scene& materials) {
+scene::Scene withMaterialsOf(const scene::Scene& scene, const scene::Scene& materials) {
+    scene::Scene drawn = scene;
     for (std::size_t i = 0; i < std::min(scene.objects.size(), materials.objects.size()); ++i)
-        scene.objects[i].material = materials.objects[i].material;
-    return scene;
+        drawn.objects[i].material = materials.objects[i].material;
+    return withSettingsOf(std::move(drawn), scene); // how light inside is worked out is no material
 }
 
 Image asTruthImage(const Image& picture) {

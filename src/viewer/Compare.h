@@ -45,7 +45,7 @@ std::vector<BoundParam> bindBeside(scene::Scene& right);
 /// `scene` with the settings of another one, of the same objects: the same light by other methods.
 scene::Scene withSettingsOf(scene::Scene scene, const scene::Scene& settings);
 /// `scene` with the materials of another one, of the same objects.
-scene::Scene withMaterialsOf(scene::Scene scene, const scene::Scene& materials);
+scene::Scene withMaterialsOf(const scene::Scene& scene, const scene::Scene& materials);
 
 /// An exact picture and the scene that it shows.
 struct Truth {

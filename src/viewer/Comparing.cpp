@@ -107,7 +107,7 @@ std::string Viewer::State::differenceText(bool ofRight) const {
         const auto valueOf = [](const Control& of) { return getText(*of.bound.param, of.bound.data); };
         if (valueOf(control) == valueOf(*left)) continue;
         const bool isOfOne = compare.mode == CompareMode::Materials && scene->objects.size() > 1;
-        text += (text.empty() ? "" : ", ") + (isOfOne ? ownerOf(left->bound) + " " : "") +
+        text += (text.empty() ? "" : ", ") + (isOfOne ? ownerOf(left->bound) + ": " : "") +
                 std::string(control.bound.param->label) + " " + valueOf(ofRight ? control : *left);
     }
     if (!text.empty()) return text;

@@ -34,6 +34,12 @@ bool kindsDiffer(const std::vector<scene::Material>& a, const std::vector<scene:
     });
 }
 
+// A choice of how something is drawn.
+bool isMethod(const BoundParam& bound) {
+    return (bound.param->kind == Kind::Choice && bound.param->group != Group::None) ||
+           isPrecomputing(bound.path);
+}
+
 } // namespace
 
 void Viewer::State::changed() {
@@ -68,12 +74,6 @@ void Viewer::State::adopt(scene::Scene newScene) {
     balance.clear();
     bind();
     changed();
-}
-
-// A choice of how something is drawn.
-bool isMethod(const BoundParam& bound) {
-    return (bound.param->kind == Kind::Choice && bound.param->group != Group::None) ||
-           isPrecomputing(bound.path);
 }
 
 // The controls of the scene as it is now.

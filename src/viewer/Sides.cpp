@@ -15,10 +15,9 @@ Viewer::State::Side* Viewer::State::nextSide() {
 }
 
 scene::Scene Viewer::State::sceneOf(const Side& side) {
-    scene::Scene drawn = picture;
-    if (&side != &measured[0])
-        drawn = compare.mode == CompareMode::Materials ? withMaterialsOf(std::move(drawn), *right)
-                                                       : withSettingsOf(std::move(drawn), *right);
+    scene::Scene drawn = &side == &measured[0]                    ? picture
+                         : compare.mode == CompareMode::Materials ? withMaterialsOf(picture, *right)
+                                                                  : withSettingsOf(picture, *right);
     leaveOutMissing(drawn);
     if (&side != &other) drawn.camera = scene->camera; // as the truth sees it
     return drawn;

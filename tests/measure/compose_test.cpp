@@ -2,6 +2,7 @@
 // their own.
 #include "measure/Compose.h"
 
+#include "scene/Mesh.h"
 #include "tests/support/Gl.h"
 
 #include <gtest/gtest.h>
@@ -21,6 +22,13 @@ TEST_F(Compose, ABoxAReliefAndAFloorShadeEachOtherWithinTheTarget) {
         EXPECT_TRUE(cell.isMet()) << cell.name() << ": " << cell.misplaced << ", flux " << cell.flux;
         EXPECT_LT(cell.byNoise, cell.target / 4) << cell.name();
     }
+}
+
+TEST(ComposeScene, ThePiercedMeshHasHoles) { // without them picture and truth would agree as well
+    const scene::Scene scene = composeScene("spot", "pierced mesh", "matt plane");
+    const scene::Textures* textures = scene::texturesOf(scene.objects.back());
+    ASSERT_TRUE(textures);
+    EXPECT_TRUE(textures->hasHoles());
 }
 
 TEST_F(Compose, WhatTheCameraDoesNotSeeStandsInTheWayOfScatteringAndOfCaustics) {

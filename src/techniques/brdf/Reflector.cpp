@@ -95,17 +95,9 @@ vec3 cosineDirection(vec2 u) {
     return {r * std::cos(turn), r * std::sin(turn), std::sqrt(1 - u.x)};
 }
 
-// BRDF alone, 1/sr; for many directions.
-scene::Brdf brdfOf(const scene::Material& material) {
-    if (std::holds_alternative<scene::MeasuredBrdf>(material.kind))
-        return [&material](const dvec3& toLight, const dvec3& toEye) {
-            return shareOf(material, kUp, vec3(toLight), vec3(toEye)) / float(toLight.z);
-        };
-    return [reflector = glslOf(material)](const dvec3& toLight, const dvec3& toEye) {
-        const glsl::Angles angles = glsl::anglesOf(kUp, vec3(toLight), vec3(toEye));
-        return (glsl::mattShare(reflector, angles) + glsl::mirroredShare(reflector, angles)) /
-               float(toLight.z);
-    };
+vec3 shareOf(const glsl::Reflector& reflector, vec3 normal, vec3 toLight, vec3 toEye) {
+    const glsl::Angles angles = glsl::anglesOf(normal, toLight, toEye);
+    return glsl::mattShare(reflector, angles) + glsl::mirroredShare(reflector, angles);
 }
 
 } // namespace
@@ -117,9 +109,17 @@ vec3 shareOf(const scene::Material& material, vec3 normal, vec3 toLight, vec3 to
         return vec3(scene::lookUp(*measured->table, measured->form, measured->blocks, light, eye) *
                     std::max(light.z, 0.0));
     }
-    const glsl::Reflector reflector = glslOf(material);
-    const glsl::Angles angles = glsl::anglesOf(normal, toLight, toEye);
-    return glsl::mattShare(reflector, angles) + glsl::mirroredShare(reflector, angles);
+    return shareOf(glslOf(material), normal, toLight, toEye);
+}
+
+scene::Brdf brdfOf(const scene::Material& material) {
+    if (const auto* measured = std::get_if<scene::MeasuredBrdf>(&material.kind))
+        return [held = *measured](const dvec3& toLight, const dvec3& toEye) {
+            return vec3(scene::lookUp(*held.table, held.form, held.blocks, toLight, toEye));
+        };
+    return [reflector = glslOf(material)](const dvec3& toLight, const dvec3& toEye) {
+        return shareOf(reflector, kUp, vec3(toLight), vec3(toEye)) / float(toLight.z);
+    };
 }
 
 vec3 directionalAlbedo(const scene::Material& material, float cosine) {

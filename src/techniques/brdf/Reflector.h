@@ -1,7 +1,7 @@
 #pragma once
 /// How glossy materials send light back, by the very lines that the shaders run (shaders/brdf/models.glsl).
 
-#include "scene/Scene.h"
+#include "scene/ReflectanceTable.h"
 
 namespace lucent::brdf {
 
@@ -24,6 +24,9 @@ bool showsObjects(const scene::Object& object);
 ///
 /// @param normal, toLight, toEye  unit
 vec3 shareOf(const scene::Material& material, vec3 normal, vec3 toLight, vec3 toEye);
+
+/// The BRDF itself, for many directions around a normal of +z, both above the surface.
+scene::Brdf brdfOf(const scene::Material& material);
 
 /// Share of even light from all around that is seen from a cosine to the normal, of each colour: the white
 /// furnace's number, which no more than 1 of conserves energy. To 0.5 %.

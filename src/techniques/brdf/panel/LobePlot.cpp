@@ -96,8 +96,8 @@ LobePlot plotOf(const scene::Scene& scene, const scene::Object& object) {
     plot.lightAngle = angle * 180 / kPi;
     plot.lightTurn = std::atan2(lamp.y, lamp.x);
     const vec3 toLight = direction(angle, plot.lightTurn);
-    const auto brdf = [&](float theta, float phi) {
-        return shareOf(material, vec3(0, 0, 1), toLight, direction(theta, phi)) / toLight.z;
+    const auto brdf = [of = brdfOf(material), toLight](float theta, float phi) {
+        return of(dvec3(toLight), dvec3(direction(theta, phi)));
     };
     for (int ring = 0; ring < LobePlot::kRings; ++ring)
         for (int spoke = 0; spoke < LobePlot::kSpokes; ++spoke)
@@ -207,10 +207,10 @@ std::string jsonOf(const LobePlot& plot) {
 // Errors of tables over m, a line for each n; both logarithmic.
 void drawTables(ImDrawList& list, vec2 at, float width, const LobePlot::Laws& laws, const Theme& theme) {
     constexpr ImU32 kProjected = IM_COL32(226, 120, 40, 255), kEqualArea = IM_COL32(60, 130, 230, 255);
-    list.AddText({at.x, at.y}, theme.muted, "Error of a table over texels of a block, m;");
-    list.AddText({at.x, at.y + 16}, theme.muted, "a line for each n:");
-    list.AddText({at.x + 112, at.y + 16}, kProjected, "projected");
-    list.AddText({at.x + 180, at.y + 16}, kEqualArea, "equal-area");
+    list.AddText({at.x, at.y}, theme.muted, "Error as a table, n x n blocks of m x m texels");
+    list.AddText({at.x, at.y + 16}, kProjected, "projected");
+    list.AddText({at.x + 72, at.y + 16}, kEqualArea, "equal-area");
+    list.AddText({at.x + 150, at.y + 16}, theme.muted, "across m, lines n");
     const vec2 low = at + vec2(44, 42), size(width - 68, kChartHeight - 60);
     const float decades = std::log10(kMostError / kLeastError);
     const auto heightOf = [&](float error) {
