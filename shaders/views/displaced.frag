@@ -14,6 +14,7 @@
 #pragma variants - SEARCHED
 #include "views/displaced_block.glsl"
 #include "views/prism.glsl"
+#include "views/prism_ray.glsl"
 #include "views/height_search.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
@@ -67,13 +68,8 @@ void main() {
     if (isFirst(displaced.object)) discard;
 #endif
     Prism prism = prismOf(vPrism);
-    vec4 onFarPlane =
-        displaced.objectFromPixel * vec4(gl_FragCoord.xy - displaced.corner - 0.5 * displaced.size, 1.0, 1.0);
-    vec3 far = onFarPlane.xyz / onFarPlane.w;
-    vec3 direction = displaced.eye.w == 0.0 ? displaced.eye.xyz : normalize(far - displaced.eye.xyz);
-    // Measured from the place of the ray nearest to the triangle's middle: near it floats are dense.
-    vec3 aside = far - prism.middle;
-    vec3 origin = aside - dot(aside, direction) * direction;
+    PrismRay ray = eyeRayIn(prism);
+    vec3 origin = ray.origin, direction = ray.direction;
     Stretch inside = stretchIn(prism, origin, direction, displaced.span);
     float from = inside.from;
     if (displaced.eye.w != 0.0) from = max(from, dot(displaced.eye.xyz - prism.middle - origin, direction));

@@ -17,4 +17,6 @@ layout(std140) uniform DisplacedBlock {
     int searchSteps;
     int refineSteps;
     int isClosed; // 0: seen from below the surface is a flat floor
+    float normalScale; // of textures, this and the rest
+    vec4 wraps; // as in views/mesh_block.glsl
 } displaced;

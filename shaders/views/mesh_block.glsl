@@ -8,6 +8,5 @@ layout(std140) uniform MeshBlock {
     int firstCorner; // of a refractive mesh, among those of all
     float normalScale; // of textured meshes, this and the rest
     float cutoff;      // where the alpha of color is below, nothing is there
-    vec4 wraps; // of color, emission, roughness and normal: along u + 3 * along v, as scene::Wrap counts, + 9 by the
-                // second set of coordinates
+    vec4 wraps; // of color, emission, roughness and normal: codes of views/texture_at.glsl
 } mesh;

@@ -3,7 +3,7 @@
 //
 // A place in it has weights w of corners 1 and 2 and a height z [m]: p0 + w.x (p1 - p0) + w.y (p2 - p0) + z d, with d
 // mixed by the same weights of the corners' directions.
-uniform sampler2D uPrisms; // 8 texels a triangle: 3 places with u, 3 directions with v, walls
+uniform sampler2D uPrisms; // 8 texels a triangle: 3 places with u, 3 directions with v, walls with 3 vertices
 
 struct Prism {
     vec3 middle; // object space; places below are measured from it
@@ -33,6 +33,9 @@ Prism prismOf(int number) {
     prism.walls = int(prismTexel(number, 6).x);
     return prism;
 }
+
+// Of the mesh below the corner.
+int vertexOf(int number, int corner) { return int(prismTexel(number, 6)[1 + corner]); }
 
 vec3 directionAt(Prism prism, vec2 w) {
     return prism.direction[0] + w.x * (prism.direction[1] - prism.direction[0]) +

@@ -11,6 +11,7 @@
 #ifdef HOLES
 #include "views/texture_at.glsl"
 uniform sampler2D uColor;
+in vec4 vCoordinate;
 #endif
 in float vDepth;
 layout(location = 0) out float oDepth;
@@ -21,7 +22,7 @@ const float kSame = 1e-5; // of a depth: what rounding may part
 
 void main() {
 #ifdef HOLES
-    if (textureAt(uColor, mesh.wraps.x).a < mesh.cutoff) discard;
+    if (textureAt(uColor, vCoordinate, mesh.wraps.x).a < mesh.cutoff) discard;
 #endif
 #ifdef BEHIND
 #ifdef BACK

@@ -15,6 +15,7 @@
 #ifdef HOLES
 #include "views/texture_at.glsl"
 uniform sampler2D uColor;
+in vec4 vCoordinate;
 #endif
 in vec3 vNormal;
 in float vDepth;
@@ -22,7 +23,7 @@ layout(location = 0) out vec4 oSurface;
 
 void main() {
 #ifdef HOLES
-    if (textureAt(uColor, mesh.wraps.x).a < mesh.cutoff) discard;
+    if (textureAt(uColor, vCoordinate, mesh.wraps.x).a < mesh.cutoff) discard;
 #endif
 #ifdef SECOND
     if (isFirst(mesh.object)) discard;

@@ -1,10 +1,7 @@
-// views/texture_at.glsl: textures of meshes at the place of a pixel on them, bilinear between texels. Needs
-// views/mesh_block.glsl.
-in vec4 vCoordinate; // xy: of the first set, zw: of the second
-
-// How one texture lies, of mesh.wraps.
+// views/texture_at.glsl: textures of meshes, bilinear between texels. A place on them has coordinates of two sets, the
+// second in zw. How one texture lies is a code: along u + 3 * along v, as scene::Wrap counts, + 9 by the second set.
 ivec2 wrapOf(float code) { return ivec2(int(code) % 3, int(code) / 3 % 3); }
-vec2 coordinateOf(float code) { return int(code) < 9 ? vCoordinate.xy : vCoordinate.zw; }
+vec2 coordinateOf(vec4 coordinates, float code) { return int(code) < 9 ? coordinates.xy : coordinates.zw; }
 
 // The texel that stands for one beyond the edges. Far outside floats no longer tell texels apart.
 int wrapped(int at, int size, int wrap) {
@@ -14,9 +11,9 @@ int wrapped(int at, int size, int wrap) {
     return inside < size ? inside : 2 * size - 1 - inside;
 }
 
-vec4 textureAt(sampler2D map, float code) {
+vec4 textureAt(sampler2D map, vec4 coordinates, float code) {
     ivec2 size = textureSize(map, 0), wrap = wrapOf(code);
-    vec2 at = coordinateOf(code) * vec2(size) - 0.5;
+    vec2 at = coordinateOf(coordinates, code) * vec2(size) - 0.5;
     ivec2 base = ivec2(floor(at));
     vec2 f = at - vec2(base);
     vec4 sum = vec4(0.0);

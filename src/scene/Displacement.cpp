@@ -165,6 +165,7 @@ DisplacedBase assembled(const Object& object) {
         const auto at = cornersOf(t);
         if (isFlat(at)) continue;
         DisplacedTriangle triangle;
+        triangle.vertices = at;
         for (std::size_t i = 0; i < 3; ++i) {
             triangle.places[i] = mesh.positions[at[i]];
             triangle.directions[i] = normals[at[i]];

@@ -9,15 +9,17 @@
 #include "scene/Scene.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace lucent::scene {
 
 /// The space above one triangle. Corners stand counter-clockwise seen from outside.
 struct DisplacedTriangle {
-    std::array<vec3, 3> places;      ///< m, object space
-    std::array<vec3, 3> directions;  ///< unit, in which heights count
-    std::array<vec2, 3> coordinates; ///< in tiles of the map: u to the right and v down
+    std::array<vec3, 3> places;            ///< m, object space
+    std::array<vec3, 3> directions;        ///< unit, in which heights count
+    std::array<vec2, 3> coordinates;       ///< in tiles of the map: u to the right and v down
+    std::array<std::uint32_t, 3> vertices; ///< of the shape's mesh
     /// Bit i: beside the edge from corner i to the next lies no triangle, or one that the map lies on
     /// otherwise.
     unsigned walls = 0;

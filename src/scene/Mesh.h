@@ -154,7 +154,8 @@ std::shared_ptr<const Mesh> meshOf(const Object& object);
 bool showsTextures(const Material& material);
 
 /// The textures on an object: those of its file's material, where it shows them and is matt or glossy; null:
-/// none. Their images and coordinates are those of meshOf().
+/// none. Their images and coordinates are those of meshOf(), of a displaced object those of its file: a point
+/// above a triangle has the coordinates of its foot.
 const Textures* texturesOf(const Object& object);
 
 /// For each vertex the first one at its place.

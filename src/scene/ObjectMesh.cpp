@@ -125,7 +125,7 @@ const Textures* texturesOf(const Object& object) {
     const auto* file = std::get_if<MeshShape>(&object.shape);
     if (!file || !file->textured || file->mesh->parts.size() != 1) return nullptr;
     const Textures& textures = file->mesh->parts.front().textures;
-    return !object.displacement && showsTextures(object.material) && textures.any() ? &textures : nullptr;
+    return showsTextures(object.material) && textures.any() ? &textures : nullptr;
 }
 
 } // namespace lucent::scene

@@ -151,6 +151,7 @@ DisplacedBody::DisplacedBody(const scene::Object& object)
             triangle.coordinates[i] = dvec2(one.coordinates[i]) * dvec2(heights_->size());
         }
         triangle.walls = one.walls;
+        triangle.vertices = one.vertices;
     }
 }
 
@@ -163,6 +164,12 @@ Box DisplacedBody::boxOf(unsigned part) const {
         box.add(triangle.places[i] + top * triangle.directions[i]);
     }
     return box;
+}
+
+dvec3 DisplacedBody::weightsAt(unsigned part, const dvec3& place) const {
+    const Triangle& triangle = triangles_[part];
+    const Ray ray(triangle, {place, triangle.directions[0] / glm::length(triangle.directions[0])}, highest_);
+    return ray.placeAt(-ray.start(), {dvec3(1.0 / 3), 0}).weights;
 }
 
 double DisplacedBody::stored(int x, int y) const {
@@ -245,7 +252,9 @@ std::optional<Intersection> DisplacedBody::firstHit(unsigned part, const WorldRa
                            const dvec3& smooth) -> std::optional<Intersection> {
         const double distance = ray.start() + at;
         if (!(distance > stretch.from && distance < stretch.to)) return {};
-        return Intersection{distance, normal, smooth};
+        Intersection found{distance, normal, smooth};
+        found.triangle = int(part);
+        return found;
     };
 
     const auto surfaceAt = [&](double at, const Place& place) {

@@ -6,6 +6,7 @@
 #include "truth/Field.h"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -31,7 +32,7 @@ struct Box {
 struct Intersection {
     double distance;
     dvec3 normal, smoothNormal;
-    int triangle = -1;
+    int triangle = -1; ///< of a mesh, or below heights; else -1
     Intersection(double distance, const dvec3& normal) : Intersection(distance, normal, normal) {}
     Intersection(double distance, const dvec3& normal, const dvec3& smoothNormal)
         : distance(distance), normal(normal), smoothNormal(smoothNormal) {}
@@ -52,11 +53,18 @@ public:
     /// The first place above one triangle where a ray comes into the solid, from outside.
     std::optional<Intersection> firstHit(unsigned part, const WorldRay& ray, Stretch stretch) const;
 
+    /// The triangle below a part, in the world, and its vertices in the shape's mesh.
+    const std::array<dvec3, 3>& placesOf(unsigned part) const { return triangles_[part].places; }
+    const std::array<std::uint32_t, 3>& verticesOf(unsigned part) const { return triangles_[part].vertices; }
+    /// Weights of the corners at the foot of a place above one triangle.
+    dvec3 weightsAt(unsigned part, const dvec3& place) const;
+
 private:
     struct Triangle {
         std::array<dvec3, 3> places, directions; ///< directions as long as a metre of the object's
         std::array<dvec2, 3> coordinates;        ///< texels
         unsigned walls;
+        std::array<std::uint32_t, 3> vertices; ///< of the shape's mesh
     };
     /// Weights of all corners, and the height above the triangle, m of the object's.
     struct Place {

@@ -4,6 +4,7 @@
 #include "truth/Intersection.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lucent::truth {
@@ -44,17 +45,14 @@ Coordinates mixed(const Coordinates& a, const Coordinates& b, const Coordinates&
             weights.x * a.second + weights.y * b.second + weights.z * c.second};
 }
 
-/// A triangle with its places on textures.
+/// The triangle of a hit, or the one below it, with its places on textures.
 struct Corners {
     dvec3 a, b, c;
     Coordinates at[3];
     dvec3 colors[3] = {dvec3(1), dvec3(1), dvec3(1)};
 
-    Corners(const Triangles& triangles, const scene::Mesh& mesh, int triangle) {
-        const std::uint32_t* index = &triangles.indices[3 * std::size_t(triangle)];
-        a = triangles.positions[index[0]];
-        b = triangles.positions[index[1]];
-        c = triangles.positions[index[2]];
+    Corners(const std::array<dvec3, 3>& places, const scene::Mesh& mesh, const std::uint32_t* index)
+        : a(places[0]), b(places[1]), c(places[2]) {
         for (int i = 0; i < 3 && !mesh.coordinates.empty(); ++i)
             at[i] = coordinatesOf(mesh, index[i]);
         for (int i = 0; i < 3 && !mesh.colors.empty(); ++i)
@@ -84,6 +82,21 @@ dvec3 turned(const dvec3& normal, const Corners& corners, const scene::TextureUs
     return glm::normalize(stored.x * tangent + stored.y * up + stored.z * normal);
 }
 
+/// Where a hit is on its triangle: corners, and their weights.
+std::pair<Corners, dvec3> placeOf(const Shape& shape, const scene::Mesh& mesh, const Hit& hit) {
+    const auto part = unsigned(hit.triangle);
+    if (const auto* displaced = std::get_if<Displaced>(&shape)) {
+        const DisplacedBody& body = *displaced->body;
+        return {Corners(body.placesOf(part), mesh, body.verticesOf(part).data()),
+                body.weightsAt(part, hit.position)};
+    }
+    const auto& triangles = std::get<Triangles>(shape);
+    const std::uint32_t* index = &triangles.indices[3 * std::size_t(part)];
+    const std::array places{triangles.positions[index[0]], triangles.positions[index[1]],
+                            triangles.positions[index[2]]};
+    return {Corners(places, mesh, index), nearestWeights(places[0], places[1], places[2], hit.position)};
+}
+
 } // namespace
 
 std::optional<Textured> texturedAt(const Optics& optics, const Hit& hit) {
@@ -91,8 +104,7 @@ std::optional<Textured> texturedAt(const Optics& optics, const Hit& hit) {
     const scene::Textures* textures = scene::texturesOf(object);
     if (!textures || hit.triangle < 0) return {};
     const scene::Mesh& mesh = *std::get<scene::MeshShape>(object.shape).mesh;
-    const Corners corners(std::get<Triangles>(optics.rays().shape(hit.shape)), mesh, hit.triangle);
-    const dvec3 weights = nearestWeights(corners.a, corners.b, corners.c, hit.position);
+    const auto [corners, weights] = placeOf(optics.rays().shape(hit.shape), mesh, hit);
     const Coordinates coordinate = corners.coordinatesAt(weights);
     Textured textured{object.material, hit};
     scene::Material& material = textured.material;

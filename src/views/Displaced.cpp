@@ -21,6 +21,12 @@ Result<Drawable::Ptr> DrawnDisplaced::create(const scene::Object& object, int in
     Result<const FieldTextures*> heights = images.field(drawn->base->heights);
     if (!heights) return heights.error();
     drawn->heights = *heights;
+    if (const scene::Textures* pictures = texturesOf(object)) {
+        const auto& mesh = std::get<scene::MeshShape>(object.shape).mesh;
+        if (Result<const MeshTextures*> vertices = images.mesh(mesh, false); !vertices)
+            return vertices.error();
+        drawn->textured = images.textured(*mesh, *pictures);
+    }
     return Ptr(drawn);
 }
 
@@ -28,10 +34,12 @@ Drawing DrawnDisplaced::drawing(gl::Context& context, graph::PassBuilder&, ViewK
                                 std::vector<std::string> defines) const {
     std::erase(defines, "CUT"); // rays begin at the plane
     if (kind == ViewKind::Shadow) defines.push_back("AS_SHADOW");
-    if (method != scene::DisplacementMethod::Quadtree) defines.push_back("SEARCHED");
-    const gl::Program* program = context.program("views/displaced", defines);
-    return [drawn = *this, program, number](const graph::Resources&, graph::Commands& commands,
-                                            const Eye& eye, ivec2 size, graph::Draw draw) {
+    const bool isTextured = kind == ViewKind::Textured;
+    if (method != scene::DisplacementMethod::Quadtree && !isTextured) defines.push_back("SEARCHED");
+    const gl::Program* program =
+        context.program(isTextured ? "views/displaced_textures" : "views/displaced", defines);
+    return [drawn = *this, program, number, isTextured](const graph::Resources&, graph::Commands& commands,
+                                                        const Eye& eye, ivec2 size, graph::Draw draw) {
         const scene::Displacement& displacement = *drawn.object->displacement;
         const scene::Transform& transform = drawn.object->transform;
         const auto clipFromPixel = glm::scale(glm::dmat4(1), glm::dvec3(2.0 / size.x, 2.0 / size.y, 1));
@@ -46,6 +54,7 @@ Drawing DrawnDisplaced::drawing(gl::Context& context, graph::PassBuilder&, ViewK
         draw.textures.push_back({"uPrisms", drawn.prisms->texels.handle()});
         const auto textures = drawn.heights->bindings();
         draw.textures.insert(draw.textures.end(), textures.begin(), textures.end());
+        if (isTextured) drawn.textured->bind(draw.textures);
         draw.program = program;
         draw.indices = drawn.prisms->hulls.handle();
         draw.vertices = drawn.prisms->hulls.count();
@@ -66,7 +75,9 @@ Drawing DrawnDisplaced::drawing(gl::Context& context, graph::PassBuilder&, ViewK
             .method = int(drawn.method),
             .searchSteps = displacement.searchSteps,
             .refineSteps = displacement.refineSteps,
-            .isClosed = drawn.base->closed};
+            .isClosed = drawn.base->closed,
+            .normalScale = drawn.textured ? drawn.textured->normalScale : 0,
+            .wraps = drawn.textured ? drawn.textured->wraps : vec4(0)};
         commands.draw(draw);
     };
 }

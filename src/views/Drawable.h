@@ -6,6 +6,7 @@
 #include "graph/FrameGraph.h"
 #include "scene/Scene.h"
 #include "views/Eye.h"
+#include "views/Textured.h"
 
 #include <functional>
 #include <memory>
@@ -22,9 +23,9 @@ struct DrawnField;
 struct DrawnMesh;
 struct KeptTriangles;
 
-/// Kinds of views, by what they keep of surfaces. All but the first two show refractive objects only, and
-/// number them.
-enum class ViewKind { Surface, Shadow, Peel, Count, VoxelBounds, VoxelSlice };
+/// Kinds of views, by what they keep of surfaces. All but the first three show refractive objects only, and
+/// number them; Textured is for objects with textures.
+enum class ViewKind { Surface, Shadow, Textured, Peel, Count, VoxelBounds, VoxelSlice };
 
 /// Draws something into a view of `size` pixels, which stands at the corner of draw.region, while a pass
 /// runs.
@@ -40,7 +41,8 @@ struct Drawable {
     virtual ~Drawable() = default;
 
     const scene::Object* object;
-    int index; ///< in the scene
+    int index;                          ///< in the scene
+    std::optional<Textured> textured{}; ///< what textures it shows
 
     bool isVisible() const { return object->visible; } ///< to the camera
     bool isRefractive() const { return object->material.isRefractive(); }

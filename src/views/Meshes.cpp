@@ -160,10 +160,13 @@ void drawMesh(graph::Commands& commands, const gl::Program& program, const graph
 
 Drawing DrawnMesh::drawing(gl::Context& context, graph::PassBuilder& pass, ViewKind kind, int number,
                            std::vector<std::string> defines) const {
-    constexpr const char* kStems[] = {"views/solid", "views/shadow",       "views/peel",
+    constexpr const char* kStems[] = {"views/solid", "views/shadow",       "views/textured",   "views/peel",
                                       "views/count", "views/voxel_bounds", "views/voxel_slice"};
-    const bool hasHoles = textured && textured->hasHoles;
-    if (hasHoles) defines.push_back("HOLES");
+    const bool isTextured = kind == ViewKind::Textured, hasHoles = textured && textured->hasHoles;
+    if (isTextured)
+        defines.push_back("TEXTURED"); // whose surface image knows the holes
+    else if (hasHoles)
+        defines.push_back("HOLES");
     const gl::Program* program = context.program(kStems[int(kind)], defines);
     const auto draws = kind == ViewKind::Peel ? drawTriangles : drawMesh;
     if (kind == ViewKind::Peel)
@@ -172,7 +175,9 @@ Drawing DrawnMesh::drawing(gl::Context& context, graph::PassBuilder& pass, ViewK
         sampleFrom(pass);
     return [=, drawn = *this](const graph::Resources& resources, graph::Commands& commands, const Eye& eye,
                               ivec2 size, graph::Draw draw) {
-        if (hasHoles) {
+        if (isTextured) {
+            drawn.textured->bind(draw.textures);
+        } else if (hasHoles) {
             draw.textures.push_back({"uCoordinates", drawn.textured->coordinates});
             draw.textures.push_back({"uColor", drawn.textured->color});
         }

@@ -5,7 +5,6 @@
 #include "views/Drawable.h"
 #include "views/Paint.h"
 #include "views/Pose.h"
-#include "views/Textured.h"
 #include "views/Triangles.h"
 #include "views/Water.h"
 
@@ -56,7 +55,6 @@ struct DrawnMesh final : Drawable {
     const MeshTextures* textures = nullptr;
     const WaterSheet* water = nullptr; ///< of water that moves
     std::optional<Paint> paint{};      ///< of painted objects, whose mesh is their atlas'
-    std::optional<Textured> textured{};
 
     // as it stands in this frame; see posed()
     graph::TextureId positions, normals; ///< object space

@@ -27,7 +27,8 @@ std::vector<vec4> texelsOf(const scene::DisplacedBase& base, ivec2 size) {
             out[i] = vec4(triangle.places[i], at.x);
             out[3 + i] = vec4(triangle.directions[i], at.y);
         }
-        out[6].x = float(triangle.walls);
+        const auto& [a, b, c] = triangle.vertices; // floats tell 16 million apart
+        out[6] = vec4(triangle.walls, a, b, c);
     }
     return texels;
 }

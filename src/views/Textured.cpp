@@ -1,5 +1,6 @@
 #include "views/Textured.h"
 
+#include "views/Drawable.h"
 #include "views/Meshes.h"
 
 #include <string>
@@ -39,17 +40,25 @@ void TexturedView::fit(gl::Context& context, ivec2 size) {
     make(emission_, Format::RGBA16F, "views.emission");
 }
 
+void Textured::bind(std::vector<graph::Binding>& bindings) const {
+    bindings.insert(bindings.end(), {{"uCoordinates", coordinates},
+                                     {"uVertexColors", colors},
+                                     {"uColor", color},
+                                     {"uEmission", emission},
+                                     {"uRoughness", roughness},
+                                     {"uNormal", normal}});
+}
+
 TexturedImages TexturedView::record(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                    const std::vector<DrawnMesh>& meshes, graph::TextureId surface,
-                                    ivec2 size) {
-    if (meshes.empty()) {
+                                    const Drawables& list, graph::TextureId surface, ivec2 size) {
+    if (list.empty()) {
         if (factors_) *this = {}; // gives memory back
         return {};
     }
     fit(context, size);
     std::vector<std::pair<int, Textured>> of;
-    for (const DrawnMesh& mesh : meshes)
-        of.emplace_back(mesh.index, *mesh.textured);
+    for (const auto& one : list)
+        of.emplace_back(one->index, *one->textured);
     if (of != of_) surfaceChanged();
     of_ = std::move(of);
     const auto imported = [&](const graph::Texture& texture) {
@@ -57,27 +66,20 @@ TexturedImages TexturedView::record(graph::FrameGraph& graph, gl::Context& conte
     };
     const TexturedImages images{imported(factors_), imported(facets_), imported(emission_)};
     if (*isDrawn_) return images;
-    const gl::Program* program = context.program("views/textured", {"TEXTURED"});
     graph.addPass("views.textured", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("textures of " + std::to_string(meshes.size()) + " object(s)");
+        pass.reason("textures of " + std::to_string(list.size()) + " object(s)");
         pass.sample(surface);
-        for (const DrawnMesh& mesh : meshes)
-            mesh.sampleFrom(pass);
         for (const graph::TextureId image : {images.factors, images.facets, images.emission}) {
             pass.write(image);
             pass.clear(image, vec4(0));
         }
         pass.clear(pass.createDepth("views.depth", size), 1.0f);
+        const std::vector<Drawing> drawings = drawingsOf(context, pass, list, ViewKind::Textured);
         return [=, isDrawn = isDrawn_](const graph::Resources& resources, graph::Commands& commands) {
-            for (const DrawnMesh& mesh : meshes) {
-                const Textured& textured = *mesh.textured;
-                graph::Draw draw{.depthTest = graph::DepthTest::Less};
-                draw.textures = {{"uSurface", resources[surface]},   {"uCoordinates", textured.coordinates},
-                                 {"uVertexColors", textured.colors}, {"uColor", textured.color},
-                                 {"uEmission", textured.emission},   {"uRoughness", textured.roughness},
-                                 {"uNormal", textured.normal}};
-                drawMesh(commands, *program, resources, mesh, eye, size, mesh.index, std::move(draw));
-            }
+            for (const Drawing& drawing : drawings)
+                drawing(
+                    resources, commands, eye, size,
+                    {.depthTest = graph::DepthTest::Less, .textures = {{"uSurface", resources[surface]}}});
             *isDrawn = true;
         };
     });

@@ -13,7 +13,7 @@
 
 namespace lucent::views {
 
-struct DrawnMesh;
+struct Drawable;
 
 /// A picture on the GPU; shaders read linear light, whatever its encoding.
 graph::Texture textureOf(gl::Device& device, const scene::TextureImage& image);
@@ -23,14 +23,16 @@ graph::Texture textureOf(gl::Device& device, const scene::TextureImage& image);
 graph::Texture coordinateTexture(gl::Device& device, const std::vector<vec2>& first,
                                  const std::vector<vec2>& second = {});
 
-/// What a mesh with textures is drawn with.
+/// What an object with textures is drawn with.
 struct Textured {
     graph::TextureHandle coordinates, colors, color, emission, roughness, normal;
-    vec4 wraps; ///< of shaders/views/mesh_block.glsl
+    vec4 wraps; ///< of color, emission, roughness and normal: codes of shaders/views/texture_at.glsl
     float normalScale;
     float cutoff;
     bool hasHoles; ///< where the colour's alpha is below the cutoff
     bool operator==(const Textured&) const = default;
+    /// All that shaders/views/material_textures.glsl and the places on it need.
+    void bind(std::vector<graph::Binding>& bindings) const;
 };
 
 /// Images of a view (shaders/views/textured.glsl).
@@ -39,18 +41,20 @@ struct TexturedImages {
     explicit operator bool() const { return bool(factors); }
 };
 
-/// What the textures of some meshes say where a surface image shows them. Images that were drawn stay while
-/// the surface and the meshes do: light alone may change, or be summed slice by slice.
+/// What the textures of some objects say where a surface image shows them. Images that were drawn stay while
+/// the surface and the objects do: light alone may change, or be summed slice by slice.
 class TexturedView {
 public:
     /// The next surface is another one.
     void surfaceChanged() { isDrawn_ = std::make_shared<bool>(false); }
 
-    /// Draws what is not there yet; no images without meshes.
+    /// Draws what is not there yet; no images without objects.
     ///
     /// @param eye, size  of the surface image
+    /// @param list       objects with textures
     TexturedImages record(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                          const std::vector<DrawnMesh>& meshes, graph::TextureId surface, ivec2 size);
+                          const std::vector<std::shared_ptr<const Drawable>>& list, graph::TextureId surface,
+                          ivec2 size);
 
 private:
     void fit(gl::Context& context, ivec2 size);

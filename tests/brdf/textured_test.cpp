@@ -194,6 +194,41 @@ TEST_F(TexturedTest, AllTexturesTogetherAreTheTruths) {
     }
 }
 
+// Of a displaced surface each point has the coordinates of its foot.
+TEST_F(TexturedTest, DisplacedSurfacesShowThemAll) {
+    auto hills = std::make_shared<Image>(32, 32, 1);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x)
+            *hills->at(x, y) =
+                0.5f + 0.4f * float(std::sin(std::numbers::pi * x / 8) * std::cos(std::numbers::pi * y / 16));
+    scene::Mesh ball = fullBall();
+    for (std::size_t i = 0; i < ball.positions.size(); ++i) {
+        ball.colors.push_back(vec3(0.6f) + 0.8f * ball.positions[i]);
+        ball.secondCoordinates.push_back({ball.coordinates[i].y, ball.coordinates[i].x + 0.3f});
+    }
+    scene::Textures& textures = ball.parts[0].textures;
+    textures.vertexColors = textures.color.second = true;
+    scene.camera.type = scene::Camera::Type::Perspective;
+    scene.camera.eye = {0.3f, 0.5f, 1.9f};
+    scene.lights = {scene::PointLight{.position = {0.8f, 0.9f, 0.7f}, .intensity = 3},
+                    scene::DistantLight{.direction = {1, -0.7f, -0.6f}, .irradiance = 2}};
+    const auto show = [&](scene::MaterialKinds kind) -> scene::Object& {
+        scene.objects.clear();
+        scene::Object& object = add(ball, std::move(kind));
+        object.material.base = vec3(0.3f);
+        object.displacement = scene::Displacement{.scale = 0.12f, .repeat = {1, 2}, .heights = hills};
+        return object;
+    };
+    const scene::Glossy metal{.metallic = 1, .roughness = 0.9f};
+    show(scene::Matt{});
+    EXPECT_LE(misplaced(64), 0.01); // the matrix' target for direct light
+    show(metal);
+    EXPECT_LE(misplaced(64), 0.01);
+    const Image shown = picture();
+    std::get<scene::MeshShape>(show(metal).shape).textured = false;
+    EXPECT_NE(picture().pixels, shown.pixels);
+}
+
 TEST_F(TexturedTest, ColoursOfVerticesAreLinearBetweenThem) {
     scene::Mesh mesh = texturedPlane();
     mesh.coordinates.clear(); // they need none

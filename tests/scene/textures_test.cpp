@@ -195,7 +195,8 @@ TEST(Textures, ObjFilesNameThemInTheirMaterials) {
                             "usemtl tiles\nf 1/1 2/2 3/3\n";
     const ReadFile files = [](const std::string& path) -> Result<Bytes> {
         if (path == "m/a.mtl")
-            return test::bytesOf("newmtl tiles\nKd 1 1 1\nmap_Kd -s 1 1 1 my.png\nnorm other picture.png\n");
+            return test::bytesOf(
+                "newmtl tiles\nKd 1 1 1\nmap_Kd -s 1 1 1 .\\my.png\nnorm other picture.png\n");
         if (path == "m/my.png" || path == "m/other picture.png") return picture();
         return Error{path + ": cannot be read (none)"};
     };

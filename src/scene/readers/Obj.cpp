@@ -139,11 +139,18 @@ std::string ObjMaterial::*textureNamed(std::string_view keyword) {
     return keyword == "norm" ? &ObjMaterial::normal : nullptr;
 }
 
+// A file beside the one that names it, as Windows may write that.
+std::string fileNamed(std::string_view words) {
+    std::string file(trimmed(words));
+    std::replace(file.begin(), file.end(), '\\', '/');
+    return file;
+}
+
 // Behind options the last word, else all of it, blanks included.
 std::string textureFile(std::string_view rest) {
     rest = trimmed(rest);
     const std::size_t blank = rest.find_last_of(kBlanks);
-    return std::string(rest.starts_with('-') && blank != rest.npos ? rest.substr(blank + 1) : rest);
+    return fileNamed(rest.starts_with('-') && blank != rest.npos ? rest.substr(blank + 1) : rest);
 }
 
 // What Wavefront's material format says that means the same here.
@@ -452,7 +459,7 @@ std::vector<std::string> filesNamedIn(std::span<const std::byte> bytes) {
     Lines lines(bytes);
     for (std::string_view line; lines.next(line);) {
         const std::string_view keyword = nextWord(line);
-        if (keyword == "mtllib") files.emplace_back(trimmed(line));
+        if (keyword == "mtllib") files.push_back(fileNamed(line));
         if (textureNamed(keyword)) files.push_back(textureFile(line));
     }
     return files;

@@ -12,7 +12,7 @@ namespace lucent::brdf {
 
 namespace {
 
-bool isTextured(const views::Drawable& solid) { return solid.mesh() && solid.mesh()->textured; }
+bool isTextured(const views::Drawable& solid) { return solid.textured.has_value(); }
 
 // Of the objects [first, first + kMostMatter) of the scene.
 MattBlock mattBlock(const Inputs& in, int first) {
@@ -187,10 +187,8 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) {
     const bool isGlossy = in.show == scene::Aov::Color &&
                           std::any_of(in.solids.begin(), in.solids.end(),
                                       [](const auto& one) { return one->object->material.isGlossy(); });
-    std::vector<views::DrawnMesh> pictured = meshesOf(in.solids);
-    std::erase_if(pictured, [](const views::DrawnMesh& mesh) { return !mesh.textured; });
     const views::TexturedImages textured =
-        textured_.record(graph, context_, in.eye, pictured, in.surface, in.size);
+        textured_.record(graph, context_, in.eye, filtered(in.solids, isTextured), in.surface, in.size);
     const graph::TextureId mirrored =
         isGlossy && in.first == 0 ? recordLobes(graph, in, textured) : graph::TextureId{};
     const graph::TextureId surface = in.surface, table = in.lightTable, target = in.target;

@@ -75,7 +75,8 @@ bool hasLobe(const scene::Material& material) {
 bool showsObjects(const scene::Object& object) {
     const scene::Textures* textures = scene::texturesOf(object);
     const int image = textures ? textures->roughness.image : -1;
-    const float least = image < 0 ? 1 : scene::meshOf(object)->images[std::size_t(image)]->leastGreen;
+    const float least =
+        image < 0 ? 1 : std::get<scene::MeshShape>(object.shape).mesh->images[std::size_t(image)]->leastGreen;
     return hasLobe(object.material) &&
            facetAlphaOf(object.material) * squared(least) <= squared(scene::kMostMirroringRoughness);
 }

@@ -43,10 +43,9 @@ private:
     gl::Context& context_;
 };
 
-bool hasTextures(const scene::Object& object) {
-    const auto* file = std::get_if<scene::MeshShape>(&object.shape);
-    if (!isShown(object) || !file || !file->textured || file->mesh->parts.size() != 1) return false;
-    return showsTextures(object.material) && file->mesh->parts.front().textures.any();
+bool hasHoles(const scene::Object& object) {
+    const scene::Textures* textures = isShown(object) ? texturesOf(object) : nullptr;
+    return textures && textures->hasHoles();
 }
 
 bool misses(const scene::Object& object) {
@@ -59,7 +58,7 @@ bool any(const scene::Scene& scene) {
 }
 
 const technique::NotDrawn kLimits[] = {
-    {"textures of displaced meshes", "rays find no texture there, only heights", any<hasTextures>},
+    {"holes that textures cut into displaced meshes", "rays look for heights alone", any<hasHoles>},
     {"heights that are thinner than a search step",
      "displacement.method is not quadtree, the one that misses none", any<misses>},
 };

@@ -1,0 +1,2 @@
+// views/displaced_textures.vert: see views/prism_hull.glsl.
+#include "views/prism_hull.glsl"
