@@ -93,12 +93,14 @@ TEST(Obj, HollowPolygonsAreCutWithoutLossOrOverlap) {
 
 TEST(Obj, GroupsOfOneMaterialBecomeOnePart) {
     const std::string library = "newmtl glass\nKd 0.1 0.2 0.3\nNi 1.33\nd 0.25\nillum 4\n"
-                                "newmtl lamp\nKe 3 2 1\nKa 1 1 1\n";
+                                "newmtl lamp\nKe 3 2 1\nKa 1 1 1\n"
+                                "newmtl metal\nKd 1 0.8 0.3\nPm 1\nPr 0.25\n";
     const Mesh mesh =
         sound("mtllib a b.mtl\n" + kSquare +
-                  "usemtl glass\nf 1 2 3\ng other\nusemtl lamp\nf 1 3 4\nusemtl glass\nf 4 3 1\n",
+                  "usemtl glass\nf 1 2 3\ng other\nusemtl lamp\nf 1 3 4\nusemtl glass\nf 4 3 1\n"
+                  "usemtl metal\nf 1 2 4\n",
               {{"m/a b.mtl", library}});
-    ASSERT_EQ(mesh.parts.size(), 2u);
+    ASSERT_EQ(mesh.parts.size(), 3u);
     EXPECT_EQ(mesh.parts[0].material, "glass");
     EXPECT_EQ(mesh.parts[0].indexCount, 6u);
     EXPECT_EQ(mesh.parts[0].values.diffuse, vec3(0.1f, 0.2f, 0.3f));
@@ -106,7 +108,13 @@ TEST(Obj, GroupsOfOneMaterialBecomeOnePart) {
     EXPECT_EQ(mesh.parts[0].values.clear().ior, 1.33f);
     EXPECT_EQ(mesh.parts[1].firstIndex, 6u);
     EXPECT_EQ(mesh.parts[1].values.base, vec3(3, 2, 1));
-    EXPECT_EQ(filesNamedIn(bytesOf("mtllib a b.mtl\n")), (std::vector<std::string>{"a b.mtl"}));
+    EXPECT_TRUE(std::holds_alternative<Matt>(mesh.parts[1].values.kind));
+    const auto* metal = std::get_if<Glossy>(&mesh.parts[2].values.kind);
+    ASSERT_TRUE(metal);
+    EXPECT_EQ(metal->metallic, 1);
+    EXPECT_EQ(metal->roughness, 0.25f);
+    EXPECT_EQ(filesNamedIn(bytesOf("mtllib a b.mtl\nmap_Kd .\\c\\d.png\n")),
+              (std::vector<std::string>{"a b.mtl", "c/d.png"}));
 }
 
 TEST(Obj, PositionsMayHaveColoursBehindThem) {

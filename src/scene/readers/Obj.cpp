@@ -143,7 +143,7 @@ std::string ObjMaterial::*textureNamed(std::string_view keyword) {
 std::string fileNamed(std::string_view words) {
     std::string file(trimmed(words));
     std::replace(file.begin(), file.end(), '\\', '/');
-    return file;
+    return file.starts_with("./") ? file.substr(2) : file;
 }
 
 // Behind options the last word, else all of it, blanks included.
@@ -160,8 +160,20 @@ Status readMaterials(const std::string& name, std::span<const std::byte> bytes, 
     ObjMaterial* known = nullptr;
     Material* material = nullptr;
     Clear clear;
+    std::optional<Glossy> glossy;
     const auto take = [&] {
-        material->kind = clear.transmission > 0 ? MaterialKinds(clear) : MaterialKinds(Matt{});
+        if (clear.transmission > 0)
+            material->kind = clear;
+        else if (glossy)
+            material->kind = *glossy;
+        else
+            material->kind = Matt{};
+    };
+    const auto share = [&](std::string_view of, std::string_view& words) {
+        const float value = lines.number(of, words);
+        if (!(value >= 0 && value <= 1))
+            lines.fail(std::string(of) + " is " + std::to_string(value) + "; must be in [0, 1]");
+        return value;
     };
     std::string_view keyword, rest;
     while (lines.next(keyword, rest)) {
@@ -169,6 +181,7 @@ Status readMaterials(const std::string& name, std::span<const std::byte> bytes, 
             known = &materials[std::string(trimmed(rest))];
             material = &known->values;
             clear = {.transmission = 0, .ior = 1}; // the format's defaults
+            glossy.reset();
             take();
         } else if (!material) {
             lines.fail("a line comes before a material; must follow newmtl");
@@ -181,10 +194,12 @@ Status readMaterials(const std::string& name, std::span<const std::byte> bytes, 
             if (!(clear.ior > 0)) lines.fail("Ni is " + std::to_string(clear.ior) + "; must be above 0");
             take();
         } else if (keyword == "d" || keyword == "Tr") { // how solid it is, or how clear
-            const float part = lines.number(keyword, rest);
-            if (!(part >= 0 && part <= 1))
-                lines.fail(std::string(keyword) + " is " + std::to_string(part) + "; must be in [0, 1]");
+            const float part = share(keyword, rest);
             clear.transmission = keyword == "d" ? 1 - part : part;
+            take();
+        } else if (keyword == "Pr" || keyword == "Pm") { // of newer files: as glTF's roughness and metal
+            if (!glossy) glossy = Glossy{.roughness = 1};
+            (keyword == "Pr" ? glossy->roughness : glossy->metallic) = share(keyword, rest);
             take();
         } else if (std::string ObjMaterial::*const texture = textureNamed(keyword)) {
             known->*texture = resolvePath(name, textureFile(rest));
