@@ -165,7 +165,8 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
                          .carriesEnvironment = carriesEnvironment,
                          .beside = beside,
                          .allAround = allAround,
-                         .kept = repeats(picture.scene) ? &shadows : nullptr};
+                         .kept = repeats(picture.scene) ? &shadows : nullptr,
+                         .keepsParts = !variesLight(picture.scene)};
     shadows.stand(picture.scene, waters.changes());
     const std::span<const views::LampPoint> some(lights.data() + next, std::size_t(end - next));
     Result<views::Occlusion> occlusion = views::recordOcclusion(passes.graph, context, lit, some);

@@ -187,6 +187,7 @@ struct Renderer::State {
     Result<Progress> advance(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
                              Effort effort);
     void makeTargets();
+    bool variesLight(const scene::Scene& scene) const;
     void startStage(const scene::Scene& scene);
     Status slice(const scene::Scene& scene);
     Result<bool> ready(const Moment& moment);

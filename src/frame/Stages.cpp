@@ -155,6 +155,14 @@ float Renderer::State::shareOfStage(const scene::Scene& scene) const {
     return float(next) / float(std::max<std::size_t>(1, lights.size()));
 }
 
+// Whether each sample of a pixel has its own light samples: unless a guest works with those of the first.
+bool Renderer::State::variesLight(const scene::Scene& scene) const {
+    const std::vector<Guest*> guests = needed(scene);
+    return pixelSamples(scene) > 1 && std::none_of(guests.begin(), guests.end(), [&](const Guest* guest) {
+               return guest->keepsLight(scene);
+           });
+}
+
 void Renderer::State::startStage(const scene::Scene& scene) {
     next = 0;
     surveyed = false;
@@ -162,7 +170,9 @@ void Renderer::State::startStage(const scene::Scene& scene) {
     const scene::Scene used = chosen(scene);
     views::Sampling sampling = views::samplingOf(used);
     sampling.directions = stages[stage].directions;
-    lights = views::lightSamples(used, sampling);
+    const vec2 offset =
+        variesLight(used) ? views::lightOffset(stages[stage].sample, pixelSamples(used)) : vec2(0);
+    lights = views::lightSamples(used, sampling, offset);
     placed = int(std::count_if(lights.begin(), lights.end(),
                                [](const views::LampPoint& light) { return !light.isEnvironment; }));
     const Image table = views::sampleTable(lights);

@@ -2,22 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace lucent::views {
 
 namespace {
 
-// Rings of equal height in polar angle; a ring's number of cells follows its length, so cells are nearly
-// square.
+// Rings of equal height in polar angle, but for the first and the last where they begin later; a ring's
+// number of cells follows its length, so cells are nearly square.
 struct Rings {
-    explicit Rings(int count) : rows(std::max(2, int(std::lround(std::sqrt(count * kPi / 4))))) {
+    Rings(int count, vec2 offset) : around(double(offset.y)) {
+        const int whole = std::max(2, int(std::lround(std::sqrt(count * kPi / 4))));
+        rows = offset.x > 0 ? whole + 1 : whole;
+        for (int row = 0; row <= rows; ++row)
+            borders.push_back(std::clamp((row - double(offset.x)) / whole, 0.0, 1.0));
         for (int row = 0; row < rows; ++row) {
+            const double middle = 0.5 * (top(row) + bottom(row));
             first.push_back(total);
-            columns.push_back(std::max(3, int(std::lround(2 * rows * std::sin((row + 0.5) * kPi / rows)))));
+            columns.push_back(std::max(3, int(std::lround(2 * whole * std::sin(middle * std::numbers::pi)))));
             total += columns.back();
         }
     }
+    double top(int row) const { return borders[std::size_t(row)]; } // of pi, polar
+    double bottom(int row) const { return borders[std::size_t(row) + 1]; }
+    double around; // of a cell, by which the first one begins later
     int rows, total = 0;
+    std::vector<double> borders;
     std::vector<int> first, columns;
 };
 
@@ -50,10 +60,10 @@ void addPixel(Sums& sums, const Rings& rings, int row, double left, double right
               glm::dvec3 color) {
     const int columns = rings.columns[row];
     for (double at = left; at < right - 1e-12;) {
-        const int column = std::min(int(at * columns + 1e-9), columns - 1);
-        const double end = std::min(right, double(column + 1) / columns);
+        const int column = int(std::floor(at * columns - rings.around + 1e-9));
+        const double end = std::min(right, (column + 1 + rings.around) / columns);
         const double share = band.solidAngle * (end - at) / (right - left);
-        const int cell = rings.first[row] + column;
+        const int cell = rings.first[row] + (column + columns) % columns;
         sums.radiance[cell] += share * color;
         sums.towards[cell] += share * lightOf(color) * band.direction(at, end);
         sums.area[cell] += share;
@@ -66,15 +76,15 @@ void addPixel(Sums& sums, const Rings& rings, int row, double left, double right
 namespace {
 
 // The cells of a map, before it is turned: radiance and area of each.
-std::vector<EnvironmentLight> cellsOf(const Image& map, int count) {
-    const Rings rings(count);
+std::vector<EnvironmentLight> cellsOf(const Image& map, int count, vec2 offset) {
+    const Rings rings(count, offset);
     Sums sums(rings.total);
     for (int y = 0; y < map.height; ++y) {
         const double top = double(y) / map.height, bottom = double(y + 1) / map.height;
-        for (int row = int(top * rings.rows + 1e-9);
-             row < rings.rows && double(row) / rings.rows < bottom - 1e-12; ++row) {
-            const double low = std::max(top, double(row) / rings.rows);
-            const double high = std::min(bottom, double(row + 1) / rings.rows);
+        for (int row = 0; row < rings.rows && rings.top(row) < bottom - 1e-12; ++row) {
+            if (rings.bottom(row) <= top + 1e-9) continue;
+            const double low = std::max(top, rings.top(row));
+            const double high = std::min(bottom, rings.bottom(row));
             // Area of a band of the unit sphere: difference of cosines times the azimuth.
             const double above = std::cos(low * std::numbers::pi), below = std::cos(high * std::numbers::pi);
             const Band band{(above - below) * 2 * std::numbers::pi / map.width, (above + below) / 2};
@@ -147,10 +157,11 @@ EnvironmentLight lightOf(const Part& part) {
 
 } // namespace
 
-std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count) {
+std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count,
+                                                vec2 offset) {
     // A map is turned more often than changed, and asked for in a few numbers of cells by turns.
     auto lights = environment.kept.of<std::vector<EnvironmentLight>>(
-        std::pair(environment.map, count), [&] { return cellsOf(*environment.map, count); });
+        std::tuple(environment.map, count, offset), [&] { return cellsOf(*environment.map, count, offset); });
     const mat3 rotation = rotationFromDegrees(environment.rotation);
     for (EnvironmentLight& light : lights) {
         light.direction = rotation * light.direction;

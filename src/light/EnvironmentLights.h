@@ -18,9 +18,11 @@ struct EnvironmentLight {
 /// angle: summing map pixels without sin(phi) would over-weight the poles (thesis 2017, 3.2.2). A light
 /// stands at the centre of its cell's light: an edge of something bright cuts cells.
 ///
-/// @param count  wanted number of lights, >= 6; the result differs by a few
+/// @param count   wanted number of lights, >= 6; the result differs by a few
+/// @param offset  [0,1)²: cells begin that much of one later, from ring to ring and around each
 /// The cells are fixed to the map and turn with `environment.rotation`; `intensity` is included.
-std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count);
+std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count,
+                                                vec2 offset = vec2(0));
 
 /// `count` lights that stand closer where more light comes from: the sphere is cut in two again and again,
 /// always the part whose light is spread widest, through the middle of its light (after median cut, Debevec

@@ -148,8 +148,8 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
                                       shadowSizeFor(sample, in.shadowSize)),
                           {}};
             if (!shadow.views.faces.empty()) {
-                Result<TextureId> map =
-                    shadowOf(graph, context, in.kept, shadow.views, casters, group.bounds);
+                KeptShadows* const kept = sample.isPart && !in.keepsParts ? nullptr : in.kept;
+                Result<TextureId> map = shadowOf(graph, context, kept, shadow.views, casters, group.bounds);
                 if (!map) return map.error();
                 shadow.map = *map;
                 const Target target{in.eye, in.size, in.surface, group.field};

@@ -10,32 +10,38 @@ namespace {
 
 const float kGolden = kPi * (3 - std::sqrt(5.0f)); // angle between the points of a spiral (Vogel 1979)
 
-float middleOf(int i, int count) { return (float(i) + 0.5f) / float(count); }
+float fractionOf(float value) { return value - std::floor(value); }
+
+// Of the i-th of so many parts, or beside it by a share of one.
+float middleOf(int i, int count, float offset) {
+    return fractionOf((float(i) + 0.5f + offset) / float(count));
+}
 
 // Even over the unit disc.
-vec2 inDisc(int i, int count) {
-    const float angle = float(i) * kGolden;
-    return std::sqrt(middleOf(i, count)) * vec2(std::cos(angle), std::sin(angle));
+vec2 inDisc(int i, int count, vec2 offset) {
+    const float angle = float(i) * kGolden + 2 * kPi * offset.y;
+    return std::sqrt(middleOf(i, count, offset.x)) * vec2(std::cos(angle), std::sin(angle));
 }
 
 // In the unit ball with density 1 / sqrt(1 - r²): directions on a spiral, and radii r = sin a whose share is
 // (a - sin a cos a) 2 / pi.
-vec3 inBall(int i, int count) {
-    float share = (float(i) + 0.5f) * std::sqrt(2.0f); // the golden ratio would go with the angles
-    share -= std::floor(share);
+vec3 inBall(int i, int count, vec2 offset) {
+    // The golden ratio would go with the angles.
+    const float share = fractionOf((float(i) + 0.5f) * std::sqrt(2.0f) + offset.x + offset.y);
     float low = 0, high = kPi / 2;
     for (int step = 0; step < 24; ++step) { // to the last digit of a float
         const float a = 0.5f * (low + high);
         (a - std::sin(a) * std::cos(a) < share * kPi / 2 ? low : high) = a;
     }
-    const float z = 1 - 2 * middleOf(i, count), aside = std::sqrt(1 - z * z), angle = float(i) * kGolden;
+    const float z = 1 - 2 * middleOf(i, count, offset.x), aside = std::sqrt(1 - z * z);
+    const float angle = float(i) * kGolden + 2 * kPi * offset.y;
     return std::sin(low) * vec3(aside * std::cos(angle), z, aside * std::sin(angle));
 }
 
-void add(std::vector<LampPoint>& points, const scene::PointLight& light, int samples) {
+void add(std::vector<LampPoint>& points, const scene::PointLight& light, int samples, vec2 offset) {
     const int count = light.radius > 0 ? samples : 1;
     for (int i = 0; i < count; ++i) {
-        const vec3 place = light.position + (count > 1 ? light.radius * inBall(i, count) : vec3(0));
+        const vec3 place = light.position + (count > 1 ? light.radius * inBall(i, count, offset) : vec3(0));
         points.push_back({.place = vec4(place, 1),
                           .centre = light.position,
                           .fades = light.falloff == scene::LightFalloff::InverseSquare,
@@ -47,14 +53,14 @@ void add(std::vector<LampPoint>& points, const scene::PointLight& light, int sam
     }
 }
 
-void add(std::vector<LampPoint>& points, const scene::DistantLight& light, int samples) {
+void add(std::vector<LampPoint>& points, const scene::DistantLight& light, int samples, vec2 offset) {
     const int count = light.angle > 0 ? samples : 1;
     const vec3 back = -glm::normalize(light.direction);
     const vec3 aside = std::abs(back.x) < 0.5f ? vec3(1, 0, 0) : vec3(0, 1, 0);
     const vec3 right = glm::normalize(glm::cross(back, aside)), up = glm::cross(back, right);
     const float radius = std::tan(glm::radians(light.angle / 2));
     for (int i = 0; i < count; ++i) {
-        const vec2 at = count > 1 ? radius * inDisc(i, count) : vec2(0);
+        const vec2 at = count > 1 ? radius * inDisc(i, count, offset) : vec2(0);
         const vec4 place(glm::normalize(back + at.x * right + at.y * up), 0);
         points.push_back({.place = place,
                           .color = light.irradiance / float(count) * light.color,
@@ -65,7 +71,7 @@ void add(std::vector<LampPoint>& points, const scene::DistantLight& light, int s
     }
 }
 
-void add(std::vector<LampPoint>& points, const scene::SpotLight& light, int) {
+void add(std::vector<LampPoint>& points, const scene::SpotLight& light, int, vec2) {
     const float inner = std::cos(glm::radians(light.innerAngle));
     const float outer = std::cos(glm::radians(light.outerAngle));
     const float scale = 1 / std::max(0.001f, inner - outer);
@@ -86,14 +92,14 @@ void add(std::vector<LampPoint>& points, const scene::SpotLight& light, int) {
 }
 
 // Places of the rank-1 lattice of the golden ratio: even over the parallelogram for any number.
-void add(std::vector<LampPoint>& points, const scene::AreaLight& light, int samples) {
+void add(std::vector<LampPoint>& points, const scene::AreaLight& light, int samples, vec2 offset) {
     const vec3 across = glm::cross(light.edgeU, light.edgeV);
     const float area = glm::length(across);
     const float inverseGolden = 0.5f * (std::sqrt(5.0f) - 1);
     for (int i = 0; i < samples; ++i) {
-        const float v = (float(i) + 0.5f) * inverseGolden;
-        const vec3 place =
-            light.corner + middleOf(i, samples) * light.edgeU + (v - std::floor(v)) * light.edgeV;
+        const float u = middleOf(i, samples, offset.x);
+        const float v = fractionOf((float(i) + 0.5f) * inverseGolden + offset.y);
+        const vec3 place = light.corner + u * light.edgeU + v * light.edgeV;
         points.push_back({.place = vec4(place, 1),
                           .centre = place,
                           .fades = true,
@@ -130,9 +136,10 @@ const ParamTable& samplingParams() {
                  .high = 256,
                  .logarithmic = true,
                  .group = Group::Light,
-                 .doc = "How many light samples stand for a lamp that has a size; each casts its own "
-                        "shadows. With more the edge of a soft shadow fades smoothly; with few it "
-                        "shows several hard edges beside each other."}),
+                 .doc =
+                     "How many light samples stand for a lamp that has a size, others for each sample of a "
+                     "pixel; each casts its own shadows. With more the edge of a soft shadow fades "
+                     "smoothly; with few it shows several hard edges beside each other."}),
         declare(&Sampling::shadowSize,
                 {.id = "shadowSize",
                  .label = "Shadow map",
@@ -154,8 +161,9 @@ const ParamTable& samplingParams() {
                  .high = 1024,
                  .logarithmic = true,
                  .group = Group::Environment,
-                 .doc = "About how many light samples stand for the environment; each carries the mean of "
-                        "its part of the map. More make shadows under a sky smooth."}),
+                 .doc = "About how many light samples stand for the environment, others for each sample of "
+                        "a pixel; each carries the mean of its part of the map. More make shadows under a "
+                        "sky smooth."}),
         declare(&Sampling::environment,
                 {.id = "environmentSampling",
                  .label = "Environment sampling",
@@ -172,8 +180,8 @@ const ParamTable& samplingParams() {
                  .high = 16,
                  .group = Group::View,
                  .doc =
-                     "Places over which the colour of a pixel is the mean, drawn one after the other while "
-                     "the picture is still; 1: its middle alone."}),
+                     "Places over which the colour of a pixel is the mean, each with its own light samples, "
+                     "drawn one after the other while the picture is still; 1: its middle alone."}),
     };
     static const ParamTable table = tableOf<Sampling>("sampling", list, "Light samples");
     return table;
@@ -205,10 +213,14 @@ vec2 pixelOffset(int sample, int count) {
     return {wrapped(row / float(count)), wrapped(row * float(generatorOf(count)) / float(count))};
 }
 
-std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples) {
+vec2 lightOffset(int sample, int count) {
+    return {float(sample) / float(count), fractionOf(float(sample * generatorOf(count)) / float(count))};
+}
+
+std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples, vec2 offset) {
     std::vector<LampPoint> points;
     for (const scene::Light& light : scene.lights)
-        std::visit([&](const auto& one) { add(points, one, samples); }, light);
+        std::visit([&](const auto& one) { add(points, one, samples, offset); }, light);
     return points;
 }
 
@@ -231,14 +243,14 @@ bool hasLargeLamp(const scene::Scene& scene) {
     return lampPoints(scene, 2).size() > lampPoints(scene, 1).size();
 }
 
-std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling) {
-    std::vector<LampPoint> samples = lampPoints(scene, sampling.lamp);
+std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling, vec2 offset) {
+    std::vector<LampPoint> samples = lampPoints(scene, sampling.lamp, offset);
     if (!hasEnvironment(scene) || sampling.directions == 0) return samples;
     const bool isEven =
         sampling.environment == EnvironmentSampling::Equal; // others stand for small lights, too
     const auto directions = sampling.environment == EnvironmentSampling::Importance
                                 ? importanceLights(*scene.environment, sampling.directions)
-                                : environmentLights(*scene.environment, sampling.directions);
+                                : environmentLights(*scene.environment, sampling.directions, offset);
     for (const EnvironmentLight& light : directions) {
         const vec4 place(light.direction, 0);
         const float cosine = 1 - 2 * light.weight; // of a cone of that solid angle

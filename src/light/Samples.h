@@ -50,7 +50,8 @@ light::PictureFrameBlock pictureBlock(const LampPoint& lamp);
 /// (KHR_lights_punctual). Areas shine from one side, radiance times area times the cosine there.
 ///
 /// @param samples  > 0
-std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples);
+/// @param offset   [0,1)²: points lie that much beside those of (0, 0), over the same lamp
+std::vector<LampPoint> lampPoints(const scene::Scene& scene, int samples, vec2 offset = vec2(0));
 
 /// The point beside the middle of its lamp, on the disc that faces a place, as which a point counts there
 /// (shaders/light/sample.glsl); other points as they are.
@@ -76,6 +77,12 @@ struct Sampling {
 /// @return  [-0.5, 0.5)²
 vec2 pixelOffset(int sample, int count);
 
+/// Offset of the light samples of one of so many samples of a pixel, a place of the same lattice: their mean
+/// is lit from that many times as many points and directions.
+///
+/// @return  [0,1)²; (0, 0) of the first
+vec2 lightOffset(int sample, int count);
+
 /// The table "sampling", which scenes carry beside those of the techniques.
 const ParamTable& samplingParams();
 /// The scene's own; as by default where it has no such table.
@@ -90,7 +97,10 @@ bool hasLargeLamp(const scene::Scene& scene);
 
 /// All light of a scene: lampPoints(), then directions of its environment, whose irradiance on a surface that
 /// faces them is radiance times solid angle: together the integral over the sphere.
-std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling);
+///
+/// @param offset  lightOffset(); directions by importance stay where they are
+std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling,
+                                    vec2 offset = vec2(0));
 
 /// The samples as shaders read them, and behind them the pictures that they project, RGBA32F.
 Image sampleTable(const std::vector<LampPoint>& samples);

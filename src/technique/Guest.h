@@ -99,6 +99,10 @@ public:
     /// Takes what the guest of the same technique in another renderer has worked out.
     virtual void shareBake(const Guest&) {}
 
+    /// Whether what it works out from the light samples serves all samples of a pixel, which then have the
+    /// same ones.
+    virtual bool keepsLight(const scene::Scene&) const { return false; }
+
     // --- phases
 
     /// Light: carries lamps' light to what the camera sees by other ways than straight on.

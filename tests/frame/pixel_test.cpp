@@ -8,6 +8,8 @@
 #include "truth/Picture.h"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 
 namespace lucent::frame {
 namespace {
@@ -118,6 +120,52 @@ TEST_F(Pixels, AnEvenAreaStaysAsItIs) {
 }
 
 // Normals, depths and counts of different things have no mean.
+// A hidden box shades a plane under a sky that is bright on one side, and under a large lamp.
+TEST_F(Pixels, EachSampleIsLitByOthersOfTheLight) {
+    scene.size = {24, 24};
+    scene.camera.eye = {0, 2, 0};
+    scene.camera.up = {0, 0, -1};
+    scene.camera.height = 2;
+    technique::addSettings(scene);
+    const auto add = [&](const char* name, scene::Shape shape, vec3 place) -> scene::Object& {
+        scene::Object& object = scene.objects.emplace_back();
+        object.name = name;
+        object.shape = std::move(shape);
+        object.material.kind = scene::Matt{};
+        object.transform.translate = place;
+        return object;
+    };
+    add("plane", scene::Plane{{4, 4}}, vec3(0));
+    add("box", scene::Box{{0.7f, 0.1f, 0.7f}}, {0, 0.5f, 0}).visible = false;
+    auto sky = std::make_shared<Image>(32, 16, 3);
+    for (int i = 0; i < 32 * 16; ++i)
+        for (int c = 0; c < 3; ++c)
+            sky->pixels[std::size_t(3 * i + c)] = i % 32 < 14 ? 1.5f : 0.3f;
+    const auto errorOf = [&](int count, const Image& reference) {
+        setSamples(count);
+        const Image found = picture();
+        double square = 0;
+        for (std::size_t i = 0; i < found.pixels.size(); i += 4)
+            square += std::pow(double(found.pixels[i] - reference.pixels[i]), 2);
+        return std::sqrt(square);
+    };
+    for (const bool isSky : {true, false}) {
+        views::Sampling& sampling = views::samplingOf(scene);
+        if (isSky)
+            scene.environment.emplace().map = sky;
+        else
+            scene.lights = {scene::AreaLight{
+                .corner = {-0.4f, 1.6f, 0.4f}, .edgeU = {0, 0, -0.8f}, .edgeV = {0.8f, 0, 0}, .radiance = 8}};
+        sampling.directions = sampling.lamp = 2048;
+        setSamples(1);
+        const Image reference = picture();
+        sampling.directions = sampling.lamp = 32;
+        // Of five independent sets 0.45.
+        EXPECT_LT(errorOf(5, reference), 0.6 * errorOf(1, reference)) << isSky;
+        scene.environment.reset();
+    }
+}
+
 TEST_F(Pixels, OtherQuantitiesAreThoseOfTheMiddles) {
     addGlow(3.6f);
     for (const scene::Aov aov : {scene::Aov::Normal, scene::Aov::Depth, scene::Aov::Position}) {

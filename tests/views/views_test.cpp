@@ -1,5 +1,6 @@
 // Views without GL: the min-max pyramid and the environment as lights.
 #include "light/EnvironmentLights.h"
+#include "light/Samples.h"
 #include "tests/support/Fields.h"
 #include "views/Eye.h"
 #include "views/FieldTextures.h"
@@ -77,20 +78,22 @@ std::shared_ptr<const Image> mapOf(ivec2 size, const std::function<vec3(int, int
 TEST(EnvironmentLights, WeightsCoverTheSphereOnce) {
     scene::Environment environment;
     environment.map = mapOf({64, 32}, [](int, int) { return vec3(1); });
-    for (int count : {6, 20, 256, 1000}) {
-        double sum = 0;
-        vec3 balance(0);
-        const auto lights = environmentLights(environment, count);
-        for (const EnvironmentLight& light : lights) {
-            sum += light.weight;
-            balance += light.weight * light.direction;
-            EXPECT_NEAR(glm::length(light.direction), 1, 1e-6);
-            EXPECT_NEAR(light.radiance.g, 1, 1e-6); // a mean of ones
+    for (int count : {6, 20, 256, 1000})
+        for (const vec2 offset : {vec2(0), vec2(0.4f, 0.2f), vec2(0.8f, 0.4f)}) {
+            double sum = 0;
+            vec3 balance(0);
+            const auto lights = environmentLights(environment, count, offset);
+            for (const EnvironmentLight& light : lights) {
+                sum += light.weight;
+                balance += light.weight * light.direction;
+                EXPECT_NEAR(glm::length(light.direction), 1, 1e-6);
+                EXPECT_NEAR(light.radiance.g, 1, 1e-6); // a mean of ones
+            }
+            EXPECT_NEAR(sum, 1, 1e-6);
+            const bool isSymmetric = offset == vec2(0); // then it has no favourite direction
+            EXPECT_NEAR(glm::length(balance), 0, isSymmetric ? 1e-6 : 0.02) << count;
+            EXPECT_NEAR(double(lights.size()), count, 0.3 * count + 6);
         }
-        EXPECT_NEAR(sum, 1, 1e-6);
-        EXPECT_NEAR(glm::length(balance), 0, 1e-6); // a symmetric set has no favourite direction
-        EXPECT_NEAR(double(lights.size()), count, 0.3 * count + 6);
-    }
 }
 
 TEST(EnvironmentLights, TheMeanIsWeightedBySolidAngleNotByPixels) {
@@ -139,6 +142,32 @@ TEST(EnvironmentLights, DirectionsFollowTheMapConvention) {
     for (const EnvironmentLight& light : environmentLights(environment, 4000))
         mean += light.weight * light.radiance.r * light.direction;
     EXPECT_GT(glm::dot(glm::normalize(mean), vec3(0, 0, -1)), 0.99);
+}
+
+// The light samples of a pixel's samples stand for the same light from other directions.
+TEST(EnvironmentLights, OffsetSetsAreNearerToTheLightTogether) {
+    scene::Environment environment;
+    environment.map = mapOf({256, 128}, [](int x, int y) { return vec3(x < 100 && y < 40 ? 5 : 1); });
+    // Of a place that sees less than half of the sky, as shadows are: what reaches it.
+    const auto reaching = [&](const std::vector<EnvironmentLight>& lights, const vec3& normal) {
+        double sum = 0;
+        for (const EnvironmentLight& light : lights)
+            if (glm::dot(light.direction, normal) > 0.3f) sum += double(light.weight * light.radiance.g);
+        return sum;
+    };
+    double alone = 0, together = 0;
+    constexpr int kNormals = 40, kSamples = 5;
+    for (int i = 0; i < kNormals; ++i) {
+        const float z = 1 - 2 * (float(i) + 0.5f) / kNormals, turn = 2.4f * float(i);
+        const vec3 normal(std::sqrt(1 - z * z) * vec2(std::cos(turn), std::sin(turn)), z);
+        const double exact = reaching(environmentLights(environment, 40000), normal);
+        double mean = 0;
+        for (int sample = 0; sample < kSamples; ++sample)
+            mean += reaching(environmentLights(environment, 256, lightOffset(sample, kSamples)), normal);
+        alone += std::abs(reaching(environmentLights(environment, 256), normal) - exact);
+        together += std::abs(mean / kSamples - exact);
+    }
+    EXPECT_LT(together, 0.5 * alone); // of independent ones 1 / sqrt(5)
 }
 
 TEST(EnvironmentLights, AFullTurnKeepsEveryLight) {

@@ -36,6 +36,7 @@ public:
         return Subsurface::need(scene) &&
                (show == Aov::Color || show == Aov::Radiosity || show == Aov::Irradiance);
     }
+    bool keepsLight(const scene::Scene& scene) const override { return shades(scene); }
     views::Bounds lit(const technique::Picture& picture) const override {
         return boundsOfAll(scattering(picture.drawables));
     }

@@ -25,6 +25,7 @@ public:
         return throughput_.prepare(baked(picture.drawables), settingsOf(picture.scene));
     }
     bool shades(const scene::Scene& scene) const override { return need(scene) && showsLight(scene); }
+    bool keepsLight(const scene::Scene& scene) const override { return shades(scene); }
     views::Bounds lit(const technique::Picture& picture) const override {
         return boundsOfAll(filtered(
             picture.drawables, [](const views::Drawable& one) { return throughput::bakes(*one.object); }));
