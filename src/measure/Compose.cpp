@@ -2,6 +2,7 @@
 
 #include "base/JsonWriter.h"
 #include "frame/Renderer.h"
+#include "light/Samples.h"
 #include "measure/Metrics.h"
 #include "measure/SubsurfaceTruth.h"
 #include "measure/TruthModel.h"
@@ -13,6 +14,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace lucent::measure {
@@ -289,9 +291,14 @@ Result<truth::Picture> solve(const scene::Scene& scene) {
         const auto dipole = truth::DipoleEstimator::create(scene, scene.size, options);
         return dipole ? truth::render(*dipole, scene.size, {}, {}, cancel) : dipole.error();
     }
-    const auto exact =
-        truth::GlassEstimator::create(scene, scene.size, scene::Aov::Color, {.samples = samples});
-    return exact ? truth::render(*exact, scene.size, {}, {}, cancel) : exact.error();
+    const bool isMean = technique::modelOf(scene).overPixels;
+    auto exact = truth::GlassEstimator::create(
+        scene, isMean ? truth::PixelMean::sizeOf(scene.size) : scene.size, scene::Aov::Color,
+        {.samples = isMean ? truth::PixelMean::samplesOf(samples) : samples});
+    if (!exact) return exact.error();
+    if (!isMean) return truth::render(*exact, scene.size, {}, {}, cancel);
+    const truth::PixelMean mean(std::make_unique<const truth::GlassEstimator>(std::move(*exact)), 0);
+    return truth::render(mean, scene.size, {}, {}, cancel);
 }
 
 } // namespace
@@ -310,6 +317,9 @@ scene::Scene composeScene(std::string_view lamp, std::string_view between, std::
     addBetween(scene, between);
     addLamp(scene, lamp);
     technique::drawAll(scene);
+    // As people see it: each sample of a pixel has other directions.
+    if (scene.environment && usualTruth(scene) == TruthModel::Glass)
+        views::samplingOf(scene).pixelSamples = views::Sampling{}.pixelSamples;
     return scene;
 }
 
