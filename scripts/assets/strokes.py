@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 import head
+from solids import pulled
 
 
 def write_strokes(out: Path, strokes: list[dict]) -> None:
@@ -27,7 +28,7 @@ def checkerboard(out: Path) -> None:
 
 def dabs(places: list[tuple]) -> list[list[float]]:
     """Touches of a brush on the head nearest to these places (cm), at full pressure."""
-    points = head.pulled(np.array(places, float))
+    points = pulled(head.surface, np.array(places, float))
     slope = np.stack([head.surface(points + 0.01 * axis) - head.surface(points - 0.01 * axis) for axis in np.eye(3)],
                      axis=-1)
     normals = slope / np.linalg.norm(slope, axis=-1, keepdims=True)
