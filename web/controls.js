@@ -178,9 +178,8 @@ export class Controls {
   /**
    * Makes all controls anew.
    * @param controls  descriptors in the order of the panel; those without a group are left out
-   * @param profiles  of translucent and glossy objects: owner, and text in place of the panel's curves
    */
-  build(controls, profiles = []) {
+  build(controls) {
     this.#built = contentOf(controls);
     this.#shows.clear();
     const groups = new Map();
@@ -192,18 +191,22 @@ export class Controls {
     }
     for (const group of groups.values()) this.#rove(stopsOf(group)[0]);
     this.element.replaceChildren(...groups.values());
-    this.update(controls, profiles);
+    this.update(controls);
   }
 
   /** Shows the values as they are now; where there are other controls than before, the focus stays on its own. */
-  update(controls, profiles = []) {
+  update(controls) {
     if (contentOf(controls) !== this.#built) {
       const focused = this.element.getRootNode().activeElement?.closest('[data-path]')?.dataset.path;
-      this.build(controls, profiles);
+      this.build(controls);
       if (focused) this.#focus(focused);
       return;
     }
     for (const control of controls) this.#shows.get(control.path)?.(valueOf(control, control.value));
+  }
+
+  /** @param profiles  of translucent and glossy objects: owner, and text in place of the panel's curves */
+  describe(profiles) {
     for (const { owner, text } of profiles) this.#profileOf(owner).textContent = text;
   }
 

@@ -47,6 +47,7 @@ const kMaxScale = 2; // device pixels a CSS pixel: more is not seen, but costs
 const kNear = '300px'; // around the window: within it viewers load and draw
 const kReleaseAfter = 4000; // ms off screen until the GPU memory goes back
 const kHintTime = 1600; // ms
+const kProfilesMs = 100; // between two calls for figures that take longer
 const kUp = 2; // of events of the pointer: see viewer_pointer in Api.h
 const kKeys =
   'Arrow keys on a relief move the light or turn the environment, page up and page down raise or lower the light or ' +
@@ -120,6 +121,7 @@ export class LucentViewer extends HTMLElement {
   #undrawn; // <details> that list what the scene asks for and the picture lacks
   #size = { width: 0, height: 0, scale: 1 };
   #controls = []; // descriptors with values
+  #profilesLater;
   #revision = -1;
   #properties = []; // names that the scene's parameters have here
   #settled = []; // resolve functions that wait for the finished picture
@@ -333,7 +335,7 @@ export class LucentViewer extends HTMLElement {
    * red, green and blue; distances (mm) and values (1/mm²) of its R_d; text, the same in words.
    */
   profiles() {
-    return JSON.parse(this.#ask('viewer_profiles') || '[]');
+    return this.#profilesSoFar().filter(({ pending }) => !pending);
   }
 
   /**
@@ -741,7 +743,8 @@ export class LucentViewer extends HTMLElement {
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#warnOfNames();
     this.#revision = this.#runtime.call('viewer_revision', this.#handle);
-    this.#twin.build(this.#controls, this.profiles());
+    this.#twin.build(this.#controls);
+    this.#showProfiles();
     this.#showPlay();
     this.#showUndrawn();
     if (this.autoplay && !kCalm.matches) this.play();
@@ -846,6 +849,19 @@ export class LucentViewer extends HTMLElement {
     return done;
   }
 
+  #profilesSoFar() {
+    return JSON.parse(this.#ask('viewer_profiles') || '[]');
+  }
+
+  // Their words, as they are worked out: each call takes its time.
+  #showProfiles() {
+    clearTimeout(this.#profilesLater);
+    const profiles = this.#profilesSoFar();
+    this.#twin.describe(profiles.filter(({ pending }) => !pending));
+    if (profiles.some(({ pending }) => pending))
+      this.#profilesLater = setTimeout(() => this.loaded && this.#showProfiles(), kProfilesMs);
+  }
+
   // Takes over what changed in the module, by whatever road.
   #sync() {
     if (!this.loaded) return;
@@ -854,7 +870,8 @@ export class LucentViewer extends HTMLElement {
     this.#revision = revision;
     const before = new Map(this.#controls.map((control) => [control.path, control.value]));
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
-    this.#twin.update(this.#controls, this.profiles());
+    this.#twin.update(this.#controls);
+    this.#showProfiles();
     const changed = this.#controls.filter((control) => control.value !== before.get(control.path));
     if (!this.#runtime.isWhole && !this.#runtime.call('viewer_draws_all', this.#handle)) this.#moveToWhole();
     this.#compareChanged();

@@ -234,7 +234,8 @@ Result<bool> Renderer::State::ready(const Moment& moment) {
 // Whether what was made ready by now took so long that whoever looks on is answered first; once for each
 // place where it may rest, or what takes that long each time would never end.
 bool Renderer::State::rests(int place, double since) {
-    if (atOnce || dragged || place < rested || now() - since < kSliceMs) return false;
+    const double longest = dragged ? 1.5 * kSliceMs : kSliceMs; // a quick look hurries
+    if (atOnce || place < rested || now() - since < longest) return false;
     rested = place + 1;
     return true;
 }
@@ -242,7 +243,7 @@ bool Renderer::State::rests(int place, double since) {
 // Takes objects to the GPU for one slice of time. @return whether all are there
 Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
     const double begins = now();
-    while (!atOnce && !dragged && taken < int(scene.objects.size())) {
+    while (!atOnce && taken < int(scene.objects.size())) {
         const Result<views::Drawable::Ptr> one = views::drawableOf(scene, taken++, images, &waters);
         if (!one) return one.error();
         if (now() - begins > kSliceMs) return false;
@@ -513,8 +514,10 @@ Status Renderer::State::takeSample(const scene::Scene& scene) {
 
 Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64_t newRevision, ivec2 newSize,
                                           Effort effort) {
+    const double begins = now();
     if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
         start(asked, newRevision, newSize, effort);
+    const bool rested = !atOnce && now() - begins > 0.5 * kSliceMs; // of a scene whose shapes were made
     const scene::Scene& scene = *pictured;
     if (dragged && effort != Effort::Coarse) { // the look was the picture already
         const bool over = complete();
@@ -522,7 +525,7 @@ Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64
         addSamples(scene);
         if (over) startStage(scene);
     }
-    if (running || !complete() || whole || !settled(effort)) {
+    if (!rested && (running || !complete() || whole || !settled(effort))) {
         Status status = Done{};
         if (running)
             ; // goes on

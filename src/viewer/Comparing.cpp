@@ -116,12 +116,13 @@ std::string Viewer::State::differenceText(bool ofRight) const {
 
 // Of both sides where their materials are compared.
 std::vector<Figure> Viewer::State::allFigures() const {
-    std::vector<Figure> all = figuresOf(*scene);
+    constexpr double kMs = 30; // a picture waits for them
+    std::vector<Figure> all = figuresOf(*scene, kMs);
     if (compare.mode != CompareMode::Materials) return all;
     scene::Scene other = withMaterialsOf(*scene, *right);
     for (scene::Object& object : other.objects)
         object.name = besideOwner(object.name);
-    for (Figure& figure : figuresOf(other)) {
+    for (Figure& figure : figuresOf(other, kMs)) {
         figure.place = Group::Mode; // as the controls of that side
         all.push_back(std::move(figure));
     }

@@ -2,10 +2,10 @@
 
 namespace lucent::viewer {
 
-std::vector<Figure> figuresOf(const scene::Scene& scene) {
+std::vector<Figure> figuresOf(const scene::Scene& scene, double ms) {
     std::vector<Figure> all;
     for (const PanelPart* part : panelParts())
-        for (Figure& figure : part->figures(scene))
+        for (Figure& figure : part->figures(scene, ms))
             all.push_back(std::move(figure));
     return all;
 }

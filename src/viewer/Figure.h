@@ -21,19 +21,22 @@ struct Figure {
     /// Draws it at a place [CSS pixels], so wide. Needs a current ImGui window.
     std::function<void(ImDrawList&, vec2, float, const Theme&)> draw;
     Group place = Group::Subsurface; ///< among whose controls it stands
+    bool isPending = false;          ///< is to be asked for again: it takes longer; there is its owner alone
 };
 
 /// What a technique adds to the panel.
 struct PanelPart {
     /// Figures of the visible objects that have any, in the scene's order.
-    std::vector<Figure> (*figures)(const scene::Scene&);
+    ///
+    /// @param ms  after which those that are not worked out yet are pending; one more is each time
+    std::vector<Figure> (*figures)(const scene::Scene&, double ms);
 };
 /// Those of all techniques that are built in; the list is made by CMake.
 std::span<const PanelPart* const> panelParts();
 
-/// All figures of a scene.
-std::vector<Figure> figuresOf(const scene::Scene& scene);
-/// JSON array of them.
+/// All figures of a scene, some of them pending.
+std::vector<Figure> figuresOf(const scene::Scene& scene, double ms);
+/// JSON array of them; {"owner", "pending": true} of those that are pending.
 std::string figuresJson(const std::vector<Figure>& figures);
 
 } // namespace lucent::viewer

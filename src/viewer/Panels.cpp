@@ -77,9 +77,10 @@ void Viewer::State::frame() {
     fonts().select(scale);
     panel.setCanvas(canvas());
 
-    if (scene && figuresAt != revision) {
+    if (scene && (figuresAt != revision || figuresPend)) {
         figures = allFigures();
         figuresAt = revision;
+        figuresPend = std::erase_if(figures, [](const Figure& figure) { return figure.isPending; }) > 0;
     }
     ImGui::NewFrame();
     std::vector<Edit> edits;

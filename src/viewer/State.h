@@ -84,6 +84,7 @@ struct Viewer::State {
     bool stale = false, shown = false;              // the scene changed since; there is a picture to present
     std::vector<Figure> figures;
     std::uint64_t figuresAt = 0; // revision whose they are
+    bool figuresPend = false;    // some are still to come
     std::vector<Figure> allFigures() const;
     bool settled = true; // ImGui has nothing new to say
     std::uint64_t shownHash = 0;

@@ -7,6 +7,7 @@
 #include "views/Surface.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -85,6 +86,12 @@ LobePlot::Laws makeLaws(const scene::Material& material) {
 const LobePlot::Laws& lawsOf(const scene::Object& object) {
     return object.kept.of<LobePlot::Laws>(keyOf(object.material), [&] { return makeLaws(object.material); });
 }
+
+bool hasLaws(const scene::Object& object) {
+    return object.kept.find<LobePlot::Laws>(keyOf(object.material)) != nullptr;
+}
+
+bool hasPlot(const scene::Object& object) { return object.visible && object.material.isGlossy(); }
 
 LobePlot plotOf(const scene::Scene& scene, const scene::Object& object) {
     const scene::Material& material = object.material;
@@ -258,9 +265,24 @@ void drawPlot(ImDrawList& list, vec2 at, float width, const LobePlot& plot, cons
     drawTables(list, at + vec2(0, kLobeHeight), width, laws, theme);
 }
 
-std::vector<viewer::Figure> figures(const scene::Scene& scene) {
+viewer::Figure pendingOf(const scene::Object& object) {
+    JsonWriter json;
+    json.beginObject().key("owner").value(object.name).key("pending").value(true).end();
+    return {
+        .owner = object.name, .text = "", .json = json.text(), .height = 0, .draw = {}, .isPending = true};
+}
+
+std::vector<viewer::Figure> figures(const scene::Scene& scene, double ms) {
+    using Clock = std::chrono::steady_clock;
+    const auto until = Clock::now() + std::chrono::duration<double, std::milli>(ms);
     std::vector<viewer::Figure> list;
-    for (LobePlot& plot : lobePlots(scene)) {
+    for (const scene::Object& object : scene.objects) {
+        if (!hasPlot(object)) continue;
+        if (!hasLaws(object) && Clock::now() > until) {
+            list.push_back(pendingOf(object));
+            continue;
+        }
+        LobePlot plot = plotOf(scene, object);
         viewer::Figure figure{plot.owner, describe(plot), jsonOf(plot), kLobeHeight + kChartHeight,
                               {},         Group::Material};
         figure.draw = [plot = std::move(plot)](ImDrawList& drawn, vec2 at, float width, const Theme& theme) {
@@ -276,7 +298,7 @@ std::vector<viewer::Figure> figures(const scene::Scene& scene) {
 std::vector<LobePlot> lobePlots(const scene::Scene& scene) {
     std::vector<LobePlot> plots;
     for (const scene::Object& object : scene.objects)
-        if (object.visible && object.material.isGlossy()) plots.push_back(plotOf(scene, object));
+        if (hasPlot(object)) plots.push_back(plotOf(scene, object));
     return plots;
 }
 

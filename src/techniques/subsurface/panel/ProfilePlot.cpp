@@ -180,7 +180,7 @@ void drawProfilePlot(ImDrawList& list, vec2 at, float width, const ProfilePlot& 
         drawCurve(list, axes, plot, c);
 }
 
-std::vector<viewer::Figure> figures(const scene::Scene& scene) {
+std::vector<viewer::Figure> figures(const scene::Scene& scene, double) {
     std::vector<viewer::Figure> list;
     for (ProfilePlot& plot : profilePlots(scene)) {
         viewer::Figure figure{plot.owner, describe(plot), jsonOf(plot), kPlotHeight, {}};
