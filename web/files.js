@@ -273,7 +273,8 @@ export async function openScene(start, files) {
 export async function loadFiles({ runtime, handle }, { path, files, sources }) {
   for (const [name, bytes] of files) runtime.call('file_put', name, bytes);
   const load = runtime.call('viewer_load', handle, path);
-  while (runtime.call('viewer_load_on', handle, load)) await nextTask();
+  do await nextTask();
+  while (runtime.call('viewer_load_on', handle, load));
   const message = runtime.text('viewer_load_error', handle);
   if (message) throw new LucentError('scene', message);
   return sources ?? sourcesOf([...files].filter(([name]) => name !== path));

@@ -247,23 +247,21 @@ dvec2 smallestBoxAlong(const std::vector<dvec2>& places) {
 class Layout {
 public:
     Layout(const Mesh& mesh, const Charting& charting)
-        : mesh_(mesh), charting_(charting), side_(charting.side), count_(mesh.indices.size() / 3) {
+        : mesh_(mesh), charting_(charting), side_(charting.side), count_(mesh.indices.size() / 3),
+          chartOf_(count_, kNone) {
         measure();
         join();
     }
 
-    // Every triangle gets a place; Error when there is no room.
-    Status run() {
-        chartOf_.assign(count_, kNone);
-        grow();
-        while (true) {
-            if (Status packed = pack(); !packed) return packed;
-            const std::vector<std::size_t> hidden = hiddenTriangles();
-            if (hidden.empty()) return Done{};
-            for (const std::size_t t : hidden)
-                chartOf_[t] = kNone;
-            grow(); // more charts each time: it ends when every triangle is one, at the latest
-        }
+    // Works until every triangle has a place; Error when there is no room. @return whether all have one
+    Result<bool> advance() {
+        if (!grows()) return false;
+        if (Status packed = pack(); !packed) return packed.error();
+        const std::vector<std::size_t> hidden = hiddenTriangles();
+        for (const std::size_t t : hidden)
+            chartOf_[t] = kNone;
+        seed_ = 0; // more charts each time: it ends when every triangle is one, at the latest
+        return hidden.empty();
     }
 
     double scale() const { return scale_; }
@@ -327,17 +325,21 @@ private:
         }
     }
 
-    // Puts all triangles that are in no chart into new ones.
-    void grow() {
-        for (std::size_t t = 0; t < count_; ++t)
-            if (chartOf_[t] == kNone && normals_[t] != dvec3(0)) growFrom(t);
+    // Puts triangles that are in no chart into new ones. @return whether all are in one
+    bool grows() {
+        constexpr std::size_t kPieces = 8;
+        for (std::size_t taken = 0; seed_ < count_ && taken <= count_ / kPieces; ++seed_)
+            if (chartOf_[seed_] == kNone && normals_[seed_] != dvec3(0)) taken += growFrom(seed_);
+        if (seed_ < count_) return false;
         const auto first = std::find(chartOf_.begin(), chartOf_.end(), kNone);
-        if (first == chartOf_.end()) return;
+        if (first == chartOf_.end()) return true;
         std::replace(first, chartOf_.end(), kNone, int(charts_.size()));
         charts_.push_back({});
+        return true;
     }
 
-    void growFrom(std::size_t seed) {
+    // @return  how many triangles its chart has
+    std::size_t growFrom(std::size_t seed) {
         const int number = int(charts_.size());
         if (!charting_.fitted) {
             const auto facing = [&](const Axis& axis) { return glm::dot(axis.out, normals_[seed]); };
@@ -345,9 +347,9 @@ private:
                 std::max_element(std::begin(kAxes), std::end(kAxes),
                                  [&](const Axis& a, const Axis& b) { return facing(a) < facing(b); });
             Chart chart{*axis, {}};
-            take(chart, seed, number);
+            const std::size_t count = take(chart, seed, number).size();
             charts_.push_back(chart);
-            return;
+            return count;
         }
         // First across the seed's own normal, then across the mean of what that took.
         Chart tried{axisAlong(normals_[seed]), {}};
@@ -364,6 +366,7 @@ private:
         taken = take(chart, seed, number);
         turn(chart, taken);
         charts_.push_back(chart);
+        return taken.size();
     }
 
     // Grows a chart from a triangle on. @return  its triangles
@@ -499,6 +502,7 @@ private:
     std::vector<int> across_;    // three a triangle
     double maskScale_ = 0;       // texels a metre
     std::vector<int> chartOf_;
+    std::size_t seed_ = 0; // of charts to come, a triangle
     std::vector<Chart> charts_;
     std::vector<ivec2> offsets_; // of the boxes with their borders
     double scale_ = 0;           // texels a metre
@@ -564,9 +568,35 @@ Result<std::shared_ptr<const Atlas>> atlasOf(const Mesh& mesh, int side) {
 }
 
 Result<std::shared_ptr<const Atlas>> atlasOf(const Mesh& mesh, const Charting& charting) {
-    Layout layout(mesh, charting);
-    if (Status laid = layout.run(); !laid) return laid.error();
-    return std::make_shared<const Atlas>(atlasFrom(mesh, layout, charting.side));
+    AtlasMaking making(std::shared_ptr<const Mesh>(std::shared_ptr<void>(), &mesh), charting); // lives longer
+    std::optional<AtlasMaking::Made> made;
+    while (!made)
+        made = making.advance();
+    return *made;
+}
+
+struct AtlasMaking::State {
+    std::shared_ptr<const Mesh> mesh;
+    Charting charting;
+    std::optional<Layout> layout{};
+    bool isLaid = false;
+};
+
+AtlasMaking::AtlasMaking(std::shared_ptr<const Mesh> mesh, const Charting& charting)
+    : state_(std::make_unique<State>(State{std::move(mesh), charting})) {}
+AtlasMaking::~AtlasMaking() = default;
+
+std::optional<AtlasMaking::Made> AtlasMaking::advance() {
+    State& s = *state_;
+    if (s.isLaid) return Made(std::make_shared<const Atlas>(atlasFrom(*s.mesh, *s.layout, s.charting.side)));
+    if (!s.layout) {
+        s.layout.emplace(*s.mesh, s.charting);
+        return {};
+    }
+    const Result<bool> isLaid = s.layout->advance();
+    if (!isLaid) return Made(isLaid.error());
+    s.isLaid = *isLaid;
+    return {};
 }
 
 Result<std::shared_ptr<const Atlas>> atlasOf(const Object& object, int side) {

@@ -4,6 +4,7 @@
 #include "scene/Mesh.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace lucent::scene {
@@ -34,6 +35,19 @@ struct Charting {
     /// small as can be, instead of along the axes of the mesh.
     bool fitted = false;
     bool operator==(const Charting&) const = default;
+};
+/// Makes one piece by piece, for who must not wait.
+class AtlasMaking {
+public:
+    using Made = Result<std::shared_ptr<const Atlas>>;
+    AtlasMaking(std::shared_ptr<const Mesh> mesh, const Charting& charting);
+    ~AtlasMaking();
+    /// One piece more; the atlas once it is whole.
+    std::optional<Made> advance();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
 };
 /// The same in other ways: the one above is Charting{side}.
 Result<std::shared_ptr<const Atlas>> atlasOf(const Mesh& mesh, const Charting& charting);

@@ -85,32 +85,27 @@ bool isNarrow(const Corners& t) {
     return std::abs(twiceArea(t[0], t[1], t[2])) < 0.02 * std::max(longest, std::sqrt(longest));
 }
 
-// The triangle nearest to each texel's middle that is near enough to read the texel.
-std::vector<std::uint32_t> nearestTriangles(const Atlas& atlas) {
+// Of each texel's middle: a triangle that is nearer than those before, and near enough to read the texel.
+void takeNearer(const Atlas& atlas, std::uint32_t t, std::vector<std::uint32_t>& triangles,
+                std::vector<float>& distances) {
     const int side = atlas.side;
-    const auto& corners = atlas.mesh->indices;
-    std::vector<std::uint32_t> triangles(std::size_t(side) * std::size_t(side), kNone);
-    std::vector<float> distances(triangles.size(), float(kReach));
-    for (std::uint32_t t = 0; 3 * std::size_t(t) < corners.size(); ++t) {
-        Corners places;
-        for (std::size_t i = 0; i < 3; ++i)
-            places[i] = dvec2(atlas.places[corners[3 * std::size_t(t) + i]]);
-        const auto [top, bottom] = std::minmax({places[0].y, places[1].y, places[2].y});
-        const int last = std::min(side - 1, int(std::floor(bottom + kReach - 0.5)));
-        for (int y = std::max(0, int(std::ceil(top - kReach - 0.5))); y <= last; ++y) {
-            const dvec2 span = spanBetween(places, y + 0.5 - kReach, y + 0.5 + kReach);
-            const int right = std::min(side - 1, int(std::floor(span.y + kReach - 0.5)));
-            for (int x = std::max(0, int(std::ceil(span.x - kReach - 0.5))); x <= right; ++x) {
-                const std::size_t number = std::size_t(y) * std::size_t(side) + std::size_t(x);
-                if (distances[number] == 0) continue;
-                const auto away = float(nearestPlace(places, {x + 0.5, y + 0.5}).distance);
-                if (away >= distances[number]) continue;
-                distances[number] = away;
-                triangles[number] = t;
-            }
+    Corners places;
+    for (std::size_t i = 0; i < 3; ++i)
+        places[i] = dvec2(atlas.places[atlas.mesh->indices[3 * std::size_t(t) + i]]);
+    const auto [top, bottom] = std::minmax({places[0].y, places[1].y, places[2].y});
+    const int last = std::min(side - 1, int(std::floor(bottom + kReach - 0.5)));
+    for (int y = std::max(0, int(std::ceil(top - kReach - 0.5))); y <= last; ++y) {
+        const dvec2 span = spanBetween(places, y + 0.5 - kReach, y + 0.5 + kReach);
+        const int right = std::min(side - 1, int(std::floor(span.y + kReach - 0.5)));
+        for (int x = std::max(0, int(std::ceil(span.x - kReach - 0.5))); x <= right; ++x) {
+            const std::size_t number = std::size_t(y) * std::size_t(side) + std::size_t(x);
+            if (distances[number] == 0) continue;
+            const auto away = float(nearestPlace(places, {x + 0.5, y + 0.5}).distance);
+            if (away >= distances[number]) continue;
+            distances[number] = away;
+            triangles[number] = t;
         }
     }
-    return triangles;
 }
 
 PaintSurface::Texel texelOf(const Atlas& atlas, std::uint32_t triangle, std::uint32_t number) {
@@ -164,11 +159,27 @@ void setTexel(Image& map, std::uint32_t number, const vec4& value) {
 
 } // namespace
 
-PaintSurface::PaintSurface(const Atlas& atlas) : side_(atlas.side) {
-    const std::vector<std::uint32_t> triangles = nearestTriangles(atlas);
-    for (std::uint32_t number = 0; number < triangles.size(); ++number)
-        if (triangles[number] != kNone) texels_.push_back(texelOf(atlas, triangles[number], number));
-    sort();
+PaintSurfaceMaking::PaintSurfaceMaking(std::shared_ptr<const Atlas> atlas)
+    : atlas_(std::move(atlas)), triangles_(std::size_t(atlas_->side) * std::size_t(atlas_->side), kNone),
+      distances_(triangles_.size(), float(kReach)), surface_(std::make_shared<PaintSurface>()) {
+    surface_->side_ = atlas_->side;
+}
+
+std::optional<PaintSurfaceMaking::Made> PaintSurfaceMaking::advance() {
+    constexpr std::size_t kPieces = 8; // of either part
+    const std::size_t count = atlas_->mesh->indices.size() / 3;
+    if (triangle_ < count) {
+        for (std::size_t end = std::min(count, triangle_ + count / kPieces + 1); triangle_ < end; ++triangle_)
+            takeNearer(*atlas_, std::uint32_t(triangle_), triangles_, distances_);
+        return {};
+    }
+    if (texel_ == triangles_.size()) return surface_;
+    const std::size_t end = std::min(triangles_.size(), texel_ + triangles_.size() / kPieces + 1);
+    for (; texel_ < end; ++texel_)
+        if (triangles_[texel_] != kNone)
+            surface_->texels_.push_back(texelOf(*atlas_, triangles_[texel_], std::uint32_t(texel_)));
+    if (texel_ == triangles_.size()) surface_->sort();
+    return {};
 }
 
 void PaintSurface::sort() {
@@ -208,8 +219,13 @@ void PaintSurface::sort() {
 Result<std::shared_ptr<const PaintSurface>> paintSurfaceOf(const Object& object, int side) {
     const auto atlas = atlasOf(object, side);
     if (!atlas) return atlas.error();
-    return object.kept.of<std::shared_ptr<const PaintSurface>>(
-        *atlas, [&] { return std::make_shared<const PaintSurface>(**atlas); });
+    return object.kept.of<PaintSurfaceMaking::Made>(*atlas, [&] {
+        PaintSurfaceMaking making(*atlas);
+        std::optional<PaintSurfaceMaking::Made> made;
+        while (!made)
+            made = making.advance();
+        return *made;
+    });
 }
 
 Canvas::Canvas(std::shared_ptr<const PaintSurface> surface, float scale,
@@ -231,6 +247,7 @@ void Canvas::begin(const Brush& brush) {
     brush_ = brush;
     stroke_ = {brush, {}, {}};
     step_ = {mapOf(brush.map), {}};
+    filled_ = 0;
 }
 
 void Canvas::dab(const Dab& dab) {
@@ -250,10 +267,19 @@ void Canvas::end() {
 
 void Canvas::add(const Stroke& stroke) {
     end();
-    strokes_.resize(done_);
-    checkpoints_.erase(checkpoints_.upper_bound(done_), checkpoints_.end());
-    strokes_.push_back(stroke);
-    apply(stroke);
+    while (!addSome(stroke)) {
+    }
+}
+
+bool Canvas::addSome(const Stroke& stroke) {
+    if (!open_) {
+        begin(stroke.brush);
+        for (const Dab& one : stroke.dabs)
+            dab(one);
+    }
+    if (stroke.fill && !fillSome(*stroke.fill)) return false;
+    end();
+    return true;
 }
 
 // Paints the stroke that stands at done_ in the list.
@@ -261,7 +287,8 @@ void Canvas::apply(const Stroke& stroke) {
     begin(stroke.brush);
     for (const Dab& one : stroke.dabs)
         dab(one);
-    if (stroke.fill) fill(*stroke.fill);
+    while (stroke.fill && !fillSome(*stroke.fill)) {
+    }
     open_ = false;
     close();
 }
@@ -351,7 +378,9 @@ void Canvas::touch(vec3 centre, vec3 normal, float radius) {
     });
 }
 
-void Canvas::fill(const Stroke::Fill& fill) {
+// Goes on with so many texels. @return whether all are done
+bool Canvas::fillSome(const Stroke::Fill& fill) {
+    constexpr std::size_t kTexels = 1 << 16;
     stroke_.fill = fill;
     const auto isIn = [&](const vec3& p) {
         return glm::all(glm::greaterThanEqual(p, fill.low)) && glm::all(glm::lessThanEqual(p, fill.high));
@@ -359,10 +388,13 @@ void Canvas::fill(const Stroke::Fill& fill) {
     const auto cover = [&](std::uint32_t texel, const vec3& p) {
         if (isIn(p)) this->cover(texel, fill.veins > 0 ? veinAt(p * (scale_ / fill.veins)) : 1);
     };
-    for (const PaintSurface::Texel& texel : surface_->texels()) {
+    const std::vector<PaintSurface::Texel>& texels = surface_->texels();
+    for (const std::size_t end = std::min(texels.size(), filled_ + kTexels); filled_ < end; ++filled_) {
+        const PaintSurface::Texel& texel = texels[filled_];
         cover(texel.number, texel.place);
         if (brush_.symmetric) cover(texel.number, texel.place * kMirror);
     }
+    return filled_ == texels.size();
 }
 
 // What a texel becomes depends on its largest coverage alone.

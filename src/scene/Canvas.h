@@ -19,8 +19,6 @@ namespace lucent::scene {
 /// border.
 class PaintSurface {
 public:
-    explicit PaintSurface(const Atlas& atlas);
-
     struct Texel {
         vec3 place, normal;   ///< object space, unit
         std::uint32_t number; ///< row by row
@@ -48,14 +46,31 @@ private:
     ivec3 cellOf(vec3 place) const {
         return ivec3(glm::clamp((place - low_) / cell_, vec3(0), vec3(cells_ - 1)));
     }
+    friend class PaintSurfaceMaking;
     void sort();
 
-    int side_;
+    int side_ = 0;
     std::vector<Texel> texels_;
     vec3 low_{0};
     float cell_ = 1; // edge, m
     ivec3 cells_{1};
     std::vector<std::uint32_t> starts_; // where each cell's texels begin, x fastest; one more for the end
+};
+
+/// Makes one piece by piece, for who must not wait.
+class PaintSurfaceMaking {
+public:
+    using Made = std::shared_ptr<const PaintSurface>;
+    explicit PaintSurfaceMaking(std::shared_ptr<const Atlas> atlas);
+    /// One piece more; the surface once it is whole.
+    std::optional<Made> advance();
+
+private:
+    std::shared_ptr<const Atlas> atlas_;
+    std::vector<std::uint32_t> triangles_; // nearest to each texel,
+    std::vector<float> distances_;         // and how far away
+    std::size_t triangle_ = 0, texel_ = 0; // to come next
+    std::shared_ptr<PaintSurface> surface_;
 };
 
 /// That of an object; made once for the last few atlases. Error where its mesh does not fit.
@@ -83,6 +98,10 @@ public:
     bool isOpen() const { return open_; }
     /// A whole stroke.
     void add(const Stroke& stroke);
+    /// A part of it, where it fills much, for who must not wait: to be called again with the same stroke.
+    ///
+    /// @return whether it is whole
+    bool addSome(const Stroke& stroke);
 
     /// @return false where there is nothing to take back, or to do again
     bool undo();
@@ -116,7 +135,7 @@ private:
     void apply(const Stroke& stroke);
     void close();
     void touch(vec3 centre, vec3 normal, float radius);
-    void fill(const Stroke::Fill& fill);
+    bool fillSome(const Stroke::Fill& fill);
     void cover(std::uint32_t texel, float coverage);
     vec3 target() const;
     vec4 blended(const vec4& before, float share) const;
@@ -141,6 +160,7 @@ private:
     Brush brush_;
     Stroke stroke_;
     Step step_;
+    std::size_t filled_ = 0;       // of the surface's texels
     std::vector<float> coverage_;  // largest so far
     std::vector<int> tileNumbers_; // in step_, -1: untouched
 

@@ -167,6 +167,25 @@ private:
         decoded_.add(key, value = std::move(*made));
         return true;
     }
+    // Of what is made piece by piece, some more.
+    template <class Making, class Value, class... Of>
+    bool pieces(const Place& place, const std::string& key, Value& value, const Of&... of) {
+        std::shared_ptr<Making> making;
+        if (decoded_.find(key, value)) return true;
+        if (!piece(place, key + ", begun", making,
+                   [&]() -> Result<std::shared_ptr<Making>> { return std::make_shared<Making>(of...); }))
+            return false;
+        for (;;) {
+            if (decoded_.isOver()) return false;
+            auto made = making->advance();
+            decoded_.isNew = true;
+            if (!made) continue;
+            const Result<Value> whole(std::move(*made));
+            if (!whole) return fail(place, ": " + whole.error().message);
+            decoded_.add(key, value = *whole);
+            return true;
+        }
+    }
     template <class Decode>
     bool readMap(const Place& place, std::string_view key, std::string& file,
                  std::shared_ptr<const Image>& map, Decode decode) {
@@ -513,22 +532,31 @@ private:
         object.painting = std::make_shared<const Painting>(std::move(files));
         return true;
     }
+    // An atlas that the object keeps.
+    bool lay(const Place& place, const Object& object, int side, std::shared_ptr<const Atlas>& atlas) {
+        const std::pair source(meshOf(object), side);
+        if (!pieces<AtlasMaking>(place, place.path + " atlas", atlas, source.first, Charting{side}))
+            return false;
+        object.kept.of<std::shared_ptr<const Atlas>>(source, [&] { return atlas; });
+        return true;
+    }
     // Paints the strokes piece by piece: the atlas, its texels, one stroke after the other.
     bool play(const Place& place, Object& object, const Painting& painting, int side,
               std::shared_ptr<Canvas>& canvas) {
         std::shared_ptr<const Atlas> atlas;
         std::shared_ptr<const PaintSurface> surface;
         if (!piece(place, place.path + " kept", object.kept, [&]() -> Result<Kept> { return object.kept; }) ||
-            !piece(place, place.path + " atlas", atlas, [&] { return atlasOf(object, side); }) ||
-            !piece(place, place.path + " texels", surface, [&] { return paintSurfaceOf(object, side); }) ||
+            !lay(place, object, side, atlas) ||
+            !pieces<PaintSurfaceMaking>(place, place.path + " texels", surface, atlas) ||
             !piece(place, place.path + " canvas", canvas, [&]() -> Result<std::shared_ptr<Canvas>> {
                 return std::make_shared<Canvas>(surface, object.transform.scale, painting.entering,
                                                 painting.leaving, 0);
             }))
             return false;
+        object.kept.of<PaintSurfaceMaking::Made>(atlas, [&] { return surface; }); // for who goes on painting
         while (canvas->strokes().size() < painting.strokes.size()) {
             if (decoded_.isOver()) return false;
-            canvas->add(painting.strokes[canvas->strokes().size()]);
+            canvas->addSome(painting.strokes[canvas->strokes().size()]);
             decoded_.isNew = true;
         }
         return true;
@@ -772,7 +800,7 @@ std::optional<Result<Scene>> Loading::advance(double ms) {
     s.decoded.until = Clock::now() + std::chrono::duration_cast<Clock::duration>(patience);
     s.decoded.pauses = s.decoded.isNew = false;
     Result<Scene> scene = Loader(s.path, s.read, s.techniques, s.decoded).load(**s.root);
-    if (s.decoded.pauses) return std::nullopt;
+    if (s.decoded.pauses || s.decoded.isOver()) return std::nullopt; // whoever takes it has work, too
     return scene;
 }
 
