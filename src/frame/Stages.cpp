@@ -517,7 +517,7 @@ Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64
     const double begins = now();
     if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
         start(asked, newRevision, newSize, effort);
-    const bool rested = !atOnce && now() - begins > 0.5 * kSliceMs; // of a scene whose shapes were made
+    const bool isLate = !atOnce && now() - begins > 0.5 * kSliceMs; // the scene's shapes were made
     const scene::Scene& scene = *pictured;
     if (dragged && effort != Effort::Coarse) { // the look was the picture already
         const bool over = complete();
@@ -525,7 +525,7 @@ Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64
         addSamples(scene);
         if (over) startStage(scene);
     }
-    if (!rested && (running || !complete() || whole || !settled(effort))) {
+    if (!isLate && (running || !complete() || whole || !settled(effort))) {
         Status status = Done{};
         if (running)
             ; // goes on
