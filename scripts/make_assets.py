@@ -55,7 +55,8 @@ SIMPLIFIER = [Path(inspect.getsourcefile(meshes.simplify))]
 SOLIDS = [Path(meshes.__file__), Path(solids.__file__)]
 TEXTURED = [Path(meshes.__file__), Path(textured.__file__)]
 MODELS = Path("/usr/share/assimp/models")
-SPIDER = ["spider.obj", "spider.mtl", "wal67ar_small.jpg", "SpiderTex.jpg", "drkwood2.jpg", "engineflare1.jpg"]
+SPIDER = ["spider.obj", "spider.mtl", "wal67ar_small.jpg", "wal69ar_small.jpg", "SpiderTex.jpg", "drkwood2.jpg",
+          "engineflare1.jpg"]
 DEM = Path("/usr/share/matplotlib/mpl-data/sample_data/jacksboro_fault_dem.npz")
 OUT = ROOT / "assets/generated"
 GALLERY, MESHES, FIELDS = OUT / "gallery", OUT / "meshes", OUT / "fields"
