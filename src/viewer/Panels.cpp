@@ -138,10 +138,10 @@ void Viewer::State::settle() {
     for (int i = 0; i < kMostFrames; ++i) {
         frame();
         const std::uint64_t now = frameHash();
-        if (now == before) break;
+        if (now == before || figuresPend) break; // each frame works some of them out
         before = now;
     }
-    settled = true;
+    settled = !figuresPend;
 }
 
 void Viewer::State::typeKey(const std::string& key, Modifiers modifiers) {
