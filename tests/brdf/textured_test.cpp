@@ -194,13 +194,17 @@ TEST_F(TexturedTest, AllTexturesTogetherAreTheTruths) {
     }
 }
 
-// Of a displaced surface each point has the coordinates of its foot.
-TEST_F(TexturedTest, DisplacedSurfacesShowThemAll) {
-    auto hills = std::make_shared<Image>(32, 32, 1);
+scene::Displacement hills() {
+    auto heights = std::make_shared<Image>(32, 32, 1);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x)
-            *hills->at(x, y) =
+            *heights->at(x, y) =
                 0.5f + 0.4f * float(std::sin(std::numbers::pi * x / 8) * std::cos(std::numbers::pi * y / 16));
+    return {.scale = 0.12f, .repeat = {1, 2}, .heights = std::move(heights)};
+}
+
+// Of a displaced surface each point has the coordinates of its foot.
+TEST_F(TexturedTest, DisplacedSurfacesShowThemAll) {
     scene::Mesh ball = fullBall();
     for (std::size_t i = 0; i < ball.positions.size(); ++i) {
         ball.colors.push_back(vec3(0.6f) + 0.8f * ball.positions[i]);
@@ -216,7 +220,7 @@ TEST_F(TexturedTest, DisplacedSurfacesShowThemAll) {
         scene.objects.clear();
         scene::Object& object = add(ball, std::move(kind));
         object.material.base = vec3(0.3f);
-        object.displacement = scene::Displacement{.scale = 0.12f, .repeat = {1, 2}, .heights = hills};
+        object.displacement = hills();
         return object;
     };
     const scene::Glossy metal{.metallic = 1, .roughness = 0.9f};
@@ -313,6 +317,9 @@ TEST_F(TexturedTest, MirrorsShowThem) {
     mirror.material.kind = scene::Mirror{};
     mirror.transform.translate = {0, -0.6f, 0};
     EXPECT_LE(misplaced(64), 0.02);
+    scene.objects[0].displacement = hills();
+    scene.objects[0].transform.scale = 0.8f;
+    EXPECT_LE(misplaced(64), 0.02);
 }
 
 TEST_F(TexturedTest, TheyAreSeenThroughGlass) {
@@ -329,6 +336,8 @@ TEST_F(TexturedTest, TheyAreSeenThroughGlass) {
     pane.shape = scene::Box{{3, 0.05f, 3}};
     pane.material.kind = scene::Clear{.ior = 1.5f, .fresnel = false};
     pane.transform.translate = {0, 0.3f, 0};
+    EXPECT_LE(misplaced(1), 0.02);
+    scene.objects[0].displacement = hills();
     EXPECT_LE(misplaced(1), 0.02);
 }
 
