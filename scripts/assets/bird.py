@@ -3,7 +3,7 @@ from pathlib import Path
 
 import numpy as np
 
-from solids import capsule, carve, ellipsoid, join, write
+from solids import capsule, carve, ellipsoid, join, mirrored, write
 
 LOW, HIGH = (-7.5, -4.6, -3.4), (6.5, 5.0, 3.4)
 CELL = 0.32  # cm
@@ -17,8 +17,7 @@ def tilted(degrees: float) -> np.ndarray:
 
 def surface(points: np.ndarray) -> np.ndarray:
     """Below 0 inside; about the distance in cm near the surface. Both sides are alike."""
-    p = points.copy()
-    p[..., 2] = np.abs(p[..., 2])
+    p = mirrored(points, 2)
     bird = join(ellipsoid(p, (0, 0, 0), (3.7, 2.1, 1.9), tilted(24)), ellipsoid(p, (1.4, 0.1, 0), (2.0, 2.1, 1.7)), 1.2)
     bird = join(bird, ellipsoid(p, (3.0, 2.7, 0), (1.65, 1.5, 1.4)), 1.4)                  # head
     bird = join(bird, capsule(p, (4.1, 2.75, 0), (5.6, 2.35, 0), 0.55, 0.2), 0.5)          # beak

@@ -8,10 +8,10 @@ import numpy as np
 from meshes import write_glb
 
 
-def mirrored(points: np.ndarray) -> np.ndarray:
-    """So that what is made at x > 0 stands on both sides."""
+def mirrored(points: np.ndarray, axis: int = 0) -> np.ndarray:
+    """So that what is made on the positive side of an axis stands on both."""
     p = points.copy()
-    p[..., 0] = np.abs(p[..., 0])
+    p[..., axis] = np.abs(p[..., axis])
     return p
 
 

@@ -16,8 +16,9 @@ layout(location = 2) out vec4 oEmission;
 
 // The normal that the texture makes of an outward one.
 //
-// places, steps  how places and coordinates change along two directions of the triangle. Where they do not say which way
-//                the texture lies the surface keeps its own normal
+// placeX, placeY  how the place changes along two directions on the triangle,
+// atX, atY        and how the coordinates do. Where these do not say which way the texture lies the surface keeps its own
+//                 normal
 vec3 texturedNormal(vec3 normal, vec3 placeX, vec3 placeY, vec2 atX, vec2 atY, vec4 coordinates, float code,
                     float scale) {
     float turn = atX.x * atY.y - atX.y * atY.x < 0.0 ? -1.0 : 1.0;

@@ -21,8 +21,8 @@ struct Lit {
     bool carriesEnvironment = false; ///< unless caustics hold that as well
     Bounds beside{};                 ///< box around what else the shadows on meshes shall reach
     bool allAround = false;          ///< shadows reach what the view does not show, too
-    KeptShadows* kept = nullptr;     ///< null: no picture that follows needs them,
-    bool keepsParts = true;          ///< or none those of a light that is several samples
+    KeptShadows* kept = nullptr;     ///< null: no picture that follows needs them
+    bool keepsParts = true; ///< those of lamps with a size and of environments, too: they stay the same
 };
 
 /// What a light sample sees of all that stands in its way.

@@ -56,8 +56,7 @@ public:
                  "diffuseTransmissionFactor");
         if (m.isScattering()) nameWhen(color != vec3(1), "baseColorFactor of what light is scattered in");
         if (m.isRefractive()) nameWhen(color != vec3(1), "baseColorFactor of what light passes through");
-        nameWhen(gltf_.occlusionTexture.index >= 0,
-                 "occlusionTexture (what stands in the way is worked out)");
+        nameWhen(gltf_.occlusionTexture.index >= 0, "occlusionTexture (occlusion is computed)");
         nameWhen(property(kSpecular, "specularTexture"), "specularTexture");
         nameWhen(property(kSpecular, "specularColorTexture"), "specularColorTexture");
         nameWhen(property(kTransmission, "transmissionTexture"), "transmissionTexture");
