@@ -14,7 +14,7 @@ layout(std140) uniform OcclusionBlock {
     View faces[6];
     mat4 worldFromObject; // OF_FIELD: this and the rest
     vec4 source;          // world: position, 1; or unit direction to the light, 0
-    vec4 channel;         // 1 in the one that is drawn
+    vec4 channel;         // in the one that is drawn the share of the sample that the shadow stands for, else 0
     vec2 corner;          // of the copy of the view that is drawn, pixels
     vec2 texels;
     float texelSize;

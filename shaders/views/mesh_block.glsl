@@ -7,6 +7,7 @@ layout(std140) uniform MeshBlock {
     int object;  // in the scene
     int firstCorner; // of a refractive mesh, among those of all
     float normalScale; // of textured meshes, this and the rest
-    float cutoff;      // where the alpha of color is below, nothing is there
+    float cutoff;      // as scene::Textures has it
+    float threshold;   // of what is partly there, added to those of views/holes.glsl: [0,1]
     vec4 wraps; // of color, emission, roughness and normal: codes of views/texture_at.glsl
 } mesh;

@@ -2,16 +2,14 @@
 //
 // in    uFirst  BEHIND: depths of the nearest ones; what is drawn are the nearest behind those that face the light, or
 //               BACK: that are turned away from it, at which solid things end
-//       uColor  HOLES: whose alpha says where nothing is
+//       uColor  HOLES: views/holes.glsl
 // out   oDepth  [m]  along the view's forward: evenly spaced, which a depth buffer of a perspective view is not
 #pragma variants - BEHIND
 #pragma variants - BACK if BEHIND
 #pragma variants - HOLES
 #include "views/mesh_block.glsl"
 #ifdef HOLES
-#include "views/texture_at.glsl"
-uniform sampler2D uColor;
-in vec4 vCoordinate;
+#include "views/holes.glsl"
 #endif
 in float vDepth;
 layout(location = 0) out float oDepth;
@@ -22,7 +20,7 @@ const float kSame = 1e-5; // of a depth: what rounding may part
 
 void main() {
 #ifdef HOLES
-    if (textureAt(uColor, vCoordinate, mesh.wraps.x).a < mesh.cutoff) discard;
+    if (isHole()) discard;
 #endif
 #ifdef BEHIND
 #ifdef BACK

@@ -1,7 +1,7 @@
 // views/solid.frag: the first point of an opaque or mirroring object that is no height field.
 //
 // in    uFirst    SECOND: views/second.glsl
-//       uColor    HOLES: whose alpha says where nothing is
+//       uColor    HOLES: views/holes.glsl
 // out   oSurface  see surface_pixel.glsl; normals face the eye; SECOND: of what the first object hides
 #pragma variants - SECOND
 #pragma variants - CUT
@@ -13,9 +13,7 @@
 #include "views/second.glsl"
 #endif
 #ifdef HOLES
-#include "views/texture_at.glsl"
-uniform sampler2D uColor;
-in vec4 vCoordinate;
+#include "views/holes.glsl"
 #endif
 in vec3 vNormal;
 in float vDepth;
@@ -23,7 +21,7 @@ layout(location = 0) out vec4 oSurface;
 
 void main() {
 #ifdef HOLES
-    if (textureAt(uColor, vCoordinate, mesh.wraps.x).a < mesh.cutoff) discard;
+    if (isHole()) discard;
 #endif
 #ifdef SECOND
     if (isFirst(mesh.object)) discard;

@@ -139,6 +139,7 @@ struct Renderer::State {
     std::uint64_t asideRevision = 0;
     vec4 cut{0, 0, 0, 1};                       // of such a one: Eye::cut
     vec2 shift{0};                              // Eye::shift
+    float threshold = 0;                        // Eye::threshold of the first sample
     bool second = false;                        // Eye::second
     const views::Surroundings* given = nullptr; // of such a one: what its pictures know of their surroundings
     bool allAround = false;                     // of such a one: technique::Picture::allAround

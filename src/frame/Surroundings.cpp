@@ -239,6 +239,7 @@ Result<bool> Renderer::State::lookAround(const Moment& moment) {
     }
     elsewhere->cut = vec4(0, 0, 0, 1);
     elsewhere->shift = vec2(0);
+    elsewhere->threshold = moment.eye.threshold;
     elsewhere->second = aside.second;
     if (isFlat) {
         elsewhere->shift = moment.eye.shift * vec2(-1, 1);

@@ -16,6 +16,9 @@ constexpr int kSamplesPerTexel = 4; // one a channel
 constexpr int kPartShare = 2;      // a lamp's view has as many times the texels a side of one of its samples,
 constexpr int kDirectionShare = 4; // and of a direction of an environment
 constexpr int kLeastShadowSize = 16; // texels a side
+constexpr int kThresholds =
+    8; // of what is partly there, over which the shadow of a lamp without size is the mean
+constexpr float kGolden = 0.618034f; // parts that its multiples leave of one are never close together
 
 // Pixels that the same things can shade: those of one height field, or of all other shapes.
 struct Group {
@@ -23,6 +26,8 @@ struct Group {
     Bounds bounds;
     Drawables casters;
 };
+
+bool isPartly(const Drawable::Ptr& one) { return one->textured && one->textured->isPartly(); }
 
 bool isEmpty(const Bounds& bounds) { return glm::any(glm::lessThan(bounds.high, bounds.low)); }
 
@@ -59,12 +64,12 @@ struct Target {
 };
 
 light::OcclusionBlock blockOf(const Target& target, const LampPoint& sample, const ShadowViews& views,
-                              ivec2 corner, int channel) {
+                              ivec2 corner, int channel, float share) {
     light::OcclusionBlock block{.view = viewBlock(target.eye, target.size),
                                 .faces = facesOf(views),
                                 .source = sample.place,
                                 .faceCount = int(views.faces.size())};
-    block.channel[channel] = 1;
+    block.channel[channel] = share;
     block.corner = vec2(corner);
     if (!target.field) return block;
     const scene::Object& object = *target.field->object;
@@ -80,8 +85,11 @@ Occlusion emptyFor(const gl::Context& context, ivec2 size, std::size_t samples) 
 }
 
 // Adds what one sample's shadow keeps from a view.
+//
+// @param share  of the sample that this shadow stands for
 Status add(graph::FrameGraph& graph, gl::Context& context, const Target& target, const LampPoint& sample,
-           const Shadow& shadow, std::size_t number, std::size_t samples, Occlusion& occlusion) {
+           const Shadow& shadow, std::size_t number, std::size_t samples, Occlusion& occlusion,
+           float share = 1) {
     std::vector<std::string> defines;
     if (target.field) defines.push_back("OF_FIELD");
     if (target.places) defines.push_back("OF_PLACES");
@@ -102,7 +110,7 @@ Status add(graph::FrameGraph& graph, gl::Context& context, const Target& target,
         if (isFirst) pass.clear(occlusion.texture, vec4(0));
         return [surface = target.surface, places = target.places, map = shadow.map, program,
                 region = ivec4(corner, target.size),
-                block = blockOf(target, sample, shadow.views, corner, int(number) % kSamplesPerTexel)](
+                block = blockOf(target, sample, shadow.views, corner, int(number) % kSamplesPerTexel, share)](
                    const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
                                                  {"uShadow", resources[map]}};
@@ -129,6 +137,21 @@ Result<TextureId> shadowOf(graph::FrameGraph& graph, gl::Context& context, KeptS
     return map;
 }
 
+// How many shadows of one sample differ: one, unless there is no other sample to differ from it by what it
+// sees of things that are partly there.
+int thresholdsFor(const LampPoint& sample, const Drawables& casters) {
+    const bool isAlone = !sample.isPart && !sample.isEnvironment;
+    return isAlone && std::any_of(casters.begin(), casters.end(), isPartly) ? kThresholds : 1;
+}
+
+// The same views with thresholds beside those of other samples, of the same one and of the same pixel.
+void setThreshold(ShadowViews& views, const Lit& in, const Drawables& casters, std::size_t number, int i,
+                  int of) {
+    if (std::none_of(casters.begin(), casters.end(), isPartly)) return; // so that they are kept
+    for (Eye& face : views.faces)
+        face.threshold = glm::fract(float(number) * kGolden + (float(i) + in.eye.threshold) / float(of));
+}
+
 } // namespace
 
 int mostSamplesAtOnce(const gl::Context& context, ivec2 size) {
@@ -147,13 +170,17 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
             Shadow shadow{shadowViews(sample.source, boundsOfAll(casters), group.bounds,
                                       shadowSizeFor(sample, in.shadowSize)),
                           {}};
-            if (!shadow.views.faces.empty()) {
+            const int thresholds = shadow.views.faces.empty() ? 0 : thresholdsFor(sample, casters);
+            for (int threshold = 0; threshold < thresholds; ++threshold) {
+                setThreshold(shadow.views, in, casters, i, threshold, thresholds);
                 KeptShadows* const kept = sample.isPart && !in.keepsParts ? nullptr : in.kept;
                 Result<TextureId> map = shadowOf(graph, context, kept, shadow.views, casters, group.bounds);
                 if (!map) return map.error();
                 shadow.map = *map;
                 const Target target{in.eye, in.size, in.surface, group.field};
-                if (Status s = add(graph, context, target, sample, shadow, i, samples.size(), occlusion); !s)
+                if (Status s = add(graph, context, target, sample, shadow, i, samples.size(), occlusion,
+                                   1 / float(thresholds));
+                    !s)
                     return s.error();
             }
             if (!group.field) occlusion.shadows.push_back(std::move(shadow));

@@ -37,19 +37,25 @@ struct TextureUse {
 
 /// Pictures that belong to a material, as glTF 2.0 has them (3.9).
 struct Textures {
-    TextureUse color;          ///< multiplies Material::diffuse
-    TextureUse emission;       ///< multiplies Material::base
-    TextureUse roughness;      ///< of Glossy: green multiplies its roughness, blue its share of metal
-    TextureUse normal;         ///< 2 c - 1: x along u, y against v, z outwards; then unit
-    float normalScale = 1;     ///< of x and y
-    float cutoff = 0;          ///< where the colour's alpha is below, nothing is there; 0: all is
+    TextureUse color;      ///< multiplies Material::diffuse
+    TextureUse emission;   ///< multiplies Material::base
+    TextureUse roughness;  ///< of Glossy: green multiplies its roughness, blue its share of metal
+    TextureUse normal;     ///< 2 c - 1: x along u, y against v, z outwards; then unit
+    float normalScale = 1; ///< of x and y
+    /// Where the colour's alpha is below, nothing is there; 0: all is. Below 0 alpha, times minus this, is
+    /// the share that is there.
+    float cutoff = 0;
     bool vertexColors = false; ///< Mesh::colors multiply Material::diffuse as well
 
-    bool hasHoles() const { return cutoff > 0 && color.image >= 0; }
+    bool hasHoles() const { return cutoff < 0 || (cutoff > 0 && color.image >= 0); }
+    /// The share of a place that is there, [0,1], by its alpha.
+    double presence(double alpha) const {
+        return cutoff < 0 ? alpha * -double(cutoff) : alpha >= double(cutoff) ? 1 : 0;
+    }
     bool hasImages() const {
         return color.image >= 0 || emission.image >= 0 || roughness.image >= 0 || normal.image >= 0;
     }
-    bool any() const { return hasImages() || vertexColors; }
+    bool any() const { return hasImages() || vertexColors || hasHoles(); }
     bool operator==(const Textures&) const = default;
 };
 

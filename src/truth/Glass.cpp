@@ -62,7 +62,7 @@ dvec3 GlassEstimator::shown(const Arrival& arrival, Random& random) const {
 dvec3 GlassEstimator::radiance(const Beam& beam, int channel, Random& random, Seen& seen) const {
     const Limits limits = options_.branching == Branching::Tree ? kPhysics : Limits{};
     const auto light = [&](const Arrival& arrival) {
-        seen.byChance |= arrival.at == Arrival::At::Opaque && illumination_.isSampled();
+        seen.byChance |= arrival.byChance || (arrival.at == Arrival::At::Opaque && illumination_.isSampled());
         return arrival.weight * shown(arrival, random);
     };
     const Arrival arrival = follow(*optics_, beam, channel, options_.branching, limits, random);
@@ -86,17 +86,15 @@ GlassEstimator::Seen GlassEstimator::seen(const Beam& beam, Random& random) cons
 
 Pixel GlassEstimator::color(ivec2 pixel) const {
     const auto index = std::uint64_t(pixel.y) * std::uint64_t(size_.x) + std::uint64_t(pixel.x);
-    Estimate estimate;
-    int covered = 0;
-    bool byChance = true;
-    for (int i = 0; i < options_.samples && byChance; ++i) {
-        Random random(options_.seed, index, std::uint64_t(i));
+    Estimate estimate; // of what covers it
+    int count = 0;
+    for (bool byChance = true; count < options_.samples && byChance; ++count) {
+        Random random(options_.seed, index, std::uint64_t(count));
         const Seen one = seen(beamFrom(eye_, dvec2(pixel) + 0.5, atEye_), random);
-        estimate.add(one.radiance);
-        covered += one.anything ? 1 : 0;
+        if (one.anything) estimate.add(one.radiance);
         byChance = one.byChance;
     }
-    return {estimate.mean(), estimate.varianceOfMean(), double(covered) / double(estimate.count())};
+    return {estimate.mean(), estimate.varianceOfMean(), double(estimate.count()) / double(count)};
 }
 
 int GlassEstimator::layers(const Beam& beam) const {

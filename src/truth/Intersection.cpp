@@ -1,10 +1,12 @@
 #include "truth/Intersection.h"
 
+#include "truth/Random.h"
 #include "truth/Relief.h"
 #include "truth/Torus.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace lucent::truth {
 
@@ -324,6 +326,20 @@ bool blocks(const Shape& shape, unsigned part, const WorldRay& ray, Stretch stre
     return std::visit([&](const auto& known) { return blocks(known, ray, stretch); }, shape);
 }
 
+namespace {
+/// Even in [0,1) over rays and triangles, always the same for the same two.
+double chanceOf(const WorldRay& ray, unsigned triangle) {
+    std::uint64_t bits[6];
+    static_assert(sizeof bits == 2 * sizeof(dvec3));
+    std::memcpy(bits, &ray.origin, sizeof(dvec3));
+    std::memcpy(bits + 3, &ray.direction, sizeof(dvec3));
+    std::uint64_t seed = triangle;
+    for (const std::uint64_t part : bits)
+        seed = seed * 0x100000001b3u + part; // after Fowler, Noll, Vo's hash
+    return Random(seed, 0, 0).next();
+}
+} // namespace
+
 std::optional<Intersection> intersectTriangle(const Triangles& triangles, unsigned number,
                                               const WorldRay& ray) {
     const std::uint32_t* index = &triangles.indices[3 * std::size_t(number)];
@@ -338,10 +354,12 @@ std::optional<Intersection> intersectTriangle(const Triangles& triangles, unsign
     const double v = glm::dot(glm::cross(first, place), across) / area;
     constexpr double kOver = 1e-3;
     if (!(u > -kOver && v > -kOver && u + v < 1 + kOver)) return {};
-    if (triangles.isHole && triangles.isHole(number, {1 - u - v, u, v})) return {};
+    const double presence = triangles.presence ? triangles.presence(number, {1 - u - v, u, v}) : 1;
+    if (presence < 1 && presence <= (ray.hitsPartly ? 0 : chanceOf(ray, number))) return {};
     const dvec3 normal = across / std::sqrt(area);
     Intersection found(distance, normal);
     found.triangle = int(number);
+    if (ray.hitsPartly) found.presence = presence;
     if (triangles.normals.empty()) return found;
     const dvec3 smooth = (1 - u - v) * triangles.normals[index[0]] + u * triangles.normals[index[1]] +
                          v * triangles.normals[index[2]];

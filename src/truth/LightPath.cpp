@@ -20,10 +20,19 @@ const Hit* mirrorOf(const Hits& hits, const Optics& optics) {
     return found == hits.end() ? nullptr : found;
 }
 
+/// What opaque surfaces that are crossed together let pass, which are not all there.
+double passing(const Hits& hits, const Optics& optics) {
+    double kept = 1;
+    for (const Hit& hit : hits)
+        if (optics.isOpaque(hit.shape)) kept *= 1 - hit.presence;
+    return kept;
+}
+
 /// The media behind surfaces that are crossed together.
-Media behind(const Hits& hits, const dvec3& direction, const Media& before) {
+Media behind(const Hits& hits, const Optics& optics, const dvec3& direction, const Media& before) {
     Media after = before;
     for (const Hit& hit : hits) {
+        if (optics.isOpaque(hit.shape)) continue; // passed, for it is not all there
         const auto sameShape = [&](const Hit& other) { return other.shape == hit.shape; };
         if (std::count_if(hits.begin(), hits.end(), sameShape) > 1) continue;
         if (glm::dot(hit.normal, direction) < 0)
@@ -73,17 +82,21 @@ private:
     bool step() {
         const Hits hits = optics_.rays().coincidentHits({beam_.origin, beam_.direction,
                                                          std::numeric_limits<double>::infinity(), beam_.begin,
-                                                         beam_.hitsHidden});
+                                                         beam_.hitsHidden, true});
         if (hits.count == 0) return finish(Arrival::At::Sky);
         const Hit& first = hits.at[0];
-        if (end_.surfaces == 0) end_.firstDistance = first.distance;
         end_.length += first.distance;
+        if (end_.surfaces == 0) end_.firstDistance = end_.length;
         const dvec3 passed =
             beam_.weight * glm::exp(-optics_.absorption(beam_.media.medium()) * first.distance);
         end_.absorbed += beam_.weight - passed;
         beam_.weight = passed;
         beam_.origin = first.position;
         beam_.begin = optics_.rays().gap();
+        if (first.presence < 1) {
+            end_.byChance = true;
+            if (random_.next() >= first.presence) return true;
+        }
         if (const Hit* opaque = opaqueOf(hits, optics_)) {
             end_.hit = *opaque;
             return finish(Arrival::At::Opaque);
@@ -104,7 +117,7 @@ private:
     }
 
     bool cross(const Hits& hits) {
-        const Media after = behind(hits, beam_.direction, beam_.media);
+        const Media after = behind(hits, optics_, beam_.direction, beam_.media);
         const int here = beam_.media.medium(), there = after.medium();
         if (here == there) {
             beam_.media = after;
@@ -173,9 +186,10 @@ Arrival follow(const Optics& optics, Beam beam, int channel, Branching branching
 }
 
 dvec3 straightTransmittance(const Optics& optics, WorldRay ray, const Leaving& leaving) {
+    ray.hitsPartly = true;
     if (!optics.rays().occluded(ray, leaving)) return dvec3(1);
-    if (!optics.hasIndexOfOne()) return dvec3(0);
-    Media media = optics.mediaAt(ray.origin, true);
+    if (!optics.letsPass()) return dvec3(0);
+    Media media = optics.hasIndexOfOne() ? optics.mediaAt(ray.origin, true) : Media();
     dvec3 kept(1);
     double from = 0;
     const auto absorb = [&](double to) {
@@ -185,10 +199,11 @@ dvec3 straightTransmittance(const Optics& optics, WorldRay ray, const Leaving& l
     };
     for (Hits hits = optics.rays().coincidentHits(ray, leaving); hits.count > 0;
          hits = optics.rays().coincidentHits(ray, leaving)) {
-        if (opaqueOf(hits, optics) || mirrorOf(hits, optics)) return dvec3(0);
+        kept *= passing(hits, optics);
+        if (kept == dvec3(0) || mirrorOf(hits, optics)) return dvec3(0);
         absorb(hits.at[0].distance);
         const int here = media.medium();
-        media = behind(hits, ray.direction, media);
+        media = behind(hits, optics, ray.direction, media);
         const int there = media.medium();
         if (changes(optics, here, there)) return dvec3(0);
         if (there > here) kept *= double(optics.object(there).material.clear().transmission);

@@ -51,6 +51,9 @@ public:
     bool disperses() const { return disperses_; }
     /// Whether some refractive object has the index of vacuum: it bends and reflects nothing there.
     bool hasIndexOfOne() const { return hasIndexOfOne_; }
+    /// Whether something is there that straight light may pass: some refractive object with that index, or
+    /// what is partly there.
+    bool letsPass() const { return hasIndexOfOne_ || hasPartly_; }
     /// Whether all of them have.
     bool bendsNothing() const { return bendsNothing_; }
 
@@ -71,7 +74,7 @@ private:
     const scene::Scene* scene_;
     RayScene rays_;
     std::vector<int> optical_;
-    bool disperses_ = false, hasIndexOfOne_ = false, bendsNothing_ = true;
+    bool disperses_ = false, hasIndexOfOne_ = false, hasPartly_ = false, bendsNothing_ = true;
 };
 
 /// Index of refraction at the Fraunhofer lines C (656.3 nm, for red), d (587.6 nm) and F (486.1 nm): Cauchy's

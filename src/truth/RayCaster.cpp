@@ -9,7 +9,8 @@ bool Query::offer(int shape, const Intersection& intersection) {
         return false;
     if (found_.count > 0 && within_ == 0 && !nearest) return false;
     insert({ray_.origin + intersection.distance * ray_.direction, intersection.normal,
-            intersection.smoothNormal, shape, intersection.distance, intersection.triangle});
+            intersection.smoothNormal, shape, intersection.distance, intersection.triangle,
+            intersection.presence});
     return true;
 }
 

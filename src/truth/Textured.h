@@ -20,8 +20,8 @@ struct Textured {
 /// turned into that of the interpolated normal: u along the first of them, v against the second (3.7.2.1).
 std::optional<Textured> texturedAt(const Optics& optics, const Hit& hit);
 
-/// Where the alpha of a mesh's colour says that nothing is (Textures::cutoff); empty without such places. The
-/// mesh must live as long.
-std::function<bool(unsigned triangle, const dvec3& weights)> holesOf(const scene::Object& object);
+/// The share of a place of a mesh that the alpha of its colour says is there (Textures::cutoff), [0,1]; empty
+/// where all is. The mesh must live as long.
+std::function<double(unsigned triangle, const dvec3& weights)> presenceOf(const scene::Object& object);
 
 } // namespace lucent::truth

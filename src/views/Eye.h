@@ -22,6 +22,9 @@ struct Eye {
     bool second =
         false; ///< of each pixel the object that it meets first is left out: what that hides is shown
 
+    float threshold = 0; ///< [0,1]: by which views of the same pixel differ in what they show of things that
+                         ///< are partly there (shaders/views/holes.glsl)
+
     bool isCut() const { return vec3(cut) != vec3(0); }
     /// Where eye rays come from in the space of an object: the position with w = 1, or with w = 0 the unit
     /// direction that all of them share. This is what shaders call `eye`.

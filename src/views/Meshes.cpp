@@ -138,6 +138,7 @@ void setMesh(graph::Draw& draw, const gl::Program& program, const graph::Indices
                            .firstCorner = mesh.firstCorner,
                            .normalScale = mesh.textured ? mesh.textured->normalScale : 0,
                            .cutoff = mesh.textured ? mesh.textured->cutoff : 0,
+                           .threshold = eye.threshold,
                            .wraps = mesh.textured ? mesh.textured->wraps : vec4(0)};
 }
 

@@ -298,6 +298,58 @@ TEST_F(TexturedTest, HolesLetLightAndSightThrough) {
     EXPECT_NE(picture().pixels, holed.pixels);
 }
 
+// Two sheets above a floor, each of which light and sight pass by a share of their own.
+TEST_F(TexturedTest, WhatIsPartlyThereLetsItsShareOfLightAndSightThrough) {
+    const auto sheet = [&](std::uint8_t alpha, float height) {
+        scene::Mesh mesh = texturedPlane();
+        mesh.images = {imageOf({1, 1}, Encoding::Srgb, [&](int, int) { return Texel{0, 0, 0, alpha}; })};
+        mesh.parts[0].textures.color = {.image = 0};
+        mesh.parts[0].textures.cutoff = -1;
+        add(mesh, scene::Matt{}).transform.translate = {0, height, 0};
+    };
+    lookDown();
+    scene.camera.height = 1;
+    views::samplingOf(scene).pixelSamples = 16;
+    const vec3 down = glm::normalize(vec3(0.2f, -1, 0.3f));
+    scene.lights = {scene::DistantLight{.direction = down, .irradiance = std::numbers::pi_v<float>}};
+    add(texturedPlane(), scene::Matt{}).material.diffuse = vec3(1);
+    sheet(102, 0.1f);
+    sheet(153, 0.2f);
+    const auto mean = [&] {
+        const Image image = picture();
+        double sum = 0;
+        for (int y = 8; y < 40; ++y)
+            for (int x = 8; x < 40; ++x)
+                sum += double(image.at(x, y)[0]);
+        return sum / (32 * 32);
+    };
+    // 0.6 and 0.4 pass, light that comes and light that is seen: 1,024 pixels of 16 samples know each to 0.5
+    // %.
+    EXPECT_NEAR(mean(), -double(down.y) * 0.6 * 0.6 * 0.4 * 0.4, 0.01 * 0.057);
+    scene.lights = {scene::PointLight{.position = {0.1f, 1.9f, 0.2f}, .intensity = 9, .radius = 0.3f}};
+    const double soft = mean();
+    scene.objects.resize(1);
+    EXPECT_NEAR(soft / mean(), 0.6 * 0.6 * 0.4 * 0.4, 0.01 * 0.057);
+}
+
+// Against the exact picture, which counts each path through it by its share.
+TEST_F(TexturedTest, WhatIsPartlyThereIsAsExactAsWhatIsThere) {
+    scene::Mesh ball = fullBall();
+    ball.images[0] = imageOf({8, 4}, Encoding::Srgb, [](int x, int y) {
+        return Texel{200, 180, 90, std::uint8_t(60 + 20 * x + 10 * y)};
+    });
+    ball.parts[0].textures.cutoff = -0.8f;
+    scene.camera.type = scene::Camera::Type::Perspective;
+    scene.camera.eye = {0.3f, 0.9f, 2.2f};
+    views::samplingOf(scene).pixelSamples = 16;
+    add(ball, scene::Matt{});
+    add(texturedPlane(), scene::Matt{}).transform.translate = {0, -0.6f, 0};
+    scene.lights = {scene::PointLight{.position = {0.4f, 1.9f, 1.8f}, .intensity = 3}};
+    EXPECT_LE(misplaced(1024), 0.01);
+    addSky();
+    EXPECT_LE(misplaced(1024), 0.01);
+}
+
 TEST_F(TexturedTest, TheEnvironmentIsSeenInWhatATextureMakesSmooth) {
     scene.camera.type = scene::Camera::Type::Perspective;
     scene.camera.eye = {0.3f, 0.5f, 1.6f};

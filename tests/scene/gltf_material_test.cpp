@@ -151,7 +151,7 @@ TEST(GltfMaterial, WhatIsNotReadIsNamed) {
                "extensionsUsed": [ "KHR_materials_sheen", "KHR_materials_ior", "KHR_lights_punctual" ],
                "samplers": [ { )",
         &said);
-    EXPECT_EQ(said, "not read: KHR_materials_sheen, alphaMode BLEND (drawn as MASK), occlusionTexture "
+    EXPECT_EQ(said, "not read: KHR_materials_sheen, occlusionTexture "
                     "(occlusion is computed), textures of what has no texture coordinates\n");
     EXPECT_EQ(std::get<Glossy>(m.kind).roughness, 0.5f);
     EXPECT_EQ(m.base, vec3(0)); // the texture would blacken most of it

@@ -131,7 +131,7 @@ TEST(Textures, OneThatLiesElsewhereHasCoordinatesOfItsOwn) {
     EXPECT_EQ(mesh.parts[0].textures.emission.image, -1);
 }
 
-TEST(Textures, AlphaCutsHolesOrIsNamed) {
+TEST(Textures, AlphaCutsHolesOrIsAShare) {
     std::string said;
     const auto cutoffOf = [&](const std::string& alpha) {
         return squareWith(R"("pbrMetallicRoughness": { "baseColorTexture": { "index": 0 },
@@ -145,8 +145,18 @@ TEST(Textures, AlphaCutsHolesOrIsNamed) {
     EXPECT_EQ(cutoffOf(R"("alphaMode": "MASK")"), 1); // the factor's half of the usual half
     EXPECT_EQ(cutoffOf(R"("alphaMode": "MASK", "alphaCutoff": 0.25)"), 0.5f);
     EXPECT_EQ(said, "");
-    EXPECT_EQ(cutoffOf(R"("alphaMode": "BLEND")"), 1);
-    EXPECT_EQ(said, "warning: m/a.glb: not read: alphaMode BLEND (drawn as MASK)\n");
+    EXPECT_EQ(cutoffOf(R"("alphaMode": "BLEND")"), -0.5f);
+    EXPECT_EQ(said, "");
+    const auto plain = [&](const std::string& factor) {
+        return squareWith(R"("pbrMetallicRoughness": { "baseColorFactor": )" + factor +
+                              R"( }, "alphaMode": "BLEND")",
+                          &said)
+            .parts[0]
+            .textures;
+    };
+    EXPECT_EQ(plain("[1, 1, 1, 0.25]").cutoff, -0.25f);
+    EXPECT_FALSE(plain("[1, 1, 1, 1]").any()); // all of it is there
+    EXPECT_EQ(said, "");
     squareWith(R"("alphaMode": "MASK")", &said);
     EXPECT_EQ(said, "warning: m/a.glb: not read: alphaMode MASK\n");
 }

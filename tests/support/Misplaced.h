@@ -2,10 +2,12 @@
 /// How far a picture is from the exact one.
 
 #include "base/Image.h"
+#include "light/Samples.h"
 #include "scene/Scene.h"
 #include "truth/Glass.h"
 
 #include <cmath>
+#include <memory>
 
 namespace lucent::support {
 
@@ -15,8 +17,17 @@ namespace lucent::support {
 /// @param found    4 channels, of the scene's size
 /// @param samples  of the exact picture, a pixel
 inline double misplaced(const scene::Scene& scene, const Image& found, int samples) {
-    const auto exact =
-        truth::GlassEstimator::create(scene, scene.size, scene::Aov::Color, {.samples = samples});
+    const auto solving = [&](ivec2 size, int each) {
+        return std::make_unique<truth::GlassEstimator>(
+            std::move(*truth::GlassEstimator::create(scene, size, scene::Aov::Color, {.samples = each})));
+    };
+    std::unique_ptr<const truth::Estimator> exact;
+    using truth::PixelMean;
+    if (views::samplingOf(scene).pixelSamples == 1)
+        exact = solving(scene.size, samples);
+    else
+        exact = std::make_unique<PixelMean>(
+            solving(PixelMean::sizeOf(scene.size), PixelMean::samplesOf(samples)), 1);
     double apart = 0, sum = 0;
     for (int y = 0; y + 3 <= scene.size.y; y += 3)
         for (int x = 0; x + 3 <= scene.size.x; x += 3) {
@@ -25,8 +36,9 @@ inline double misplaced(const scene::Scene& scene, const Image& found, int sampl
                 const float* pixel = found.at(x + i % 3, y + i / 3);
                 const truth::Pixel solved = exact->solve({x + i % 3, y + i / 3});
                 if (solved.coverage == 0) continue;
-                cell += dvec3(pixel[0], pixel[1], pixel[2]) - solved.value;
-                light += solved.value;
+                cell +=
+                    double(pixel[3]) * dvec3(pixel[0], pixel[1], pixel[2]) - solved.coverage * solved.value;
+                light += solved.coverage * solved.value;
             }
             for (int c = 0; c < 3; ++c) {
                 apart += std::abs(cell[c]);

@@ -758,8 +758,10 @@ private:
     void addTextures(const tinygltf::Material& material, Mesh::Part& part) {
         if (showsTextures(part.values) && !mesh_.coordinates.empty())
             part.textures = textures_.texturesOf(material);
-        else if (showsTextures(part.values) && hasTextures(material))
-            unread_.insert("textures of what has no texture coordinates");
+        else if (showsTextures(part.values)) {
+            part.textures.cutoff = std::min(cutoffOf(material), 0.0f);
+            if (hasTextures(material)) unread_.insert("textures of what has no texture coordinates");
+        }
         for (TextureUse* use :
              {&part.textures.color, &part.textures.emission, &part.textures.roughness, &part.textures.normal})
             if (use->second && mesh_.secondCoordinates.empty()) {

@@ -61,9 +61,9 @@ public:
         nameWhen(property(kSpecular, "specularColorTexture"), "specularColorTexture");
         nameWhen(property(kTransmission, "transmissionTexture"), "transmissionTexture");
         nameWhen(property(kScatter, "multiscatterColorTexture"), "multiscatterColorTexture");
-        const bool hasHoles = showsTextures(m) && pbr.baseColorTexture.index >= 0;
-        nameWhen(gltf_.alphaMode == "BLEND" && hasHoles, "alphaMode BLEND (drawn as MASK)");
-        nameWhen(gltf_.alphaMode != "OPAQUE" && !hasHoles, "alphaMode " + gltf_.alphaMode);
+        const bool showsAlpha =
+            showsTextures(m) && (gltf_.alphaMode == "BLEND" || pbr.baseColorTexture.index >= 0);
+        nameWhen(gltf_.alphaMode != "OPAQUE" && !showsAlpha, "alphaMode " + gltf_.alphaMode);
         return m;
     }
 

@@ -45,15 +45,6 @@ Wrap wrapOf(int mode) {
                                                            : Wrap::Repeat;
 }
 
-// Of the texture's own alpha. What blends is there or not: the nearest that light paths can tell apart.
-float cutoffOf(const tinygltf::Material& material) {
-    if (material.alphaMode == "OPAQUE") return 0;
-    const auto& factor = material.pbrMetallicRoughness.baseColorFactor;
-    const double alpha = factor.size() == 4 ? factor[3] : 1;
-    const double cutoff = material.alphaMode == "MASK" ? material.alphaCutoff : 0.5;
-    return float(std::min(cutoff / std::max(alpha, 1e-3), 2.0)); // no alpha reaches 2
-}
-
 int hexDigit(char c) {
     const std::string_view digits = "0123456789abcdef";
     const std::size_t place = digits.find(char(c | 0x20));
@@ -61,6 +52,16 @@ int hexDigit(char c) {
 }
 
 } // namespace
+
+float cutoffOf(const tinygltf::Material& material) {
+    if (material.alphaMode == "OPAQUE") return 0;
+    const auto& factor = material.pbrMetallicRoughness.baseColorFactor;
+    const double alpha = factor.size() == 4 ? factor[3] : 1;
+    if (material.alphaMode == "MASK")
+        return float(std::min(material.alphaCutoff / std::max(alpha, 1e-3), 2.0)); // no alpha reaches 2
+    const bool isWhole = alpha >= 1 && material.pbrMetallicRoughness.baseColorTexture.index < 0;
+    return isWhole ? 0.0f : -float(std::clamp(alpha, 1e-3, 1.0));
+}
 
 std::string decodedUri(const std::string& uri) {
     std::string name;

@@ -23,6 +23,9 @@ struct TextureMapping {
 /// A mesh has so many sets of coordinates.
 inline constexpr std::size_t kMostMappings = 2;
 
+/// Textures::cutoff by a material's own alpha.
+float cutoffOf(const tinygltf::Material& material);
+
 /// Takes the textures of one material after the other, and decodes each picture that they use once.
 class GltfTextures {
 public:

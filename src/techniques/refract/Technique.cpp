@@ -30,6 +30,7 @@ views::Eye closeEye(const Picture& picture) {
     views::Eye eye = views::makeEye(picture.scene, float(picture.size.x) / float(picture.size.y), 1e-6f,
                                     picture.eye.shift);
     eye.cut = picture.eye.cut;
+    eye.threshold = picture.eye.threshold;
     return eye;
 }
 
