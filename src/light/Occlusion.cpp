@@ -27,7 +27,7 @@ struct Group {
     Drawables casters;
 };
 
-bool isPartly(const Drawable::Ptr& one) { return one->textured && one->textured->isPartly(); }
+bool isPartly(const Drawable::Ptr& one) { return one->textured && one->textured->isPartly; }
 
 bool isEmpty(const Bounds& bounds) { return glm::any(glm::lessThan(bounds.high, bounds.low)); }
 

@@ -22,9 +22,9 @@ namespace lucent::measure {
 namespace {
 
 constexpr std::string_view kLamps[] = {"point", "spot", "distant", "area", "projector", "environment"};
-constexpr std::string_view kBetween[] = {"nothing",         "matt box",    "pierced mesh",
-                                         "relief 2.5 %",    "mirror",      "glass ball",
-                                         "absorbing glass", "marble ball", "water"};
+constexpr std::string_view kBetween[] = {"nothing",      "matt box", "pierced mesh", "blended mesh",
+                                         "relief 2.5 %", "mirror",   "glass ball",   "absorbing glass",
+                                         "marble ball",  "water"};
 constexpr std::string_view kReceivers[] = {
     "matt plane", "matt mesh",   "textured mesh",    "displaced mesh",      "relief 3 %",
     "relief 0",   "marble slab", "precomputed slab", "floor through glass", "floor in a mirror"};
@@ -115,8 +115,8 @@ void addLamp(scene::Scene& scene, std::string_view lamp) {
         scene.environment.emplace().map = windowMap();
 }
 
-// A plate with round holes, which its picture's alpha says.
-void pierce(scene::Object& object) {
+// A plate whose picture's alpha says where something is: holes below a cutoff, a share of it below 0.
+void pierce(scene::Object& object, float cutoff) {
     constexpr float kSide = 0.4f;
     constexpr int kTexels = 16;
     scene::Mesh mesh = meshOf(scene::Plane{{kSide, kSide}});
@@ -135,7 +135,7 @@ void pierce(scene::Object& object) {
     part.material = "plate";
     part.indexCount = std::uint32_t(mesh.indices.size());
     part.textures.color.image = 0;
-    part.textures.cutoff = 0.35f;
+    part.textures.cutoff = cutoff;
     object.material.kind = scene::Matt{}; // which shows textures
     object.shape = scene::MeshShape{
         .source = "plate.mesh", .part = "", .mesh = std::make_shared<const scene::Mesh>(std::move(mesh))};
@@ -146,7 +146,8 @@ void addBetween(scene::Scene& scene, std::string_view between) {
     if (between == "nothing") return;
     scene::Object object = objectOf("between", scene::Sphere{0.16f}, place);
     if (between == "matt box") object.shape = scene::Box{vec3(0.25f)};
-    if (between == "pierced mesh") pierce(object);
+    if (between == "pierced mesh") pierce(object, 0.35f);
+    if (between == "blended mesh") pierce(object, -1);
     if (between == "relief 2.5 %") object = reliefOf("between", 0.4f, 0.05f, 0.01f, place);
     if (between == "mirror") {
         object.shape = scene::Box{{0.3f, 0.02f, 0.3f}};
@@ -317,8 +318,9 @@ scene::Scene composeScene(std::string_view lamp, std::string_view between, std::
     addBetween(scene, between);
     addLamp(scene, lamp);
     technique::drawAll(scene);
-    // As people see it: each sample of a pixel has other directions.
-    if (scene.environment && usualTruth(scene) == TruthModel::Glass)
+    // As people see it: each sample of a pixel has other directions, and other thresholds of what is partly
+    // there.
+    if ((scene.environment || between == "blended mesh") && usualTruth(scene) == TruthModel::Glass)
         views::samplingOf(scene).pixelSamples = views::Sampling{}.pixelSamples;
     return scene;
 }

@@ -241,7 +241,7 @@ Result<Optics> Optics::create(const scene::Scene& scene) {
 Optics::Optics(const scene::Scene& scene, RayScene rays) : scene_(&scene), rays_(std::move(rays)) {
     for (int i = 0; i < int(scene.objects.size()); ++i) {
         const scene::Textures* textures = scene::texturesOf(object(i));
-        hasPartly_ |= textures && textures->cutoff < 0;
+        hasPartly_ |= textures && textures->isPartly();
         if (isOpaque(i)) continue;
         optical_.push_back(i);
         if (!object(i).material.isRefractive()) continue;

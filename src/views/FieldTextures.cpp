@@ -236,7 +236,8 @@ Textured ImageCache::textured(const scene::Mesh& mesh, const scene::Textures& te
             // a white texel is no normal: of none x and y count nothing
             .normalScale = textures.normal.image < 0 ? 0 : textures.normalScale,
             .cutoff = textures.cutoff,
-            .hasHoles = textures.hasHoles()};
+            .hasHoles = textures.hasHoles(),
+            .isPartly = textures.isPartly()};
 }
 
 Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image>& image) {

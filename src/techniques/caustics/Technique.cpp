@@ -230,6 +230,15 @@ const technique::NotDrawn kLimits[] = {
      {},
      "environmentDirections",
      "64"},
+    {"caustics of all the light that passes meshes which are partly there",
+     "a beam ends where any of its rays does",
+     [](const scene::Scene& scene) {
+         return Caustics::bends(scene) &&
+                std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
+                    const scene::Textures* textures = scene::texturesOf(object);
+                    return textures && textures->isPartly();
+                });
+     }},
     {"caustics on objects that scatter light",
      "deposit lines gathers light in the picture alone",
      [](const scene::Scene& scene) {
