@@ -14,18 +14,12 @@ Result<SourcedHeights> fromHeights(std::span<const std::byte> bytes, const std::
     return SourcedHeights{*heights};
 }
 
-Result<SourcedHeights> fromNormals(std::span<const std::byte> bytes, const std::string& name) {
-    const Result<Image> normals = decodeImage(bytes, name, Encoding::Linear);
-    if (!normals) return normals.error();
-    return heightsOfNormals(*normals, name);
-}
-
-Result<SourcedHeights> fromMesh(const HeightSource& source, std::span<const std::byte> bytes,
-                                const std::string& name) {
-    const Result<Mesh> mesh = decodeMesh(bytes, name);
-    if (!mesh) return mesh.error();
-    return SourcedHeights{std::make_shared<Image>(
-        depthOfMesh(*mesh, source.meshRotate, source.resolution, source.margin, source.floorGap))};
+SourcedHeights fromIntegration(Image heights) {
+    const float highest = *std::max_element(heights.pixels.begin(), heights.pixels.end());
+    if (highest > 0)
+        for (float& height : heights.pixels)
+            height /= highest;
+    return {std::make_shared<Image>(std::move(heights)), highest};
 }
 
 } // namespace
@@ -33,17 +27,65 @@ Result<SourcedHeights> fromMesh(const HeightSource& source, std::span<const std:
 Result<SourcedHeights> heightsOfNormals(const Image& normals, const std::string& name) {
     Result<Image> heights = heightsFromNormals(normals, name);
     if (!heights) return heights.error();
-    const float highest = *std::max_element(heights->pixels.begin(), heights->pixels.end());
-    if (highest > 0)
-        for (float& height : heights->pixels)
-            height /= highest;
-    return SourcedHeights{std::make_shared<Image>(std::move(*heights)), highest};
+    return fromIntegration(std::move(*heights));
 }
+
+struct HeightsMaking::State {
+    HeightSource source;
+    std::string name;
+    ReadFile read;
+    std::optional<Image> map{};
+    std::unique_ptr<NormalsIntegration> normals{};
+    std::optional<DepthMaking> depth{};
+
+    // Plain heights are one piece; of others the file is the first.
+    std::optional<Result<SourcedHeights>> begin() {
+        const Result<Bytes> bytes = read(name);
+        if (!bytes) return bytes.error();
+        if (source.kind == HeightSource::Kind::Heights) return fromHeights(*bytes, name);
+        return source.kind == HeightSource::Kind::NormalMap ? beginNormals(*bytes) : beginDepth(*bytes);
+    }
+    std::optional<Result<SourcedHeights>> beginNormals(std::span<const std::byte> bytes) {
+        Result<Image> decoded = decodeImage(bytes, name, Encoding::Linear);
+        if (!decoded) return decoded.error();
+        map = std::move(*decoded);
+        return std::nullopt;
+    }
+    std::optional<Result<SourcedHeights>> beginDepth(std::span<const std::byte> bytes) {
+        const Result<Mesh> mesh = decodeMesh(bytes, name);
+        if (!mesh) return mesh.error();
+        depth.emplace(*mesh, source.meshRotate, source.resolution, source.margin, source.floorGap);
+        return std::nullopt;
+    }
+    std::optional<Result<SourcedHeights>> advance() {
+        if (normals) {
+            std::optional<Result<Image>> made = normals->advance();
+            if (!made) return std::nullopt;
+            return *made ? Result<SourcedHeights>(fromIntegration(std::move(**made))) : made->error();
+        }
+        if (map) {
+            normals = std::make_unique<NormalsIntegration>(*map, name);
+            map.reset();
+            return std::nullopt;
+        }
+        if (!depth) return begin();
+        std::optional<Image> made = depth->advance();
+        if (!made) return std::nullopt;
+        return SourcedHeights{std::make_shared<Image>(std::move(*made))};
+    }
+};
+
+HeightsMaking::HeightsMaking(HeightSource source, std::string name, ReadFile read)
+    : state_(std::make_unique<State>(State{std::move(source), std::move(name), std::move(read)})) {}
+HeightsMaking::~HeightsMaking() = default;
+
+std::optional<Result<SourcedHeights>> HeightsMaking::advance() { return state_->advance(); }
 
 Result<SourcedHeights> loadHeights(const HeightSource& source, std::span<const std::byte> bytes,
                                    const std::string& name) {
-    if (source.kind == HeightSource::Kind::NormalMap) return fromNormals(bytes, name);
-    return source.kind == HeightSource::Kind::Mesh ? fromMesh(source, bytes, name) : fromHeights(bytes, name);
+    HeightsMaking making(source, name, [&](const std::string&) { return Bytes(bytes.begin(), bytes.end()); });
+    for (;;)
+        if (std::optional<Result<SourcedHeights>> made = making.advance()) return std::move(*made);
 }
 
 void digHoles(HeightField& field) {

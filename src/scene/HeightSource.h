@@ -1,9 +1,11 @@
 #pragma once
 /// How the three kinds of files become a field of heights.
 
+#include "base/File.h"
 #include "scene/Scene.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace lucent::scene {
@@ -22,6 +24,19 @@ Result<SourcedHeights> heightsOfNormals(const Image& normals, const std::string&
 /// @return      Error "NAME: what was found; what was expected"
 Result<SourcedHeights> loadHeights(const HeightSource& source, std::span<const std::byte> bytes,
                                    const std::string& name);
+/// The same piece by piece, for who must not wait.
+class HeightsMaking {
+public:
+    /// @param read  gives the file
+    HeightsMaking(HeightSource source, std::string name, ReadFile read);
+    ~HeightsMaking();
+    /// One piece more; the heights once they are whole.
+    std::optional<Result<SourcedHeights>> advance();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// Sinks every texel with alpha below 0.5 (nearest texel of `field.alpha`, which must be there) as deep below
 /// the lowest height as the larger side of the footprint, at most 1e4 heights.

@@ -732,13 +732,12 @@ private:
             return false;
 
         const Place member = place.at(*found, foundKey);
-        const auto decode = [&](std::span<const std::byte> bytes, const std::string& name) {
-            return loadHeights(source, bytes, name);
-        };
+        if (!readFileName(member, source.file)) return false;
         const bool isMesh =
             source.kind == HeightSource::Kind::Mesh; // which turns and fits it as its place says
-        return readFileName(member, source.file) &&
-               readFile(member, source.file, sourced, decode, isMesh ? member.path : std::string(foundKey));
+        const std::string file = resolvePath(path(), source.file);
+        return pieces<HeightsMaking>(member, file + " " + (isMesh ? member.path : std::string(foundKey)),
+                                     sourced, source, file, read_);
     }
     // Keys that only a mesh's depth uses would otherwise be ignored in silence.
     bool refuseMeshKeys(const Place& place, HeightSource::Kind kind) {

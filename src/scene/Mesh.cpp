@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 namespace lucent::scene {
 namespace {
 
-// Corner in texels, x to the right and y down from the picture's top left corner; z towards the viewer.
+constexpr double kNoDepth = -std::numeric_limits<double>::infinity();
+
+// As DepthMaking has them.
 using Corner = dvec3;
 
 // Twice the signed area of (a, b, p), computed in one order of a and b for both triangles at an edge: no
@@ -23,7 +26,9 @@ double edge(const Corner& a, const Corner& b, double x, double y) {
 }
 
 // Keeps the nearest depth at every texel centre that the triangle covers, edges included.
-void rasterize(const std::array<Corner, 3>& t, std::vector<double>& depth, ivec2 size) {
+//
+// @return  texels of its box
+std::size_t rasterize(const std::array<Corner, 3>& t, std::vector<double>& depth, ivec2 size) {
     const auto [left, right] = std::minmax({t[0].x, t[1].x, t[2].x});
     const auto [top, bottom] = std::minmax({t[0].y, t[1].y, t[2].y});
     const int x0 = std::max(0, int(std::ceil(left - 0.5))),
@@ -41,20 +46,36 @@ void rasterize(const std::array<Corner, 3>& t, std::vector<double>& depth, ivec2
             double& nearest = depth[std::size_t(y) * std::size_t(size.x) + std::size_t(x)];
             nearest = std::max(nearest, (a * t[0].z + b * t[1].z + c * t[2].z) / area);
         }
+    return std::size_t(std::max(x1 - x0 + 1, 0)) * std::size_t(std::max(y1 - y0 + 1, 0));
+}
+
+// Of equal places equal: 0 is -0.
+std::size_t hashOf(const vec3& place) {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < 3; ++i) {
+        const float value = place[i] + 0.0f;
+        std::uint32_t part;
+        std::memcpy(&part, &value, sizeof part);
+        bits = (bits ^ part) * 0x9e3779b97f4a7c15u;
+        bits ^= bits >> 32;
+    }
+    return std::size_t(bits);
 }
 
 } // namespace
 
 std::vector<std::uint32_t> weldedVertices(std::span<const vec3> positions) {
-    std::vector<std::uint32_t> order(positions.size()), placeOf(order.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto before = [&](std::uint32_t a, std::uint32_t b) {
-        const vec3 &p = positions[a], &q = positions[b];
-        return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
-    };
-    std::stable_sort(order.begin(), order.end(), before);
-    for (std::size_t i = 0; i < order.size(); ++i)
-        placeOf[order[i]] = i > 0 && !before(order[i - 1], order[i]) ? placeOf[order[i - 1]] : order[i];
+    // Open addressing: at most half of the slots are taken.
+    constexpr std::uint32_t kFree = ~0u;
+    const std::size_t mask = std::bit_ceil(2 * positions.size() + 2) - 1;
+    std::vector<std::uint32_t> slots(mask + 1, kFree), placeOf(positions.size());
+    for (std::uint32_t i = 0; i < positions.size(); ++i) {
+        std::size_t slot = hashOf(positions[i]) & mask;
+        while (slots[slot] != kFree && positions[slots[slot]] != positions[i])
+            slot = (slot + 1) & mask;
+        if (slots[slot] == kFree) slots[slot] = i;
+        placeOf[i] = slots[slot];
+    }
     return placeOf;
 }
 
@@ -83,11 +104,12 @@ std::size_t openEdges(const Mesh& mesh) {
     return open;
 }
 
-Image depthOfMesh(const Mesh& source, vec3 rotation, ivec2 size, float margin, float floorGap) {
+DepthMaking::DepthMaking(const Mesh& source, vec3 rotation, ivec2 size, float margin, float floorGap)
+    : size_(size), floorGap_(floorGap), indices_(source.indices),
+      depth_(std::size_t(size.x) * std::size_t(size.y), kNoDepth) {
     const Mesh moved = source.joints.empty() ? Mesh() : posed(source, poseAt(source.rig, 0));
     const Mesh& mesh = source.joints.empty() ? source : moved;
-    std::vector<Corner> corners;
-    corners.reserve(mesh.positions.size());
+    corners_.reserve(mesh.positions.size());
     const glm::dmat3 turn(rotationFromDegrees(rotation));
     dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const std::uint32_t index : mesh.indices) { // positions that no triangle uses must not widen the box
@@ -102,28 +124,39 @@ Image depthOfMesh(const Mesh& source, vec3 rotation, ivec2 size, float margin, f
     for (const vec3& position : mesh.positions) {
         const dvec3 p = turn * dvec3(position);
         const dvec2 offset = (dvec2(p) - centre) * texelsPerMetre;
-        corners.emplace_back(size.x / 2.0 + offset.x, size.y / 2.0 - offset.y, p.z);
+        corners_.emplace_back(size.x / 2.0 + offset.x, size.y / 2.0 - offset.y, p.z);
     }
+}
 
-    constexpr double kNothing = -std::numeric_limits<double>::infinity();
-    std::vector<double> depth(std::size_t(size.x) * std::size_t(size.y), kNothing);
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-        rasterize({corners[mesh.indices[i]], corners[mesh.indices[i + 1]], corners[mesh.indices[i + 2]]},
-                  depth, size);
+std::optional<Image> DepthMaking::advance() {
+    constexpr std::size_t kTriangles = 20'000; // and so many texels: some milliseconds
+    std::size_t texels = 0;
+    for (std::size_t i = 0; i < kTriangles && texels < kTriangles && next_ + 2 < indices_.size();
+         ++i, next_ += 3)
+        texels += rasterize(
+            {corners_[indices_[next_]], corners_[indices_[next_ + 1]], corners_[indices_[next_ + 2]]}, depth_,
+            size_);
+    if (next_ + 2 < indices_.size()) return std::nullopt;
 
-    double nearest = kNothing, farthest = -kNothing;
-    for (const double z : depth)
-        if (z != kNothing) {
+    double nearest = kNoDepth, farthest = -kNoDepth;
+    for (const double z : depth_)
+        if (z != kNoDepth) {
             nearest = std::max(nearest, z);
             farthest = std::min(farthest, z);
         }
-    Image heights(size.x, size.y, 1);
-    for (std::size_t i = 0; i < depth.size(); ++i) {
-        if (depth[i] == kNothing) continue;
-        const double part = nearest > farthest ? (depth[i] - farthest) / (nearest - farthest) : 1;
-        heights.pixels[i] = float(floorGap + (1 - floorGap) * part);
+    Image heights(size_.x, size_.y, 1);
+    for (std::size_t i = 0; i < depth_.size(); ++i) {
+        if (depth_[i] == kNoDepth) continue;
+        const double part = nearest > farthest ? (depth_[i] - farthest) / (nearest - farthest) : 1;
+        heights.pixels[i] = float(floorGap_ + (1 - floorGap_) * part);
     }
     return heights;
+}
+
+Image depthOfMesh(const Mesh& mesh, vec3 rotation, ivec2 size, float margin, float floorGap) {
+    DepthMaking making(mesh, rotation, size, margin, floorGap);
+    for (;;)
+        if (std::optional<Image> made = making.advance()) return std::move(*made);
 }
 
 } // namespace lucent::scene

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -187,6 +188,21 @@ Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& nam
 /// @return          1 channel; nearest visible point = 1, farthest = `floorGap`, background 0; all 1 of a
 ///                  plane seen from straight above
 Image depthOfMesh(const Mesh& mesh, vec3 rotation, ivec2 size, float margin, float floorGap);
+/// The same piece by piece, for who must not wait.
+class DepthMaking {
+public:
+    DepthMaking(const Mesh& mesh, vec3 rotation, ivec2 size, float margin, float floorGap);
+    /// One piece more; the depth once it is whole.
+    std::optional<Image> advance();
+
+private:
+    ivec2 size_;
+    float floorGap_;
+    std::vector<dvec3> corners_; ///< texels, x to the right and y down from the upper left; z to the viewer
+    std::vector<std::uint32_t> indices_;
+    std::vector<double> depth_;
+    std::size_t next_ = 0; ///< of the indices
+};
 
 /// Heights from a normal map by least-squares integration (thesis 3.1.3 sums along paths, which depends on
 /// the path): the field whose slopes between texels are nearest to the map's.
@@ -195,5 +211,17 @@ Image depthOfMesh(const Mesh& mesh, vec3 rotation, ivec2 size, float margin, flo
 /// @return         1 channel in texel widths, smallest value 0. Error where n_z <= 0 or a
 ///                 value is not finite, naming the texel.
 Result<Image> heightsFromNormals(const Image& normals, const std::string& name);
+/// The same piece by piece, for who must not wait.
+class NormalsIntegration {
+public:
+    NormalsIntegration(const Image& normals, const std::string& name);
+    ~NormalsIntegration();
+    /// One piece more; the heights once they are whole.
+    std::optional<Result<Image>> advance();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 } // namespace lucent::scene

@@ -126,26 +126,9 @@ void transformColumns(Field& field, CosineTransform& transform, void (CosineTran
     field = turned.transpose();
 }
 
-// Solves for the field whose differences between neighbours, summed with signs at each texel, are
-// `divergence`: the normal equations of least squares on a grid with free borders, which cosines diagonalise.
-void solvePoisson(Field& divergence) {
-    const Eigen::Index rows = divergence.rows(), cols = divergence.cols();
-    CosineTransform alongRow(cols), alongColumn(rows);
-    alongRow.forward(divergence);
-    transformColumns(divergence, alongColumn, &CosineTransform::forward);
-    for (Eigen::Index y = 0; y < rows; ++y)
-        for (Eigen::Index x = 0; x < cols; ++x) {
-            const double eigenvalue = 4 - 2 * std::cos(kHalfTurn * double(x) / double(cols)) -
-                                      2 * std::cos(kHalfTurn * double(y) / double(rows));
-            divergence(y, x) = x + y == 0 ? 0 : divergence(y, x) / eigenvalue; // the mean height is free
-        }
-    transformColumns(divergence, alongColumn, &CosineTransform::inverse);
-    alongRow.inverse(divergence);
-}
-
-} // namespace
-
-Result<Image> heightsFromNormals(const Image& normals, const std::string& name) {
+// The slopes of a normal map between its texels, summed with signs at each: what comes in less what goes out.
+// The slope between two texels is the mean of theirs.
+Result<Field> divergenceOf(const Image& normals, const std::string& name) {
     if (normals.channels < 3)
         return Error{name + ": has " + std::to_string(normals.channels) +
                      " channels; a normal map must have 3"};
@@ -161,28 +144,85 @@ Result<Image> heightsFromNormals(const Image& normals, const std::string& name) 
             right(y, x) = -n.x / n.z;
             down(y, x) = n.y / n.z;
         }
-
-    // The slope between two texels is the mean of theirs; each texel collects what comes in and what goes
-    // out.
-    Field height = Field::Zero(normals.height, normals.width);
+    Field divergence = Field::Zero(normals.height, normals.width);
     const auto connect = [&](int y, int x, int toY, int toX, const Field& slope) {
         const double difference = (slope(y, x) + slope(toY, toX)) / 2;
-        height(toY, toX) += difference;
-        height(y, x) -= difference;
+        divergence(toY, toX) += difference;
+        divergence(y, x) -= difference;
     };
     for (int y = 0; y < normals.height; ++y)
         for (int x = 0; x < normals.width; ++x) {
             if (x + 1 < normals.width) connect(y, x, y, x + 1, right);
             if (y + 1 < normals.height) connect(y, x, y + 1, x, down);
         }
-    solvePoisson(height);
+    return divergence;
+}
 
+// From the spectrum of the divergence to that of the heights.
+void divideByEigenvalues(Field& spectrum) {
+    const Eigen::Index rows = spectrum.rows(), cols = spectrum.cols();
+    for (Eigen::Index y = 0; y < rows; ++y)
+        for (Eigen::Index x = 0; x < cols; ++x) {
+            const double eigenvalue = 4 - 2 * std::cos(kHalfTurn * double(x) / double(cols)) -
+                                      2 * std::cos(kHalfTurn * double(y) / double(rows));
+            spectrum(y, x) = x + y == 0 ? 0 : spectrum(y, x) / eigenvalue; // the mean height is free
+        }
+}
+
+Image aboveLowest(const Field& height) {
     const double lowest = height.minCoeff();
-    Image image(normals.width, normals.height, 1);
-    for (int y = 0; y < normals.height; ++y)
-        for (int x = 0; x < normals.width; ++x)
+    Image image(int(height.cols()), int(height.rows()), 1);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
             *image.at(x, y) = float(height(y, x) - lowest);
     return image;
+}
+
+} // namespace
+
+// Solves for the field whose differences between neighbours, summed with signs at each texel, are the
+// divergence: the normal equations of least squares on a grid with free borders, which cosines diagonalise.
+struct NormalsIntegration::State {
+    Result<Field> field; // divergence, its spectrum, that of the heights, heights
+    CosineTransform alongRow{field ? field->cols() : 1}, alongColumn{field ? field->rows() : 1};
+    int step = 0;
+
+    std::optional<Image> advance() {
+        switch (step++) {
+        case 0:
+            alongRow.forward(*field);
+            break;
+        case 1:
+            transformColumns(*field, alongColumn, &CosineTransform::forward);
+            break;
+        case 2:
+            divideByEigenvalues(*field);
+            break;
+        case 3:
+            transformColumns(*field, alongColumn, &CosineTransform::inverse);
+            break;
+        default:
+            alongRow.inverse(*field);
+            return aboveLowest(*field);
+        }
+        return std::nullopt;
+    }
+};
+
+NormalsIntegration::NormalsIntegration(const Image& normals, const std::string& name)
+    : state_(std::make_unique<State>(State{divergenceOf(normals, name)})) {}
+NormalsIntegration::~NormalsIntegration() = default;
+
+std::optional<Result<Image>> NormalsIntegration::advance() {
+    if (!state_->field) return Result<Image>(state_->field.error());
+    std::optional<Image> heights = state_->advance();
+    return heights ? std::optional<Result<Image>>(std::move(*heights)) : std::nullopt;
+}
+
+Result<Image> heightsFromNormals(const Image& normals, const std::string& name) {
+    NormalsIntegration integration(normals, name);
+    for (;;)
+        if (std::optional<Result<Image>> made = integration.advance()) return std::move(*made);
 }
 
 } // namespace lucent::scene

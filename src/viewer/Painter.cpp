@@ -1,5 +1,7 @@
 #include "viewer/Painter.h"
 
+#include "views/Eye.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -109,12 +111,8 @@ PaintSettings brushFor(const scene::Scene& scene) {
     PaintSettings settings;
     const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), isPaintable);
     if (found == scene.objects.end()) return settings;
-    vec3 low(kEndless), high(-kEndless);
-    for (const vec3& place : scene::meshOf(*found)->positions) {
-        low = glm::min(low, place);
-        high = glm::max(high, place);
-    }
-    const vec3 extent = (high - low) * found->transform.scale;
+    const views::Bounds bounds = views::boundsOf(*found);
+    const vec3 extent = bounds.high - bounds.low;
     const float radius = std::max({extent.x, extent.y, extent.z}) * kShare / 2;
     if (radius > 0) settings.brush.radius = std::strtof(twoDigits(radius).c_str(), nullptr);
     return settings;

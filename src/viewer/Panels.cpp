@@ -77,7 +77,8 @@ void Viewer::State::frame() {
     fonts().select(scale);
     panel.setCanvas(canvas());
 
-    if (scene && (figuresAt != revision || figuresPend)) {
+    const bool isSeen = scene && shownScene == sceneNumber; // the first look comes first
+    if (isSeen && !figuresWait && (figuresAt != revision || figuresPend)) {
         figures = allFigures();
         figuresAt = revision;
         figuresPend = std::erase_if(figures, [](const Figure& figure) { return figure.isPending; }) > 0;

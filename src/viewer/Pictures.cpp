@@ -97,7 +97,8 @@ bool Viewer::State::advance() {
         phase = progress->complete ? Phase::Done : Phase::Smooth;
     }
     shown = true;
-    if (showStats) settled = false;
+    const bool isFirst = std::exchange(shownScene, sceneNumber) != sceneNumber; // whose figures come now
+    if (showStats || isFirst) settled = false;
     return true;
 }
 

@@ -50,6 +50,8 @@ struct Viewer::State {
     gl::ImGuiHost* imguiHost;
     ImGuiContext* imgui = nullptr;
     std::unique_ptr<scene::Loading> loading;   // of the scene that comes next
+    std::unique_ptr<scene::Scene> coming;      // read, and not yet shown
+    std::size_t bounded = 0;                   // its objects whose bounds are known
     std::unique_ptr<frame::Renderer> renderer; // made when first drawn
 
     std::unique_ptr<scene::Scene> scene;
@@ -85,6 +87,8 @@ struct Viewer::State {
     std::vector<Figure> figures;
     std::uint64_t figuresAt = 0; // revision whose they are
     bool figuresPend = false;    // some are still to come
+    bool figuresWait = false;    // it is the picture's turn
+    int shownScene = 0;          // sceneNumber of what is shown
     std::vector<Figure> allFigures() const;
     bool settled = true; // ImGui has nothing new to say
     std::uint64_t shownHash = 0;

@@ -2,11 +2,13 @@
 #include "technique/Technique.h"
 
 #include "viewer/State.h"
+#include "views/Eye.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lucent::viewer {
 
@@ -14,6 +16,7 @@ namespace {
 
 constexpr float kWheelFactor = 0.0015f;         // a wheel step of 100 pixels: 16 %
 constexpr float kWheelLine = 5 * layout::kText; // CSS pixels that ImGui scrolls for one unit of its wheel
+constexpr double kFiguresSeconds = 0.02;        // after which figures leave the picture no time in one call
 
 } // namespace
 
@@ -56,17 +59,28 @@ Status Viewer::load(const std::string& path, const ReadFile& read) {
 
 void Viewer::beginLoad(const std::string& path, const ReadFile& read) {
     state_->loading = std::make_unique<scene::Loading>(path, read, technique::tables());
+    state_->coming.reset();
 }
 
 std::optional<Status> Viewer::advanceLoad(double ms) {
-    std::optional<Result<scene::Scene>> scene = state_->loading->advance(ms);
-    if (!scene) return std::nullopt;
-    state_->loading.reset();
-    if (!*scene) {
-        showMessage(scene->error().message);
-        return Status(scene->error());
+    State& s = *state_;
+    const double begin = secondsNow();
+    if (!s.coming) {
+        std::optional<Result<scene::Scene>> scene = s.loading->advance(ms);
+        if (!scene) return std::nullopt;
+        s.loading.reset();
+        if (!*scene) {
+            showMessage(scene->error().message);
+            return Status(scene->error());
+        }
+        s.coming = std::make_unique<scene::Scene>(std::move(**scene));
+        s.bounded = 0;
     }
-    state_->adopt(std::move(**scene));
+    while (s.bounded < s.coming->objects.size()) { // the meshes that this makes stay with the objects
+        views::boundsOf(s.coming->objects[s.bounded++]);
+        if (1e3 * (secondsNow() - begin) > ms) return std::nullopt;
+    }
+    s.adopt(std::move(*std::exchange(s.coming, nullptr)));
     return Status(Done{});
 }
 
@@ -139,7 +153,10 @@ bool Viewer::draw(double nowSeconds) {
     ImGui::SetCurrentContext(s.imgui);
     s.tick(nowSeconds);
     double wait = s.tooltipWait(nowSeconds);
+    const double begin = secondsNow();
     if (!s.settled) s.settle(); // the panel decides the picture's size
+    s.figuresWait = !s.figuresWait && s.figuresPend && secondsNow() - begin > kFiguresSeconds;
+    if (s.figuresWait) return true; // the picture has the next turn
     const bool isNew = s.advance();
     s.drawSides();
     s.measureEnergy();

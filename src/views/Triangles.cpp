@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 namespace lucent::views {
 
@@ -14,21 +13,6 @@ namespace {
 
 constexpr std::uint32_t kNone = TriangleTable::kNone;
 
-// For each vertex the first one at its place.
-std::vector<std::uint32_t> placesOf(const std::vector<vec3>& positions) {
-    std::vector<std::uint32_t> order(positions.size()), places(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t i) {
-        return std::tuple(positions[i].x, positions[i].y, positions[i].z);
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
-        places[order[i]] = same ? places[order[i - 1]] : order[i];
-    }
-    return places;
-}
-
 // A side of a triangle, from one place to another.
 struct Side {
     std::uint32_t from, to, number;
@@ -36,7 +20,7 @@ struct Side {
 };
 
 void joinNeighbours(TriangleTable& table, const std::vector<vec3>& positions) {
-    const std::vector<std::uint32_t> places = placesOf(positions);
+    const std::vector<std::uint32_t> places = scene::weldedVertices(positions);
     std::vector<Side> sides;
     sides.reserve(table.indices.size());
     for (std::size_t i = 0; i < table.indices.size(); i += 3) {
@@ -80,6 +64,7 @@ TriangleTable tableOf(const scene::Mesh& mesh) {
     table.sources.resize(mesh.positions.size());
     std::iota(table.sources.begin(), table.sources.end(), 0u);
     table.triangles.resize(mesh.positions.size());
+    table.indices.reserve(mesh.indices.size());
     std::vector<bool> taken(mesh.positions.size());
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         std::array<std::uint32_t, 3> corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
