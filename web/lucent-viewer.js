@@ -738,13 +738,13 @@ export class LucentViewer extends HTMLElement {
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#defineProperties();
     this.#root.querySelector('.question')?.remove();
-    for (const control of this.#controls)
-      if (control.attribute && this.hasAttribute(control.attribute)) this.#setFromAttribute(control);
-    this.#controls = this.#runtime.json('viewer_controls', this.#handle);
+    const given = this.#controls.filter(({ attribute }) => attribute && this.hasAttribute(attribute));
+    for (const control of given) this.#setFromAttribute(control);
+    if (given.length > 0) this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#warnOfNames();
     this.#revision = this.#runtime.call('viewer_revision', this.#handle);
     this.#twin.build(this.#controls);
-    this.#showProfiles();
+    this.#showProfilesLater();
     this.#showPlay();
     this.#showUndrawn();
     if (this.autoplay && !kCalm.matches) this.play();
@@ -855,11 +855,14 @@ export class LucentViewer extends HTMLElement {
 
   // Their words, as they are worked out: each call takes its time.
   #showProfiles() {
-    clearTimeout(this.#profilesLater);
     const profiles = this.#profilesSoFar();
     this.#twin.describe(profiles.filter(({ pending }) => !pending));
-    if (profiles.some(({ pending }) => pending))
-      this.#profilesLater = setTimeout(() => this.loaded && this.#showProfiles(), kProfilesMs);
+    if (profiles.some(({ pending }) => pending)) this.#showProfilesLater();
+  }
+
+  #showProfilesLater() {
+    clearTimeout(this.#profilesLater);
+    this.#profilesLater = setTimeout(() => this.loaded && this.#showProfiles(), kProfilesMs);
   }
 
   // Takes over what changed in the module, by whatever road.
