@@ -24,6 +24,9 @@ constexpr float kSafety = 1.25f;
 constexpr int kSamplePixels = 1600; // 900 told 1.6 times too little of a field as rough as its texels
 constexpr int kFewestCovered = 256; // fewer say too little
 constexpr int kFinerBy = 4;         // a reference than what is held against it
+// Samples of a pixel that have light samples of their own leave this power of their number of the error: five
+// were measured to leave 0.37 to 0.52 of it, where independent ones would leave 0.45.
+constexpr float kByPixelSamples = -0.4f;
 
 const Param& paramOf(const Settings& settings, std::string_view id) {
     const auto& params = settings.table().params;
@@ -338,6 +341,12 @@ bool Budget::isWorthBaking(const scene::Scene& scene, const Turned& turned) cons
     return turned.of.knob->steps[turned.step] > baker_->directionsForBake(scene, pixels);
 }
 
+// What is left of an error among light samples in the mean over a pixel. Trials have one sample of it.
+float Budget::leftOf(const scene::Scene& scene, const Turned& turned) const {
+    const bool varies = turned.of.table == views::samplingParams().name && of_.variesLight(scene);
+    return varies ? std::pow(float(of_.pixelSamples(scene)), kByPixelSamples) : 1;
+}
+
 Status Budget::step(const scene::Scene& scene) {
     Turned& turned = turned_[next_];
     const Knob& knob = *turned.of.knob;
@@ -357,7 +366,7 @@ Status Budget::step(const scene::Scene& scene) {
         const Result<std::optional<float>> error = errorOf(scene, turned, {number, placing}, finer);
         if (!error) return error.error();
         if (!*error) return Done{};
-        least = std::min(least, factor * **error);
+        least = std::min(least, factor * leftOf(scene, turned) * **error);
         if (least >= turned.error) continue;
         turned.error = least;
         turned.value = {number, placing};

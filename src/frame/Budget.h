@@ -7,7 +7,8 @@
 /// many more of its own. What a technique does hangs on the pixels: it is tried on pictures of up to
 /// kMostSide, against all that there is or against the next value. Twice that change stands for the error:
 /// each step has four times as many samples, or twice as many rays a side, and halves the error at least
-/// where it falls with the square root of the samples and in proportion to the rays' distance.
+/// where it falls with the square root of the samples and in proportion to the rays' distance. Where each
+/// sample of a pixel has light samples of its own, their mean errs less, which is counted.
 
 #include "base/Image.h"
 #include "frame/Renderer.h"
@@ -98,6 +99,7 @@ private:
     Result<std::optional<float>> errorOf(const scene::Scene& scene, const Turned& turned, Value tried,
                                          Value finer);
     Value finerThan(const Turned& turned, double number);
+    float leftOf(const scene::Scene& scene, const Turned& turned) const;
     bool isWorthBaking(const scene::Scene& scene, const Turned& turned) const;
 
     Renderer::State& of_;

@@ -64,6 +64,20 @@ TEST_F(Budget, ChoosesDirectionsForMattShapesToo) {
     expectKept(scene, {0.2f, 0.03f});
 }
 
+TEST_F(Budget, CountsThatSamplesOfAPixelHaveLightSamplesOfTheirOwn) {
+    auto scene = post(scene::Matt{});
+    light(scene);
+    const auto lightsFor = [&](int pixelSamples) {
+        views::samplingOf(scene).pixelSamples = pixelSamples;
+        scene.quality.maxError = 0.02f;
+        Renderer renderer(*context);
+        EXPECT_TRUE(renderer.finish(scene, 1, scene.size));
+        return renderer.stats().lights;
+    };
+    EXPECT_LT(1.5 * lightsFor(5), lightsFor(1)); // 1.9 times the error for each is the same for all
+    expectKept(scene, {0.1f, 0.02f});
+}
+
 TEST_F(Budget, ChoosesForALampAndAnEnvironmentTogether) {
     auto scene = post(scene::Matt{});
     light(scene);
