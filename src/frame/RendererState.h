@@ -163,6 +163,7 @@ struct Renderer::State {
     std::unique_ptr<Running> running; // of this picture; null: nothing
     std::deque<Batch> submitted;      // the oldest first; of a picture before this one too
     double retired = 0;               // ms: when the last of them was found to be done
+    std::optional<gl::Fence> earlier; // of what was given up for this picture: the GPU may still draw it
     bool presentable = true;          // picture() is not being drawn into
     bool whole = false;               // a sample is complete, and not yet in the mean
     int sample = 0;                   // of the pixels, that is being drawn
@@ -250,6 +251,7 @@ struct Renderer::State {
         return allAround || (!isCoarse() && pixelSamples(scene) > 1);
     }
     bool rests(int place, double since);
+    bool canLook();
     Result<bool> takeObjects(const scene::Scene& scene);
     std::vector<technique::Guest*> needed(const scene::Scene& scene) const;
     technique::Guest* replacing(const technique::Picture& picture) const;

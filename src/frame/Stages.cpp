@@ -1,5 +1,6 @@
 // A picture as it grows: its settings, its stages, and the slices of work of each.
 #include "frame/RendererState.h"
+#include "views/Layers.h"
 
 #include <algorithm>
 #include <chrono>
@@ -22,6 +23,11 @@ constexpr double kBatchMs = 80, kDraggedMs = 40; // until a hand that comes down
 double now() {
     using namespace std::chrono;
     return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+bool bends(const scene::Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(),
+                       [](const scene::Object& object) { return object.material.isRefractive(); });
 }
 
 } // namespace
@@ -66,6 +72,7 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
     const bool looked = started && coarse && complete() && revision == newRevision;
     if (started && complete())
         rested = taken = 0; // else changes that follow each other fast would let nothing be drawn
+    if (started && !complete() && !earlier) earlier.emplace();
     drop();
     auto copy = std::make_unique<scene::Scene>(asked);
     const bool isFrugal = asked.quality.maxError == 0;
@@ -240,9 +247,20 @@ bool Renderer::State::rests(int place, double since) {
     return true;
 }
 
+// Whether layers can be counted now without waiting for programs, or for what the GPU still draws.
+bool Renderer::State::canLook() {
+    if (earlier && !earlier->passed(0)) return false;
+    earlier.reset();
+    if (!context.hasUnready()) return true;
+    if (context.isCompiling()) return false;
+    context.makeReady();
+    return true;
+}
+
 // Takes objects to the GPU for one slice of time. @return whether all are there
 Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
     const double begins = now();
+    if (taken == 0 && bends(scene)) views::askToCount(context); // it is made meanwhile
     while (!atOnce && taken < int(scene.objects.size())) {
         const Result<views::Drawable::Ptr> one = views::drawableOf(scene, taken++, images, &waters);
         if (!one) return one.error();
@@ -282,6 +300,7 @@ Status Renderer::State::slice(const scene::Scene& scene) {
         workMs += now() - beforeAround;
         if (!around) return around.error();
         if (!*around) return Done{};
+        if (!atOnce && bends(scene) && !canLook()) return Done{};
         if (Status prepared = prepare(made->picture); !prepared) return prepared;
         if (rests(1, begins)) return Done{};
     }

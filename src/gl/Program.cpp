@@ -151,7 +151,10 @@ const Status& Program::ready() const {
     glGetProgramiv(id_, GL_LINK_STATUS, &linked);
     status_ = linked ? Status(Done{}) : Error{log(), Fault::Machine};
     deleteStages();
-    if (linked) bindSamplers();
+    if (linked) {
+        bindSamplers();
+        bindBlocks();
+    }
     return *status_;
 }
 
@@ -190,20 +193,29 @@ void Program::bindSamplers() const {
     glUseProgram(0);
 }
 
+// Asked here and not when something is drawn: a browser then waits for all that was drawn before.
+void Program::bindBlocks() const {
+    GLint count = 0;
+    glGetProgramiv(id_, GL_ACTIVE_UNIFORM_BLOCKS, &count);
+    for (GLuint i = 0; i < GLuint(count); ++i) {
+        char block[128];
+        GLint size = 0;
+        glGetActiveUniformBlockName(id_, i, sizeof block, nullptr, block);
+        glGetActiveUniformBlockiv(id_, i, GL_UNIFORM_BLOCK_DATA_SIZE, &size);
+        glUniformBlockBinding(id_, i, 0);
+        blocks_.push_back({block, std::size_t(size)});
+    }
+}
+
 Status Program::checkBlock(const graph::Block& block) const {
-    if (checked_ == block.name) return Done{};
-    const std::string name(block.name), where = name_ + ": block " + name + ": ";
-    const GLuint index = glGetUniformBlockIndex(id_, name.c_str());
-    if (index == GL_INVALID_INDEX) return Error{where + "not in the shader", Fault::Machine};
-    glUniformBlockBinding(id_, index, 0);
-    GLint size = 0;
-    glGetActiveUniformBlockiv(id_, index, GL_UNIFORM_BLOCK_DATA_SIZE, &size);
-    if (std::size_t(size) > block.bytes.size())
-        return Error{where + std::to_string(size) + " bytes in GLSL, " + std::to_string(block.bytes.size()) +
-                         " in C++",
-                     Fault::Machine};
-    checked_ = block.name;
-    return Done{};
+    const auto found = std::find_if(blocks_.begin(), blocks_.end(),
+                                    [&](const BlockSize& known) { return known.name == block.name; });
+    if (found != blocks_.end() && found->bytes <= block.bytes.size()) return Done{};
+    const std::string where = name_ + ": block " + std::string(block.name) + ": ";
+    if (found == blocks_.end()) return Error{where + "not in the shader", Fault::Machine};
+    return Error{where + std::to_string(found->bytes) + " bytes in GLSL, " +
+                     std::to_string(block.bytes.size()) + " in C++",
+                 Fault::Machine};
 }
 
 } // namespace lucent::gl

@@ -43,7 +43,7 @@ public:
     /// The samplers that the program uses; the index is the texture unit.
     const std::vector<Sampler>& samplers() const { return samplers_; }
 
-    /// Compares a block of C++ with what GL made of it, once.
+    /// Compares a block of C++ with what GL made of it.
     ///
     /// @return Error "relief/light: block ReliefBlock: 528 bytes in GLSL, 512 in C++"
     Status checkBlock(const graph::Block& block) const;
@@ -54,7 +54,12 @@ private:
         std::string path;
     };
     std::string log() const;
+    struct BlockSize {
+        std::string name;
+        std::size_t bytes;
+    };
     void bindSamplers() const;
+    void bindBlocks() const;
     void deleteStages() const;
     std::string name_;
     int firstLine_; // of our own source, below the preamble
@@ -62,7 +67,7 @@ private:
     mutable std::vector<CompiledStage> stages_; // until ready()
     mutable std::optional<Status> status_;
     mutable std::vector<Sampler> samplers_;
-    mutable std::string_view checked_; // block
+    mutable std::vector<BlockSize> blocks_;
 };
 
 /// Rewrites a driver's log so that each "0:LINE" or "ERROR: 0:LINE" names the file and line that was written.

@@ -80,6 +80,7 @@ std::optional<Status> Viewer::advanceLoad(double ms) {
         views::boundsOf(s.coming->objects[s.bounded++]);
         if (1e3 * (secondsNow() - begin) > ms) return std::nullopt;
     }
+    if (4e3 * (secondsNow() - begin) > ms) return std::nullopt; // to show it takes its time, too
     s.adopt(std::move(*std::exchange(s.coming, nullptr)));
     return Status(Done{});
 }

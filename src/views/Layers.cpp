@@ -169,6 +169,8 @@ void importKept(graph::FrameGraph& graph, gl::Context& context, KeptLayers& kept
 
 } // namespace
 
+void askToCount(gl::Context& context) { context.program("views/count"); }
+
 Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
                         const Drawables& glass, float time, ivec2 size) {
     const graph::Texture counts(context.device(), {.size = size, .format = Format::RGBA16F}, "views.counts");

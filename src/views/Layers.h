@@ -28,6 +28,9 @@ struct KeptLayers {
     bool current = false; ///< they are still as they were: who keeps them says so
 };
 
+/// Has the program made that countLayers() draws with, so that this need not wait for it.
+void askToCount(gl::Context& context);
+
 /// How many surfaces lie behind each other at most in any pixel, by drawing all of them once and reading the
 /// picture back. At most kMostLayers; more are named in a warning.
 Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
