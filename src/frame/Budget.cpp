@@ -342,8 +342,10 @@ bool Budget::isWorthBaking(const scene::Scene& scene, const Turned& turned) cons
 }
 
 // What is left of an error among light samples in the mean over a pixel. Trials have one sample of it.
-float Budget::leftOf(const scene::Scene& scene, const Turned& turned) const {
-    const bool varies = turned.of.table == views::samplingParams().name && of_.variesLight(scene);
+// Directions by importance are the same for all.
+float Budget::leftOf(const scene::Scene& scene, const Turned& turned, int placing) const {
+    const bool stays = isOfEnvironment(turned.of) && placing == int(views::EnvironmentSampling::Importance);
+    const bool varies = !stays && turned.of.table == views::samplingParams().name && of_.variesLight(scene);
     return varies ? std::pow(float(of_.pixelSamples(scene)), kByPixelSamples) : 1;
 }
 
@@ -366,7 +368,7 @@ Status Budget::step(const scene::Scene& scene) {
         const Result<std::optional<float>> error = errorOf(scene, turned, {number, placing}, finer);
         if (!error) return error.error();
         if (!*error) return Done{};
-        least = std::min(least, factor * leftOf(scene, turned) * **error);
+        least = std::min(least, factor * leftOf(scene, turned, placing) * **error);
         if (least >= turned.error) continue;
         turned.error = least;
         turned.value = {number, placing};
