@@ -1,29 +1,32 @@
 // views/holes.glsl: where the alpha of a mesh's colour lets light and sight pass.
 //
 // in    uColor, vCoordinate  views/texture_at.glsl
-//       vCorner              a number of the triangle
 #include "views/texture_at.glsl"
 uniform sampler2D uColor;
 in vec4 vCoordinate;
-flat in int vCorner;
 
-// Even in [0,1) over pixels and triangles: those behind each other must know nothing of each other. Steps of two rounds
-// of multiplication, whose factors are from a search for those that mix best (Wellons 2018).
+// Two rounds of multiplication, whose factors are from a search for those that mix best (Wellons 2018).
 uint mixed(uint bits) {
     bits = (bits ^ (bits >> 16u)) * 0x7feb352du;
     bits = (bits ^ (bits >> 15u)) * 0x846ca68bu;
     return bits ^ (bits >> 16u);
 }
-float chanceOf(ivec2 pixel, int object, int corner) {
-    uint triangle = mixed(uint(corner) + mixed(uint(object)));
-    return float(mixed(uint(pixel.x) + mixed(uint(pixel.y) + triangle)) >> 8u) / 16777216.0;
+
+// Even in [0,1) over pixels and layers: those behind each other must know nothing of each other, while samples of a pixel,
+// which meet neighbouring triangles, must not differ. A layer is one side of an object within a 32nd of an octave of
+// depth; what is nearer together than that counts as one.
+float chanceOf(ivec2 pixel, int object, float depth) {
+    int layer = 2 * int(floor(32.0 * log2(max(depth, 1e-6)))) + int(gl_FrontFacing);
+    return float(mixed(uint(pixel.x) + mixed(uint(pixel.y) + mixed(uint(layer) + mixed(uint(object))))) >> 8u) / 16777216.0;
 }
 
 // Of what is partly there each view shows the share of its pixels that alpha says (stochastic transparency: Enderton,
 // Sintorn, Shirley, Luebke 2010), so that nothing need be sorted and whatever meets it counts it rightly in the mean.
 // Views of the same pixel differ by the threshold, evenly.
-bool isHole() {
+//
+// @param depth  [m]  along the view's forward
+bool isHole(float depth) {
     float alpha = textureAt(uColor, vCoordinate, mesh.wraps.x).a;
     if (mesh.cutoff >= 0.0) return alpha < mesh.cutoff;
-    return -mesh.cutoff * alpha <= fract(chanceOf(ivec2(gl_FragCoord.xy), mesh.object, vCorner) + mesh.threshold);
+    return -mesh.cutoff * alpha <= fract(chanceOf(ivec2(gl_FragCoord.xy), mesh.object, depth) + mesh.threshold);
 }

@@ -4,7 +4,6 @@
 //       vDepth  [m]  along the view's forward
 //       vPaint  PAINTED: place on the atlas [texels]
 //       vCoordinate     TEXTURED, HOLES: places on the textures by both sets of coordinates
-//       vCorner         HOLES: the triangle's last vertex
 //       vColor, vPlace [m]  TEXTURED: colour, and place in the world from the eye on
 #include "views/mesh_block.glsl"
 uniform sampler2D uPositions; // object space
@@ -18,9 +17,6 @@ out vec2 vPaint;
 #if defined(TEXTURED) || defined(HOLES)
 uniform sampler2D uCoordinates; // of all vertices, as the positions; or one row
 out vec4 vCoordinate;
-#endif
-#ifdef HOLES
-flat out int vCorner;
 #endif
 #ifdef TEXTURED
 uniform sampler2D uVertexColors;
@@ -39,9 +35,6 @@ void main() {
 #endif
 #if defined(TEXTURED) || defined(HOLES)
     vCoordinate = texelFetch(uCoordinates, min(texel, textureSize(uCoordinates, 0) - 1), 0);
-#endif
-#ifdef HOLES
-    vCorner = gl_VertexID;
 #endif
 #ifdef TEXTURED
     vColor = texelFetch(uVertexColors, min(texel, textureSize(uVertexColors, 0) - 1), 0).rgb;

@@ -20,7 +20,7 @@ const float kSame = 1e-5; // of a depth: what rounding may part
 
 void main() {
 #ifdef HOLES
-    if (isHole()) discard;
+    if (isHole(vDepth)) discard;
 #endif
 #ifdef BEHIND
 #ifdef BACK

@@ -21,7 +21,7 @@ layout(location = 0) out vec4 oSurface;
 
 void main() {
 #ifdef HOLES
-    if (isHole()) discard;
+    if (isHole(vDepth)) discard;
 #endif
 #ifdef SECOND
     if (isFirst(mesh.object)) discard;
