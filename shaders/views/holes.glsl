@@ -20,7 +20,7 @@ float chanceOf(ivec2 pixel, int object, float depth) {
     return float(mixed(uint(pixel.x) + mixed(uint(pixel.y) + mixed(uint(layer) + mixed(uint(object))))) >> 8u) / 16777216.0;
 }
 
-// Of what is partly there each view shows the share of its pixels that alpha says (stochastic transparency: Enderton,
+// Of what is blended each view shows the share of its pixels that alpha says (stochastic transparency: Enderton,
 // Sintorn, Shirley, Luebke 2010), so that nothing need be sorted and whatever meets it counts it rightly in the mean.
 // Views of the same pixel differ by the threshold, evenly.
 //

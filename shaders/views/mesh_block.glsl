@@ -8,6 +8,6 @@ layout(std140) uniform MeshBlock {
     int firstCorner; // of a refractive mesh, among those of all
     float normalScale; // of textured meshes, this and the rest
     float cutoff;      // as scene::Textures has it
-    float threshold;   // of what is partly there, added to those of views/holes.glsl: [0,1]
+    float threshold;   // of what is blended, added to those of views/holes.glsl: [0,1]
     vec4 wraps; // of color, emission, roughness and normal: codes of views/texture_at.glsl
 } mesh;

@@ -16,8 +16,7 @@ constexpr int kSamplesPerTexel = 4; // one a channel
 constexpr int kPartShare = 2;      // a lamp's view has as many times the texels a side of one of its samples,
 constexpr int kDirectionShare = 4; // and of a direction of an environment
 constexpr int kLeastShadowSize = 16; // texels a side
-constexpr int kThresholds =
-    8; // of what is partly there, over which the shadow of a lamp without size is the mean
+constexpr int kThresholds = 8; // of what is blended, over which the shadow of a lamp without size is the mean
 constexpr float kGolden = 0.618034f; // parts that its multiples leave of one are never close together
 
 // Pixels that the same things can shade: those of one height field, or of all other shapes.
@@ -27,7 +26,7 @@ struct Group {
     Drawables casters;
 };
 
-bool isPartly(const Drawable::Ptr& one) { return one->textured && one->textured->isPartly; }
+bool isBlended(const Drawable::Ptr& one) { return one->textured && one->textured->isBlended; }
 
 bool isEmpty(const Bounds& bounds) { return glm::any(glm::lessThan(bounds.high, bounds.low)); }
 
@@ -138,16 +137,16 @@ Result<TextureId> shadowOf(graph::FrameGraph& graph, gl::Context& context, KeptS
 }
 
 // How many shadows of one sample differ: one, unless there is no other sample to differ from it by what it
-// sees of things that are partly there.
+// sees of what is blended.
 int thresholdsFor(const LampPoint& sample, const Drawables& casters) {
     const bool isAlone = !sample.isPart && !sample.isEnvironment;
-    return isAlone && std::any_of(casters.begin(), casters.end(), isPartly) ? kThresholds : 1;
+    return isAlone && std::any_of(casters.begin(), casters.end(), isBlended) ? kThresholds : 1;
 }
 
 // The same views with thresholds beside those of other samples, of the same one and of the same pixel.
 void setThreshold(ShadowViews& views, const Lit& in, const Drawables& casters, std::size_t number, int i,
                   int of) {
-    if (std::none_of(casters.begin(), casters.end(), isPartly)) return; // so that they are kept
+    if (std::none_of(casters.begin(), casters.end(), isBlended)) return; // so that they are kept
     for (Eye& face : views.faces)
         face.threshold = glm::fract(float(number) * kGolden + (float(i) + in.eye.threshold) / float(of));
 }

@@ -47,11 +47,11 @@ struct Textures {
     float cutoff = 0;
     bool vertexColors = false; ///< Mesh::colors multiply Material::diffuse as well
 
-    bool isPartly() const { return cutoff < 0; } ///< whether alpha is the share that is there
-    bool hasHoles() const { return isPartly() || (cutoff > 0 && color.image >= 0); }
+    bool isBlended() const { return cutoff < 0; } ///< whether alpha is an opacity: glTF's BLEND
+    bool hasHoles() const { return isBlended() || (cutoff > 0 && color.image >= 0); }
     /// The share of a place that is there, [0,1], by its alpha.
-    double presence(double alpha) const {
-        return isPartly() ? alpha * -double(cutoff) : alpha >= double(cutoff) ? 1 : 0;
+    double opacity(double alpha) const {
+        return isBlended() ? alpha * -double(cutoff) : alpha >= double(cutoff) ? 1 : 0;
     }
     bool hasImages() const {
         return color.image >= 0 || emission.image >= 0 || roughness.image >= 0 || normal.image >= 0;

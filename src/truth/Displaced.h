@@ -32,8 +32,8 @@ struct Box {
 struct Intersection {
     double distance;
     dvec3 normal, smoothNormal;
-    int triangle = -1;   ///< of a mesh, or below heights; else -1
-    double presence = 1; ///< Hit::presence
+    int triangle = -1;  ///< of a mesh, or below heights; else -1
+    double opacity = 1; ///< Hit::opacity
     Intersection(double distance, const dvec3& normal) : Intersection(distance, normal, normal) {}
     Intersection(double distance, const dvec3& normal, const dvec3& smoothNormal)
         : distance(distance), normal(normal), smoothNormal(smoothNormal) {}

@@ -354,12 +354,12 @@ std::optional<Intersection> intersectTriangle(const Triangles& triangles, unsign
     const double v = glm::dot(glm::cross(first, place), across) / area;
     constexpr double kOver = 1e-3;
     if (!(u > -kOver && v > -kOver && u + v < 1 + kOver)) return {};
-    const double presence = triangles.presence ? triangles.presence(number, {1 - u - v, u, v}) : 1;
-    if (presence < 1 && presence <= (ray.hitsPartly ? 0 : chanceOf(ray, number))) return {};
+    const double opacity = triangles.opacity ? triangles.opacity(number, {1 - u - v, u, v}) : 1;
+    if (opacity < 1 && opacity <= (ray.hitsBlended ? 0 : chanceOf(ray, number))) return {};
     const dvec3 normal = across / std::sqrt(area);
     Intersection found(distance, normal);
     found.triangle = int(number);
-    if (ray.hitsPartly) found.presence = presence;
+    if (ray.hitsBlended) found.opacity = opacity;
     if (triangles.normals.empty()) return found;
     const dvec3 smooth = (1 - u - v) * triangles.normals[index[0]] + u * triangles.normals[index[1]] +
                          v * triangles.normals[index[2]];

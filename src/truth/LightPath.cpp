@@ -24,7 +24,7 @@ const Hit* mirrorOf(const Hits& hits, const Optics& optics) {
 double passing(const Hits& hits, const Optics& optics) {
     double kept = 1;
     for (const Hit& hit : hits)
-        if (optics.isOpaque(hit.shape)) kept *= 1 - hit.presence;
+        if (optics.isOpaque(hit.shape)) kept *= 1 - hit.opacity;
     return kept;
 }
 
@@ -93,9 +93,9 @@ private:
         beam_.weight = passed;
         beam_.origin = first.position;
         beam_.begin = optics_.rays().gap();
-        if (first.presence < 1) {
+        if (first.opacity < 1) {
             end_.byChance = true;
-            if (random_.next() >= first.presence) return true;
+            if (random_.next() >= first.opacity) return true;
         }
         if (const Hit* opaque = opaqueOf(hits, optics_)) {
             end_.hit = *opaque;
@@ -186,7 +186,7 @@ Arrival follow(const Optics& optics, Beam beam, int channel, Branching branching
 }
 
 dvec3 straightTransmittance(const Optics& optics, WorldRay ray, const Leaving& leaving) {
-    ray.hitsPartly = true;
+    ray.hitsBlended = true;
     if (!optics.rays().occluded(ray, leaving)) return dvec3(1);
     if (!optics.letsPass()) return dvec3(0);
     Media media = optics.hasIndexOfOne() ? optics.mediaAt(ray.origin, true) : Media();

@@ -47,7 +47,7 @@ struct Arrival {
     double length = 0;            ///< m, of the whole way to the last surface
     int surfaces = 0;             ///< met before, those that changed nothing included
     int bends = 0;                ///< interfaces between unequal indices, total reflections and mirrors
-    bool byChance = false;        ///< it met something that is partly there
+    bool byChance = false;        ///< it met something blended
     std::optional<Beam> mirrored; ///< what the first interface reflects, as `weight` says; chain only
 };
 

@@ -212,7 +212,7 @@ Shape surfaceOf(const scene::Object& object, double time) {
     Triangles triangles = std::visit(TrianglesOf{time, waved}, object.shape);
     if (waved) wave(triangles, object.wave, time);
     if (isFlat(object)) triangles.normals.clear();
-    triangles.presence = presenceOf(object);
+    triangles.opacity = opacityOf(object);
     return inWorld(std::move(triangles), placement);
 }
 
@@ -241,7 +241,7 @@ Result<Optics> Optics::create(const scene::Scene& scene) {
 Optics::Optics(const scene::Scene& scene, RayScene rays) : scene_(&scene), rays_(std::move(rays)) {
     for (int i = 0; i < int(scene.objects.size()); ++i) {
         const scene::Textures* textures = scene::texturesOf(object(i));
-        hasPartly_ |= textures && textures->isPartly();
+        hasBlended_ |= textures && textures->isBlended();
         if (isOpaque(i)) continue;
         optical_.push_back(i);
         if (!object(i).material.isRefractive()) continue;

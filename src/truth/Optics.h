@@ -51,11 +51,10 @@ public:
     bool disperses() const { return disperses_; }
     /// Whether some refractive object has the index of vacuum: it bends and reflects nothing there.
     bool hasIndexOfOne() const { return hasIndexOfOne_; }
-    /// Whether something is there that straight light may pass: some refractive object with that index, or
-    /// what is partly there.
-    bool letsPass() const { return hasIndexOfOne_ || hasPartly_; }
     /// Whether all of them have.
     bool bendsNothing() const { return bendsNothing_; }
+    /// Whether straight light may pass some object: a refractive one of that index, or a blended one.
+    bool letsPass() const { return hasIndexOfOne_ || hasBlended_; }
 
     /// Index of refraction of a medium for red, green or blue light.
     double ior(int medium, int channel) const;
@@ -74,7 +73,7 @@ private:
     const scene::Scene* scene_;
     RayScene rays_;
     std::vector<int> optical_;
-    bool disperses_ = false, hasIndexOfOne_ = false, hasPartly_ = false, bendsNothing_ = true;
+    bool disperses_ = false, hasIndexOfOne_ = false, hasBlended_ = false, bendsNothing_ = true;
 };
 
 /// Index of refraction at the Fraunhofer lines C (656.3 nm, for red), d (587.6 nm) and F (486.1 nm): Cauchy's

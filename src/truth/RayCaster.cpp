@@ -10,7 +10,7 @@ bool Query::offer(int shape, const Intersection& intersection) {
     if (found_.count > 0 && within_ == 0 && !nearest) return false;
     insert({ray_.origin + intersection.distance * ray_.direction, intersection.normal,
             intersection.smoothNormal, shape, intersection.distance, intersection.triangle,
-            intersection.presence});
+            intersection.opacity});
     return true;
 }
 

@@ -52,7 +52,7 @@ struct Triangles {
     std::vector<std::uint32_t> indices;
     /// The share of a place of a triangle, by the weights of its corners, that is there, [0,1]; empty: all
     /// is.
-    std::function<double(unsigned triangle, const dvec3& weights)> presence{};
+    std::function<double(unsigned triangle, const dvec3& weights)> opacity{};
 };
 
 /// A sheet over a rectangle of its placement's xz plane with the height amplitude sin(wave . (x, z)).
@@ -84,9 +84,9 @@ struct WorldRay {
     double length = std::numeric_limits<double>::infinity(); ///< m
     double begin = 0;       ///< m; nothing nearer is met. -infinity: a whole line
     bool hitsHidden = true; ///< whether shapes that the eye does not see are met
-    /// Whether all that is partly there is met, as Hit::presence says. Else a ray meets either all or nothing
+    /// Whether all that is blended is met, as Hit::opacity says. Else a ray meets either all or nothing
     /// of a place, always the same: many rays in the mean meet the share that is there.
-    bool hitsPartly = false;
+    bool hitsBlended = false;
 };
 
 /// The beginning of a ray on which one shape is not seen: the one it starts on.
@@ -100,9 +100,9 @@ struct Hit {
     dvec3 normal; ///< unit, outward; of a triangle to the side from which its corners run counter-clockwise
     dvec3 smoothNormal; ///< unit: interpolated between a mesh's vertices, elsewhere the same as `normal`
     int shape;
-    double distance;     ///< m from the ray's origin
-    int triangle = -1;   ///< of Triangles
-    double presence = 1; ///< the share of the place that is there, (0,1]
+    double distance;    ///< m from the ray's origin
+    int triangle = -1;  ///< of Triangles
+    double opacity = 1; ///< the share of the place that is there, (0,1]
 };
 
 /// Surfaces that a ray meets at one place, nearest first: faces that lie on each other. A shape appears once

@@ -125,16 +125,16 @@ std::optional<Textured> texturedAt(const Optics& optics, const Hit& hit) {
     return textured;
 }
 
-std::function<double(unsigned, const dvec3&)> presenceOf(const scene::Object& object) {
+std::function<double(unsigned, const dvec3&)> opacityOf(const scene::Object& object) {
     const scene::Textures* textures = scene::texturesOf(object);
     if (!textures || !textures->hasHoles()) return {};
     const scene::Mesh* mesh = std::get<scene::MeshShape>(object.shape).mesh.get();
     return [mesh, textures](unsigned triangle, const dvec3& weights) {
-        if (textures->color.image < 0) return textures->presence(1);
+        if (textures->color.image < 0) return textures->opacity(1);
         const std::uint32_t* index = &mesh->indices[3 * std::size_t(triangle)];
         const Coordinates at = mixed(coordinatesOf(*mesh, index[0]), coordinatesOf(*mesh, index[1]),
                                      coordinatesOf(*mesh, index[2]), weights);
-        return textures->presence(sample(*mesh, textures->color, at).a);
+        return textures->opacity(sample(*mesh, textures->color, at).a);
     };
 }
 

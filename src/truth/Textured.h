@@ -22,6 +22,6 @@ std::optional<Textured> texturedAt(const Optics& optics, const Hit& hit);
 
 /// The share of a place of a mesh that the alpha of its colour says is there (Textures::cutoff), [0,1]; empty
 /// where all is. The mesh must live as long.
-std::function<double(unsigned triangle, const dvec3& weights)> presenceOf(const scene::Object& object);
+std::function<double(unsigned triangle, const dvec3& weights)> opacityOf(const scene::Object& object);
 
 } // namespace lucent::truth

@@ -21,9 +21,8 @@ struct Eye {
     vec4 cut{0, 0, 0, 1}; ///< world, a plane: what lies where dot(cut, (place, 1)) is below 0 is not shown
     bool second =
         false; ///< of each pixel the object that it meets first is left out: what that hides is shown
-
-    float threshold = 0; ///< [0,1]: by which views of the same pixel differ in what they show of things that
-                         ///< are partly there (shaders/views/holes.glsl)
+    float threshold = 0; ///< [0,1]: by which views of the same pixel differ in what they show of blended
+                         ///< meshes (shaders/views/holes.glsl)
 
     bool isCut() const { return vec3(cut) != vec3(0); }
     /// Where eye rays come from in the space of an object: the position with w = 1, or with w = 0 the unit

@@ -237,7 +237,7 @@ Textured ImageCache::textured(const scene::Mesh& mesh, const scene::Textures& te
             .normalScale = textures.normal.image < 0 ? 0 : textures.normalScale,
             .cutoff = textures.cutoff,
             .hasHoles = textures.hasHoles(),
-            .isPartly = textures.isPartly()};
+            .isBlended = textures.isBlended()};
 }
 
 Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image>& image) {

@@ -28,9 +28,9 @@ struct Textured {
     graph::TextureHandle coordinates, colors, color, emission, roughness, normal;
     vec4 wraps; ///< of color, emission, roughness and normal: codes of shaders/views/texture_at.glsl
     float normalScale;
-    float cutoff;  ///< scene::Textures::cutoff
-    bool hasHoles; ///< where the colour's alpha says so
-    bool isPartly; ///< whether alpha is the share that is there
+    float cutoff;   ///< scene::Textures::cutoff
+    bool hasHoles;  ///< where the colour's alpha says so
+    bool isBlended; ///< whether alpha is an opacity
     bool operator==(const Textured&) const = default;
     /// All that shaders/views/material_textures.glsl and the places on it need.
     void bind(std::vector<graph::Binding>& bindings) const;

@@ -299,7 +299,7 @@ TEST_F(TexturedTest, HolesLetLightAndSightThrough) {
 }
 
 // Two sheets above a floor, each of which light and sight pass by a share of their own.
-TEST_F(TexturedTest, WhatIsPartlyThereLetsItsShareOfLightAndSightThrough) {
+TEST_F(TexturedTest, BlendedSheetsLetTheirShareOfLightAndSightThrough) {
     const auto sheet = [&](std::uint8_t alpha, float height) {
         scene::Mesh mesh = texturedPlane();
         mesh.images = {imageOf({1, 1}, Encoding::Srgb, [&](int, int) { return Texel{0, 0, 0, alpha}; })};
@@ -333,7 +333,7 @@ TEST_F(TexturedTest, WhatIsPartlyThereLetsItsShareOfLightAndSightThrough) {
 }
 
 // Against the exact picture, which counts each path through it by its share.
-TEST_F(TexturedTest, WhatIsPartlyThereIsAsExactAsWhatIsThere) {
+TEST_F(TexturedTest, BlendedSurfacesAreAsExactAsOpaqueOnes) {
     scene::Mesh ball = fullBall();
     ball.images[0] = imageOf({8, 4}, Encoding::Srgb, [](int x, int y) {
         return Texel{200, 180, 90, std::uint8_t(60 + 20 * x + 10 * y)};

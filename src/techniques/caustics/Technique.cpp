@@ -230,13 +230,13 @@ const technique::NotDrawn kLimits[] = {
      {},
      "environmentDirections",
      "64"},
-    {"caustics of all the light that passes meshes which are partly there",
-     "a beam ends where any of its rays does",
+    {"caustics of all the light that blended meshes let through",
+     "a beam ends where any of its rays does: some light is lost, and its edges are speckled",
      [](const scene::Scene& scene) {
-         return Caustics::bends(scene) &&
+         return Caustics::need(scene) &&
                 std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
                     const scene::Textures* textures = scene::texturesOf(object);
-                    return textures && textures->isPartly();
+                    return textures && textures->isBlended();
                 });
      }},
     {"caustics on objects that scatter light",
