@@ -6,6 +6,7 @@
 #pragma variants - VERTICES RESTS PIXELS
 #pragma variants PACKED if RESTS PIXELS
 #pragma variants - WITH_BOOK
+#pragma variants - USE_BLENDED
 #include "caustics/lamp.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
@@ -41,7 +42,7 @@ void main() {
     int mirror = mirrorOf(texel);
     vec3 eye = eyeRay(light.view, at);
     vec3 place = placeFrom(light.view, at, texel.z);
-    vec3 flux = start.coverage * fluxOf(light.view, light.lamp, eye, length(place));
+    vec3 flux = start.coverage * leftAt(start.pixel) * fluxOf(light.view, light.lamp, eye, length(place));
     vec3 reflectance = light.mirrors[mirror].rgb;
 #ifdef WITH_BOOK
     flux *= start.own;

@@ -10,6 +10,7 @@
 #pragma variants PACKED if RESTS PIXELS
 #pragma variants - WITH_BOOK
 #pragma variants - USE_SOLID
+#pragma variants - USE_BLENDED
 #include "caustics/lamp.glsl"
 #include "views/glass_block.glsl"
 layout(std140) uniform PhotonBlock {
@@ -77,7 +78,7 @@ void main() {
     Beam beam = Beam(placeFrom(layers.view, at, seen.texel.x), eye, 0, vec3(1.0));
     Book book = Book(vec3(0.0), vec3(0.0));
     Crossing crossing = firstCrossing(start.pixel, seen, eye);
-    vec3 flux = start.coverage * fluxOf(layers.view, layers.lamp, eye, length(beam.origin));
+    vec3 flux = start.coverage * leftAt(start.pixel) * fluxOf(layers.view, layers.lamp, eye, length(beam.origin));
     flux *= layers.tint.rgb;
     int way = 1;
     int reflections = 0;

@@ -1,6 +1,7 @@
 // caustics/photon.glsl: a ray of the grid: where it begins, and what becomes of it.
 //
 // The file that includes this has said whether a pixel of the light's view shows what bends light: isMet().
+// in    uOpticalDepth  USE_BLENDED: of what it passes before
 // out   a ray that leaves what bends it; WITH_BOOK: where its light stays
 // model VERTICES: the rays through the middles of cells, for beams (caustics/beams.frag); RESTS: a ray for each cell,
 //       of what no beam carries: where what bends light ends, or its rays part; PIXELS: for each pixel of that; both
@@ -31,6 +32,13 @@ void clearOutputs() { oPlace = oDirection = oFlux = vec4(0.0); }
 float markOf(float coverage, int sixths) { return float(1 + sixths); }
 #else
 float markOf(float coverage, int sixths) { return coverage; }
+#endif
+
+#ifdef USE_BLENDED
+uniform sampler2D uOpticalDepth; // views/optical_depth.frag
+float leftAt(ivec2 pixel) { return exp(-texelFetch(uOpticalDepth, pixel, 0).r); }
+#else
+float leftAt(ivec2 pixel) { return 1.0; }
 #endif
 
 struct Start {

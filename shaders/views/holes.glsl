@@ -20,13 +20,17 @@ float chanceOf(ivec2 pixel, int object, float depth) {
     return float(mixed(uint(pixel.x) + mixed(uint(pixel.y) + mixed(uint(layer) + mixed(uint(object))))) >> 8u) / 16777216.0;
 }
 
+// Share of the light that stops here: all or none of what is not blended.
+float opacityHere() {
+    float alpha = textureAt(uColor, vCoordinate, mesh.wraps.x).a;
+    return mesh.cutoff < 0.0 ? -mesh.cutoff * alpha : float(alpha >= mesh.cutoff);
+}
+
 // Of what is blended each view shows the share of its pixels that alpha says (stochastic transparency: Enderton,
 // Sintorn, Shirley, Luebke 2010), so that nothing need be sorted and whatever meets it counts it rightly in the mean.
 // Views of the same pixel differ by the threshold, evenly.
 //
 // @param depth  [m]  along the view's forward
 bool isHole(float depth) {
-    float alpha = textureAt(uColor, vCoordinate, mesh.wraps.x).a;
-    if (mesh.cutoff >= 0.0) return alpha < mesh.cutoff;
-    return -mesh.cutoff * alpha <= fract(chanceOf(ivec2(gl_FragCoord.xy), mesh.object, depth) + mesh.threshold);
+    return opacityHere() <= fract(chanceOf(ivec2(gl_FragCoord.xy), mesh.object, depth) + mesh.threshold);
 }

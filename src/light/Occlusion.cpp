@@ -26,7 +26,7 @@ struct Group {
     Drawables casters;
 };
 
-bool isBlended(const Drawable::Ptr& one) { return one->textured && one->textured->isBlended; }
+bool isBlended(const Drawable::Ptr& one) { return one->isBlended(); }
 
 bool isEmpty(const Bounds& bounds) { return glm::any(glm::lessThan(bounds.high, bounds.low)); }
 

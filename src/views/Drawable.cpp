@@ -65,7 +65,7 @@ Result<Drawables> recordPose(graph::FrameGraph& graph, gl::Context& context, con
 
 std::vector<Drawing> drawingsOf(gl::Context& context, graph::PassBuilder& pass, const Drawables& list,
                                 ViewKind kind, const std::vector<std::string>& defines) {
-    const bool inScene = kind <= ViewKind::Textured;
+    const bool inScene = kind <= ViewKind::OpticalDepth;
     std::vector<Drawing> drawings;
     for (const auto& one : list)
         drawings.push_back(

@@ -23,9 +23,9 @@ struct DrawnField;
 struct DrawnMesh;
 struct KeptTriangles;
 
-/// Kinds of views, by what they keep of surfaces. All but the first three show refractive objects only, and
-/// number them; Textured is for objects with textures.
-enum class ViewKind { Surface, Shadow, Textured, Peel, Count, VoxelBounds, VoxelSlice };
+/// Kinds of views, by what they keep of surfaces. All but the first four show refractive objects only, and
+/// number them; Textured is for objects with textures, OpticalDepth for those that are blended.
+enum class ViewKind { Surface, Shadow, Textured, OpticalDepth, Peel, Count, VoxelBounds, VoxelSlice };
 
 /// Draws something into a view of `size` pixels, which stands at the corner of draw.region, while a pass
 /// runs.
@@ -46,6 +46,7 @@ struct Drawable {
 
     bool isVisible() const { return object->visible; } ///< to the camera
     bool isRefractive() const { return object->material.isRefractive(); }
+    bool isBlended() const { return mesh() && textured && textured->isBlended; } ///< in part
     bool isMirror() const { return object->material.isMirror(); }
     Bounds bounds() const { return boundsOf(*object); } ///< at any time
 

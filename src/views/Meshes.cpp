@@ -161,8 +161,9 @@ void drawMesh(graph::Commands& commands, const gl::Program& program, const graph
 
 Drawing DrawnMesh::drawing(gl::Context& context, graph::PassBuilder& pass, ViewKind kind, int number,
                            std::vector<std::string> defines) const {
-    constexpr const char* kStems[] = {"views/solid", "views/shadow",       "views/textured",   "views/peel",
-                                      "views/count", "views/voxel_bounds", "views/voxel_slice"};
+    constexpr const char* kStems[] = {"views/solid",         "views/shadow",     "views/textured",
+                                      "views/optical_depth", "views/peel",       "views/count",
+                                      "views/voxel_bounds",  "views/voxel_slice"};
     const bool isTextured = kind == ViewKind::Textured, hasHoles = textured && textured->hasHoles;
     if (isTextured)
         defines.push_back("TEXTURED"); // whose surface image knows the holes

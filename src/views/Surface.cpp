@@ -99,4 +99,22 @@ Status recordSolid(graph::FrameGraph& graph, gl::Context& context, const Eye& ey
                           "opaque surfaces on which rays through refractive objects end");
 }
 
+Status recordOpticalDepth(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                          const Drawables& blended, graph::TextureId first, graph::TextureId target,
+                          ivec2 size, const std::vector<std::string>& defines) {
+    graph.addPass("views.opticalDepth", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what " + std::to_string(blended.size()) + " blended object(s) take of the light");
+        pass.sample(first);
+        pass.write(target);
+        pass.clear(target, vec4(0));
+        return [=, drawings = drawingsOf(context, pass, blended, ViewKind::OpticalDepth, defines)](
+                   const graph::Resources& resources, graph::Commands& commands) {
+            for (const Drawing& draw : drawings)
+                draw(resources, commands, eye, size,
+                     {.blend = graph::Blend::Add, .textures = {{"uFirst", resources[first]}}});
+        };
+    });
+    return Done{};
+}
+
 } // namespace lucent::views

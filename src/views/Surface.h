@@ -20,4 +20,12 @@ Status recordGeometry(graph::FrameGraph& graph, gl::Context& context, const Eye&
 Status recordSolid(graph::FrameGraph& graph, gl::Context& context, const Eye& eye, const Drawables& drawables,
                    graph::TextureId surface, graph::TextureId target, ivec2 size);
 
+/// Draws into `target`, R16F, the optical depth of blended meshes before the first surface of each pixel.
+///
+/// @param first    where that is: a surface image, or views::Layers::images
+/// @param defines  OF_LAYERS for these
+Status recordOpticalDepth(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                          const Drawables& blended, graph::TextureId first, graph::TextureId target,
+                          ivec2 size, const std::vector<std::string>& defines);
+
 } // namespace lucent::views

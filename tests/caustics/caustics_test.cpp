@@ -179,6 +179,38 @@ TEST_F(Caustics, ARingOfMetalDrawsACuspHalfAsFarFromItsAxis) {
     EXPECT_NEAR((brightest + 0.5) / 64 - 1.5, 0.5, 3.0 / 64); // three pixels: the cusp opens to the light
 }
 
+TEST_F(Caustics, BlendedSheetsLetTheirShareOfACausticThrough) {
+    const auto sheet = [](float opacity, float height) {
+        scene::Object object = matt(scene::Plane{{8, 8}});
+        object.material.kind = scene::Matt{};
+        scene::Mesh mesh = *meshOf(object);
+        mesh.coordinates.assign(mesh.positions.size(), vec2(0));
+        mesh.parts = {{"sheet", 0, std::uint32_t(mesh.indices.size()), {}}};
+        mesh.parts[0].textures.cutoff = -opacity;
+        object.shape = scene::MeshShape{
+            .source = "sheet", .part = {}, .mesh = std::make_shared<const scene::Mesh>(mesh)};
+        object.transform.translate = {0, height, 0};
+        object.visible = false;
+        return object;
+    };
+    for (const scene::Object& bending :
+         {glass(scene::Sphere{1}, 1.5f, {0, 1.2f, 0}), mirror(scene::Sphere{1}, {0, 1.2f, 0})}) {
+        scene::Scene scene = floorUnder(bending, 4);
+        const Shown all = show(scene, {64, 64});
+        ASSERT_GT(sumOf(all.light), 1);
+        scene.objects.push_back(sheet(0.4f, 2.5f));
+        scene.objects.push_back(sheet(0.25f, 3));
+        const Shown part = show(scene, {64, 64});
+        expectClosed(part.energy);
+        Image expected = all.light;
+        for (float& value : expected.pixels)
+            value *= 0.6f * 0.75f;
+        // 11 bits of the optical depth, 0.8, are 4e-4 of the light; maps that hold sheets have other texels.
+        EXPECT_NEAR(sumOf(part.light) / sumOf(expected), 1, 2e-3);
+        EXPECT_LT(misplaced(part.light, expected), 0.01);
+    }
+}
+
 TEST_F(Caustics, ASineOnWaterLightsTheFloorAsTheSumOverItsRoots) {
     constexpr double kIor = 1.33;
     struct Case {

@@ -346,7 +346,8 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
             light.mirrors.push_back({face, 0, borderOf(mirroring, size)});
         if (!light.water && light.glass.empty() && light.mirrors.empty()) continue;
         if (settings.receiverLayers > 1 && settings.intersect == Intersect::Hybrid) {
-            Result<bool> lies = liesBehind(pool, context_, light.receivers, receivers, scene.view.time);
+            Result<bool> lies = liesBehind(pool, context_, light.receivers, behind(lamp, throwing, receivers),
+                                           scene.view.time);
             if (!lies) return lies.error();
             light.hasBehind = *lies;
         }

@@ -19,6 +19,27 @@ ivec2 viewSizeOf(int grid) {
     return ivec2(grid * (pixels | 1));
 }
 
+namespace {
+// How far a box reaches along a direction [m].
+struct Extent {
+    float low, high;
+};
+Extent extentOf(const views::Bounds& box, vec3 along) {
+    const vec3 a = along * box.low, b = along * box.high;
+    return {glm::dot(glm::min(a, b), vec3(1)), glm::dot(glm::max(a, b), vec3(1))};
+}
+} // namespace
+
+views::Drawables behind(const views::LampPoint& lamp, const views::Bounds& bending,
+                        views::Drawables receivers) {
+    const vec3 from(lamp.place);
+    const vec3 way = lamp.place.w != 0 ? bending.center() - from : -from;
+    const float first = extentOf(bending, way).low;
+    return filtered(std::move(receivers), [&](const views::Drawable& one) {
+        return !one.isBlended() || extentOf(one.bounds(), way).high > first;
+    });
+}
+
 // --- what bends light
 
 LampBlock LightPasses::lampBlock() const {
@@ -45,17 +66,38 @@ PhotonBlock LightPasses::photonBlock(const Plan::View& view, const Tint& tint) c
     return block;
 }
 
-Result<views::Layers> LightPasses::layersOf(const Plan::View& view, TextureId& solid) {
+// What is blended ends no ray: beams would end with it, which it only weakens.
+Result<LightPasses::GlassSeen> LightPasses::glassFrom(const Plan::View& view) {
+    GlassSeen seen;
     const ivec2 size = viewSize();
-    if (!in_.solids.empty()) {
+    if (!solids_.empty()) {
         const TextureDesc desc{.size = size, .format = Format::RGBA32F};
         const TextureId surface = graph_.create("caustics.surface", desc);
-        solid = graph_.create("caustics.solid", desc);
-        Status s = views::recordSurface(graph_, context_, view.eye, in_.solids, surface, size);
-        if (s) s = views::recordSolid(graph_, context_, view.eye, in_.solids, surface, solid, size);
+        seen.solid = graph_.create("caustics.solid", desc);
+        Status s = views::recordSurface(graph_, context_, view.eye, solids_, surface, size);
+        if (s) s = views::recordSolid(graph_, context_, view.eye, solids_, surface, seen.solid, size);
         if (!s) return s.error();
     }
-    return views::recordLayers(graph_, context_, view.eye, in_.glass, size, view.layers, solid);
+    Result<views::Layers> layers =
+        views::recordLayers(graph_, context_, view.eye, in_.glass, size, view.layers, seen.solid);
+    if (!layers) return layers.error();
+    seen.layers = *layers;
+    Result<TextureId> depth = opticalDepth(view.eye, seen.layers.images, {"OF_LAYERS"});
+    if (!depth) return depth.error();
+    seen.opticalDepth = *depth;
+    return seen;
+}
+
+Result<TextureId> LightPasses::opticalDepth(const views::Eye& eye, TextureId first,
+                                            const std::vector<std::string>& defines) {
+    if (blended_.empty()) return TextureId{};
+    const TextureId depth =
+        graph_.create("caustics.opticalDepth", {.size = viewSize(), .format = Format::R16F});
+    if (Status s =
+            views::recordOpticalDepth(graph_, context_, eye, blended_, first, depth, viewSize(), defines);
+        !s)
+        return s.error();
+    return depth;
 }
 
 namespace {
@@ -90,17 +132,19 @@ std::vector<std::string> LightPasses::Start::defines() const {
     return list;
 }
 
-Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views::Layers& layers,
-                          TextureId solid, const Start& start) {
+Status LightPasses::trace(const Plan::View& view, const Tint& tint, const GlassSeen& seen,
+                          const Start& start) {
     std::vector<std::string> defines = start.defines();
-    if (solid) defines.push_back("USE_SOLID");
+    if (seen.solid) defines.push_back("USE_SOLID");
+    if (seen.opticalDepth) defines.push_back("USE_BLENDED");
     const gl::Program* traced = program("caustics/photon", defines);
     graph_.addPass("caustics.photon", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(start.book       ? "where their light stays"
                     : start.isRest() ? "rays of one point of a light where no beam carries it"
                                      : "rays of one point of a light through refractive objects");
-        views::sampleLayers(pass, layers);
-        if (solid) pass.sample(solid);
+        views::sampleLayers(pass, seen.layers);
+        for (const TextureId image : {seen.solid, seen.opticalDepth})
+            if (image) pass.sample(image);
         for (const auto& [name, texture] : start.samples())
             pass.sample(texture);
         for (const TextureId target : start.targets) {
@@ -110,9 +154,10 @@ Status LightPasses::trace(const Plan::View& view, const Tint& tint, const views:
         return
             [=, picture = picture_, draw = drawOf(start.part), program = traced,
              block = photonBlock(view, tint)](const graph::Resources& resources, graph::Commands& commands) {
-                auto textures = views::layerBindings(resources, layers);
-                textures.push_back(pictureBinding(picture, resources[layers.triangles.corners]));
-                if (solid) textures.push_back({"uSolid", resources[solid]});
+                auto textures = views::layerBindings(resources, seen.layers);
+                textures.push_back(pictureBinding(picture, resources[seen.layers.triangles.corners]));
+                if (seen.solid) textures.push_back({"uSolid", resources[seen.solid]});
+                if (seen.opticalDepth) textures.push_back({"uOpticalDepth", resources[seen.opticalDepth]});
                 for (const auto& [name, texture] : start.samples())
                     textures.push_back({name, resources[texture]});
                 commands.draw(filled(draw, *program, block, std::move(textures)));
@@ -131,23 +176,28 @@ MirrorBlock LightPasses::mirrorBlock(const Plan::View& view) const {
 }
 
 // What the light meets first, mirrors or not: what refracts hides mirrors too.
-Result<TextureId> LightPasses::surfaceOf(const views::Eye& eye) {
-    views::Drawables everything = in_.solids;
+Result<LightPasses::MirrorsSeen> LightPasses::mirrorsFrom(const views::Eye& eye) {
+    views::Drawables everything = solids_;
     everything.insert(everything.end(), in_.glass.begin(), in_.glass.end());
     const TextureId surface =
         graph_.create("caustics.surface", {.size = viewSize(), .format = Format::RGBA32F});
     if (Status s = views::recordSurface(graph_, context_, eye, everything, surface, viewSize()); !s)
         return s.error();
-    return surface;
+    Result<TextureId> depth = opticalDepth(eye, surface, {});
+    if (!depth) return depth.error();
+    return MirrorsSeen{surface, *depth};
 }
 
-Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Start& start) {
-    const gl::Program* reflecting = program("caustics/mirror", start.defines());
+Status LightPasses::reflect(const Plan::View& view, const MirrorsSeen& seen, const Start& start) {
+    std::vector<std::string> defines = start.defines();
+    if (seen.opticalDepth) defines.push_back("USE_BLENDED");
+    const gl::Program* reflecting = program("caustics/mirror", defines);
     graph_.addPass("caustics.mirror", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(start.book       ? "where their light stays"
                     : start.isRest() ? "rays of one point of a light where no beam carries it"
                                      : "rays of one point of a light off mirrors");
-        pass.sample(surface);
+        pass.sample(seen.surface);
+        if (seen.opticalDepth) pass.sample(seen.opticalDepth);
         for (const auto& [name, texture] : start.samples())
             pass.sample(texture);
         for (const TextureId target : start.targets) {
@@ -156,8 +206,9 @@ Status LightPasses::reflect(const Plan::View& view, TextureId surface, const Sta
         }
         return [=, picture = picture_, draw = drawOf(start.part), program = reflecting,
                 block = mirrorBlock(view)](const graph::Resources& resources, graph::Commands& commands) {
-            std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
-                                                 pictureBinding(picture, resources[surface])};
+            std::vector<graph::Binding> textures{{"uSurface", resources[seen.surface]},
+                                                 pictureBinding(picture, resources[seen.surface])};
+            if (seen.opticalDepth) textures.push_back({"uOpticalDepth", resources[seen.opticalDepth]});
             for (const auto& [name, texture] : start.samples())
                 textures.push_back({name, resources[texture]});
             commands.draw(filled(draw, *program, block, std::move(textures)));
@@ -377,8 +428,8 @@ Status LightPasses::recordBack() {
     graph_.addPass("caustics.back", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("how thick what the light sees is, past which it may come");
         std::vector<views::Drawing> drawings =
-            drawingsOf(context_, pass, filtered(receivers_, &views::Drawable::hasBack), views::ViewKind::Shadow,
-                       {"BEHIND", "BACK"});
+            drawingsOf(context_, pass, filtered(receivers_, &views::Drawable::hasBack),
+                       views::ViewKind::Shadow, {"BEHIND", "BACK"});
         pass.sample(depths_);
         const ivec2 size = light_.receivers.imageSize();
         back_ = pass.createColor("caustics.back", {.size = size, .format = Format::R32F});
@@ -454,18 +505,17 @@ Status LightPasses::record(TextureId& sum) {
         for (const Tint& tint : light)
             if (Status s = carryFromWater(tint); !s) return s;
     for (const Plan::View& view : light_.glass) {
-        TextureId solid;
-        Result<views::Layers> layers = layersOf(view, solid);
-        if (!layers) return layers.error();
+        const Result<GlassSeen> seen = glassFrom(view);
+        if (!seen) return seen.error();
         for (const Tint& tint : light) {
-            const auto through = [&](const Start& start) { return trace(view, tint, *layers, solid, start); };
+            const auto through = [&](const Start& start) { return trace(view, tint, *seen, start); };
             if (Status s = carry(view.eye, through); !s) return s;
         }
     }
     for (const Plan::View& view : light_.mirrors) {
-        Result<TextureId> surface = surfaceOf(view.eye);
-        if (!surface) return surface.error();
-        const auto off = [&](const Start& start) { return reflect(view, *surface, start); };
+        const Result<MirrorsSeen> seen = mirrorsFrom(view.eye);
+        if (!seen) return seen.error();
+        const auto off = [&](const Start& start) { return reflect(view, *seen, start); };
         if (Status s = carry(view.eye, off); !s) return s;
     }
     if (isInPicture()) return drawLines(sum);

@@ -17,6 +17,12 @@ inline views::Drawables mirrorsOf(views::Drawables solids) {
 inline views::Drawables receiversOf(views::Drawables solids) {
     return filtered(std::move(solids), std::not_fn(&views::Drawable::isMirror));
 }
+/// Without blended meshes that stand between a lamp and all that bends its light: its view would show them
+/// in the stead of what the light falls on.
+///
+/// @param bending  box around that
+views::Drawables behind(const views::LampPoint& lamp, const views::Bounds& bending,
+                        views::Drawables receivers);
 
 /// Whether all that refracts is water that a lamp looks down on, so that rays may begin on it.
 bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const views::Drawables& glass,
@@ -51,7 +57,9 @@ public:
     LightPasses(graph::FrameGraph& graph, gl::Context& context, Targets& targets, const Inputs& in,
                 const Plan::Light& light, const Settings& settings, const views::PictureOf& pictureOf)
         : graph_(graph), context_(context), targets_(targets), in_(in), light_(light), settings_(settings),
-          pictureOf_(pictureOf), receivers_(receiversOf(in.solids)) {}
+          pictureOf_(pictureOf), receivers_(behind(light.lamp, bendingIn(in), receiversOf(in.solids))),
+          blended_(filtered(in.solids, &views::Drawable::isBlended)),
+          solids_(filtered(in.solids, std::not_fn(&views::Drawable::isBlended))) {}
 
     /// @param sum  of what other points left on the pixels; becomes the sum with this one
     Status record(graph::TextureId& sum);
@@ -119,12 +127,26 @@ private:
     }
 
     PhotonBlock photonBlock(const Plan::View& view, const Tint& tint) const;
-    Result<views::Layers> layersOf(const Plan::View& view, graph::TextureId& solid);
-    Status trace(const Plan::View& view, const Tint& tint, const views::Layers& layers,
-                 graph::TextureId solid, const Start& start);
+    // What a light's view of refractive objects shows; none where nothing opaque or blended stands there.
+    struct GlassSeen {
+        views::Layers layers;
+        graph::TextureId solid, opticalDepth;
+    };
+    struct MirrorsSeen {
+        graph::TextureId surface, opticalDepth;
+    };
+    static views::Bounds bendingIn(const Inputs& in) {
+        views::Bounds box = boundsOfAll(in.glass);
+        box.add(boundsOfAll(mirrorsOf(in.solids)));
+        return box;
+    }
+    Result<GlassSeen> glassFrom(const Plan::View& view);
+    Result<MirrorsSeen> mirrorsFrom(const views::Eye& eye);
+    Result<graph::TextureId> opticalDepth(const views::Eye& eye, graph::TextureId first,
+                                          const std::vector<std::string>& defines);
+    Status trace(const Plan::View& view, const Tint& tint, const GlassSeen& seen, const Start& start);
     MirrorBlock mirrorBlock(const Plan::View& view) const;
-    Result<graph::TextureId> surfaceOf(const views::Eye& eye);
-    Status reflect(const Plan::View& view, graph::TextureId surface, const Start& start);
+    Status reflect(const Plan::View& view, const MirrorsSeen& seen, const Start& start);
 
     Status carry(const views::Eye& eye, const Trace& trace);
     Result<Photons> send(Part part, const Cells& cells, const Trace& trace);
@@ -188,6 +210,7 @@ private:
     const views::PictureOf& pictureOf_;
     graph::TextureHandle picture_ = graph::TextureHandle::None; // that the lamp projects
     views::Drawables receivers_;
+    views::Drawables blended_, solids_; // what weakens light on its way, and what ends it
     std::vector<Sheet> sheets_;
     graph::TextureId depths_, map_;
     graph::TextureId behind_, back_;         // none where no receiver lies behind another

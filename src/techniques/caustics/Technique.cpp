@@ -230,8 +230,8 @@ const technique::NotDrawn kLimits[] = {
      {},
      "environmentDirections",
      "64"},
-    {"caustics of all the light that blended meshes let through",
-     "a beam ends where any of its rays does: some light is lost, and its edges are speckled",
+    {"caustics beyond blended meshes inside glass or behind it",
+     "those inside weaken no light, and a beam ends where any of its rays meets one behind",
      [](const scene::Scene& scene) {
          return Caustics::need(scene) &&
                 std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {

@@ -30,6 +30,8 @@ ivec2 raysOn(const scene::Water& water, int grid) {
 bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const views::Drawables& glass,
                    const views::Drawables& solids) {
     if (settings.deposit != Deposit::Beam || glass.size() != 1 || !mirrorsOf(solids).empty()) return false;
+    if (std::any_of(solids.begin(), solids.end(), [](const auto& solid) { return solid->isBlended(); }))
+        return false; // rays begin beneath what hides the water, or not at all
     const scene::Object& object = *glass.front()->object;
     if (!std::holds_alternative<scene::Water>(object.shape)) return false;
     const vec3 up = rotationFromDegrees(object.transform.rotate) * vec3(0, 1, 0);
