@@ -5,9 +5,13 @@ export function makeCanvas(width, height = width) {
   return Object.assign(document.createElement('canvas'), { width, height });
 }
 
-/** Waits for all that was drawn on a canvas. */
+/** Waits for all that was drawn into the framebuffer that is bound. */
 export function waitFor(gl) {
-  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  const isCanvas = !gl.getParameter(gl.READ_FRAMEBUFFER_BINDING);
+  const [type, pixel] = isCanvas ? [gl.UNSIGNED_BYTE, new Uint8Array(4)] : [gl.FLOAT, new Float32Array(4)];
+  gl.readPixels(0, 0, 1, 1, gl.RGBA, type, pixel);
+  const error = gl.getError();
+  if (error) throw new Error(`waiting for a picture: GL error ${error}`); // else nobody has waited
 }
 
 /** The bench module (src/web/Bench.cpp) with one scene. */
