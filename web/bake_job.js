@@ -3,7 +3,7 @@
  * worker; where they cannot, they import it and wait.
  */
 import { answerRequests } from './answering.js';
-import { callWasm } from './wasm.js';
+import { callWasm, putFile } from './wasm.js';
 
 const kPaint = 50; // ms in which a page shows that it waits
 
@@ -18,7 +18,7 @@ export async function work({ files, technique }, report) {
   const wasm = await create({ locateFile, reportShare: report });
   report(0);
   await new Promise((done) => setTimeout(done, kPaint));
-  for (const [name, bytes] of files) callWasm(wasm, 'file_put', name, bytes);
+  for (const [name, bytes] of files) putFile(wasm, 'file_space', name, bytes);
   const { at, size, error } = JSON.parse(wasm.UTF8ToString(callWasm(wasm, 'bake_scene', 'scene.json', technique)));
   if (error) throw new Error(error);
   return { bytes: wasm.HEAPU8.slice(at, at + size) };

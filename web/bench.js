@@ -1,7 +1,7 @@
 /** The benchmark page: runs the sweep step by step, with progress and cancel, and offers what it found as JSON. */
 import createBench from './lucent-bench.js';
 import { nextTask } from './task.js';
-import { callWasm } from './wasm.js';
+import { callWasm, putFile } from './wasm.js';
 
 const kSliceMs = 50;
 const kParts = ['relief', 'environment', 'scaling', 'hard', 'refraction', 'caustics']; // as lucent bench has them
@@ -41,7 +41,7 @@ class Bench {
   }
   async #put(name) {
     const answer = await fetch(`gallery/${name}`);
-    if (answer.ok) this.call('file_put', name, new Uint8Array(await answer.arrayBuffer()));
+    if (answer.ok) putFile(this.wasm, 'bench_file_space', name, new Uint8Array(await answer.arrayBuffer()));
     return answer.ok;
   }
 

@@ -206,7 +206,7 @@ async function collect(start, path, scene, read) {
 
 /** Files that a scene names, as seen from `path`. */
 export function namesIn(runtime, path, scene) {
-  runtime.call('file_put', path, scene);
+  runtime.put(path, scene);
   const { files, error } = runtime.json('scene_dependencies', path);
   runtime.call('file_forget', path);
   if (error) throw new LucentError('scene', error);
@@ -271,7 +271,7 @@ export async function openScene(start, files) {
  * LucentError. @return  the scene's sources: see collect(); the files themselves where nobody says them
  */
 export async function loadFiles({ runtime, handle }, { path, files, sources }) {
-  for (const [name, bytes] of files) runtime.call('file_put', name, bytes);
+  for (const [name, bytes] of files) runtime.put(name, bytes);
   const load = runtime.call('viewer_load', handle, path);
   do await nextTask();
   while (runtime.call('viewer_load_on', handle, load));

@@ -3,7 +3,7 @@
  * this file as a worker; where they cannot, they import it and the work is done on the page.
  */
 import { answerRequests } from './answering.js';
-import { callWasm, isAbort } from './wasm.js';
+import { callWasm, isAbort, putFile } from './wasm.js';
 
 let module;
 function loadModule() {
@@ -20,7 +20,7 @@ function loadModule() {
 const failure = (code, message) => Object.assign(new Error(message), { code });
 
 const text = (wasm, call, ...values) => wasm.UTF8ToString(callWasm(wasm, call, ...values));
-const put = (wasm, files) => files.forEach((bytes, name) => callWasm(wasm, 'reader_file_put', name, bytes));
+const put = (wasm, files) => files.forEach((bytes, name) => putFile(wasm, 'reader_file_space', name, bytes));
 const bytesAt = (wasm, at, size) => wasm.HEAPU8.slice(at, at + size);
 
 function converted(wasm, code, message) {
@@ -32,7 +32,7 @@ const kTasks = {
   /** Files that one names for itself, [{file, optional}]; null where it is in a plain form already. */
   needs(wasm, { name, bytes }) {
     if (!/\.mtl$/i.test(name) && !callWasm(wasm, 'reader_is_foreign', name, bytes)) return null;
-    callWasm(wasm, 'reader_file_put', name, bytes);
+    putFile(wasm, 'reader_file_space', name, bytes);
     return JSON.parse(text(wasm, 'reader_needs', name));
   },
   /** A file in its plain form, and the name that such files have. @param parts  Map with it, and what it needs */

@@ -113,6 +113,11 @@ export class Runtime {
       throw this.#ended;
     }
   }
+  /** Gives a file for later loads. */
+  put(name, bytes) {
+    const at = this.call('file_space', name, bytes.length); // after which HEAPU8 may be another
+    this.#wasm.HEAPU8.set(bytes, at);
+  }
   text(name, ...values) {
     return this.#wasm.UTF8ToString(this.call(name, ...values));
   }

@@ -4,7 +4,7 @@
  */
 import createTruth from 'lucent-truth-wasm'; // the build names the file
 import { answerRequests, kPageSlice, workThrough } from './answering.js';
-import { callWasm } from './wasm.js';
+import { callWasm, putFile } from './wasm.js';
 
 /**
  * @param request  files: Map of name to bytes with "scene.json", width, height, samples
@@ -13,7 +13,7 @@ import { callWasm } from './wasm.js';
  */
 export async function work({ files, width, height, samples }, report, slice = kPageSlice) {
   const wasm = await createTruth({ locateFile: (name) => new URL(name, import.meta.url).href });
-  for (const [name, bytes] of files) callWasm(wasm, 'truth_file_put', name, bytes);
+  for (const [name, bytes] of files) putFile(wasm, 'truth_file_space', name, bytes);
   const message = wasm.UTF8ToString(callWasm(wasm, 'truth_start', width, height, samples));
   if (message) throw new Error(message);
   if (!(await workThrough((ms) => callWasm(wasm, 'truth_step', ms), report, slice))) return null;

@@ -1,6 +1,12 @@
 /** Whether a module ended with this error: it is of no use any more. */
 export const isAbort = (error) => error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
 
+/** Gives a file to a module. @param space  name of its function that makes room for one */
+export function putFile(wasm, space, name, bytes) {
+  const at = callWasm(wasm, space, name, bytes.length); // after which HEAPU8 may be another
+  wasm.HEAPU8.set(bytes, at);
+}
+
 /** Calls a compiled function: text and byte arrays (pointer and length) are lent to it for the call. */
 export function callWasm(wasm, name, ...values) {
   const lent = [];

@@ -1,5 +1,5 @@
 /** What the peers' pages share: Lucent on a canvas of its own, pictures of numbers, times. */
-import { callWasm } from '../../web/wasm.js';
+import { callWasm, putFile } from '../../web/wasm.js';
 
 export function makeCanvas(width, height = width) {
   return Object.assign(document.createElement('canvas'), { width, height });
@@ -45,7 +45,7 @@ export class Lucent {
 
   /** A file that the scene names. */
   put(name, bytes) {
-    callWasm(this.wasm, 'bench_file_put', name, bytes);
+    putFile(this.wasm, 'bench_file_space', name, bytes);
   }
   /** @param scene  as a file has it */
   load(scene) {

@@ -25,6 +25,13 @@ public:
         bytes_ = bytes_.subspan(1);
         return true;
     }
+    // So many at once; none where fewer are left.
+    std::span<const std::byte> take(std::size_t count) {
+        if (count > bytes_.size()) return {};
+        const auto taken = bytes_.first(count);
+        bytes_ = bytes_.subspan(count);
+        return taken;
+    }
     bool take(Rgbe& pixel) { return take(pixel[0]) && take(pixel[1]) && take(pixel[2]) && take(pixel[3]); }
     bool takeLine(std::string& line) {
         line.clear();
@@ -49,10 +56,15 @@ bool takeChannels(Input& input, std::vector<Rgbe>& row) {
             const bool run = count > 128;
             const std::size_t length = run ? count - 128u : count;
             if (length == 0 || length > row.size() - x || (run && !input.take(value))) return false;
-            for (std::size_t i = 0; i < length; ++i) {
-                if (!run && !input.take(value)) return false;
-                row[x++][channel] = value;
+            if (run) {
+                for (std::size_t i = 0; i < length; ++i)
+                    row[x++][channel] = value;
+                continue;
             }
+            const std::span<const std::byte> values = input.take(length);
+            if (values.empty()) return false;
+            for (const std::byte one : values)
+                row[x++][channel] = std::uint8_t(one);
         }
     return true;
 }
@@ -87,6 +99,14 @@ bool takeRow(Input& input, std::vector<Rgbe>& row) {
     return fits && takeChannels(input, row);
 }
 
+// What a step of the mantissa is worth, by exponent.
+std::array<float, 256> stepsOf() {
+    std::array<float, 256> steps{};
+    for (int exponent = 1; exponent < 256; ++exponent)
+        steps[std::size_t(exponent)] = std::ldexp(1.0f, exponent - 136); // 128 + 8 bits of mantissa
+    return steps;
+}
+
 } // namespace
 
 Result<Image> decodeHdr(std::span<const std::byte> bytes, const std::string& name) {
@@ -110,15 +130,15 @@ Result<Image> decodeHdr(std::span<const std::byte> bytes, const std::string& nam
     if (input.left() < std::size_t(height) * 4) return damaged;
 
     Image image(width, height, 3);
+    const std::array<float, 256> steps = stepsOf();
     std::vector<Rgbe> row(static_cast<std::size_t>(width));
     for (int y = 0; y < height; ++y) {
         if (!takeRow(input, row)) return damaged;
-        for (int x = 0; x < width; ++x) {
-            const Rgbe& pixel = row[std::size_t(x)];
-            const float scale =
-                pixel[3] ? std::ldexp(1.0f, int(pixel[3]) - 136) : 0; // 128 + 8 bits of mantissa
-            for (int c = 0; c < 3; ++c)
-                image.at(x, y)[c] = float(pixel[std::size_t(c)]) * scale;
+        float* to = image.at(0, y);
+        for (const Rgbe& pixel : row) {
+            const float step = steps[pixel[3]];
+            for (std::size_t c = 0; c < 3; ++c)
+                *to++ = float(pixel[c]) * step;
         }
     }
     return image;

@@ -52,9 +52,16 @@ struct FreePixels {
 template <class Sample>
 using Decoder = Sample* (*)(const stbi_io_callbacks*, void*, int*, int*, int*, int);
 
-// Integer code values as floats in [0,1].
+// What an integer file holds, of 8 bits a sample or of 16.
+struct Codes {
+    int width = 0, height = 0, channels = 0;
+    std::unique_ptr<stbi_uc, FreePixels> bytes{};
+    std::unique_ptr<stbi_us, FreePixels> words{};
+};
+
+// Code values as floats in [0,1].
 template <class Sample>
-Image toFloat(Image frame, const Sample* samples, Encoding encoding) {
+Image toFloat(const Codes& codes, const Sample* samples, Encoding encoding) {
     constexpr std::size_t kLevels = std::size_t(std::numeric_limits<Sample>::max()) + 1;
     std::vector<float> linear(kLevels);
     for (std::size_t i = 0; i < kLevels; ++i)
@@ -62,8 +69,8 @@ Image toFloat(Image frame, const Sample* samples, Encoding encoding) {
     std::vector<float> color = linear;
     if (encoding == Encoding::Srgb)
         std::transform(linear.begin(), linear.end(), color.begin(), linearFromSrgb);
+    Image frame(codes.width, codes.height, codes.channels);
     const auto channels = std::size_t(frame.channels);
-    frame.pixels.resize(std::size_t(frame.width) * std::size_t(frame.height) * channels);
     for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
         const bool alpha = channels % 2 == 0 && i % channels == channels - 1;
         frame.pixels[i] = (alpha ? linear : color)[samples[i]];
@@ -78,15 +85,23 @@ Error damaged(const std::string& name, std::string_view format, bool truncated) 
 }
 
 // Runs one of stb's decoders.
+//
+// @param wanted  channels; 0: as many as there are
 template <class Sample>
-Result<Image> decodeWith(Decoder<Sample> decode, std::span<const std::byte> bytes, const std::string& name,
-                         std::string_view format, Encoding encoding) {
+Result<Codes> decodeWith(Decoder<Sample> decode, std::unique_ptr<Sample, FreePixels> Codes::*samples,
+                         std::span<const std::byte> bytes, const std::string& name, std::string_view format,
+                         int wanted) {
     Source source{bytes};
-    Image frame;
-    const std::unique_ptr<Sample, FreePixels> samples(
-        decode(&kCallbacks, &source, &frame.width, &frame.height, &frame.channels, 0));
-    if (!samples || source.exhausted) return damaged(name, format, source.exhausted);
-    return toFloat(std::move(frame), samples.get(), encoding);
+    Codes codes;
+    (codes.*samples)
+        .reset(decode(&kCallbacks, &source, &codes.width, &codes.height, &codes.channels, wanted));
+    if (!(codes.*samples) || source.exhausted) return damaged(name, format, source.exhausted);
+    if (wanted > 0) codes.channels = wanted;
+    return codes;
+}
+Result<Codes> decodeBytesWith(std::span<const std::byte> bytes, const std::string& name,
+                              std::string_view format, int wanted) {
+    return decodeWith<stbi_uc>(stbi_load_from_callbacks, &Codes::bytes, bytes, name, format, wanted);
 }
 
 std::uint32_t bigEndian(std::span<const std::byte> bytes, std::size_t at) {
@@ -139,14 +154,14 @@ Status checkChunks(std::span<const std::byte> bytes, const std::string& name) {
     return Done{};
 }
 
-Result<Image> decodePng(std::span<const std::byte> bytes, const std::string& name, Encoding encoding) {
+Result<Codes> decodePng(std::span<const std::byte> bytes, const std::string& name, int wanted) {
     if (bytes.size() < 26) return damaged(name, "PNG", true);
     const dvec2 side = pngSize(bytes);
     if (Status size = checkImageSize(side.x, side.y, pngChannels(bytes), name); !size) return size.error();
     if (Status sound = checkChunks(bytes, name); !sound) return sound.error();
     if (bytes[24] == std::byte(16)) // bits a sample
-        return decodeWith<stbi_us>(stbi_load_16_from_callbacks, bytes, name, "PNG", encoding);
-    return decodeWith<stbi_uc>(stbi_load_from_callbacks, bytes, name, "PNG", encoding);
+        return decodeWith<stbi_us>(stbi_load_16_from_callbacks, &Codes::words, bytes, name, "PNG", wanted);
+    return decodeBytesWith(bytes, name, "PNG", wanted);
 }
 
 // Where stb would find the marker behind `at`: fill bytes, what is stuffed into the coded picture and its
@@ -178,7 +193,7 @@ bool hasSoundTables(std::span<const std::byte> bytes) {
     return true;
 }
 
-Result<Image> decodeJpeg(std::span<const std::byte> bytes, const std::string& name, Encoding encoding) {
+Result<Codes> decodeJpeg(std::span<const std::byte> bytes, const std::string& name, int wanted) {
     if (!hasSoundTables(bytes))
         return Error{name + ": has a Huffman table of more than 256 codes; must be a whole JPEG file"};
     Source source{bytes};
@@ -186,7 +201,7 @@ Result<Image> decodeJpeg(std::span<const std::byte> bytes, const std::string& na
     if (!stbi_info_from_callbacks(&kCallbacks, &source, &width, &height, &channels))
         return damaged(name, "JPEG", source.exhausted);
     if (Status size = checkImageSize(width, height, channels, name); !size) return size.error();
-    return decodeWith<stbi_uc>(stbi_load_from_callbacks, bytes, name, "JPEG", encoding);
+    return decodeBytesWith(bytes, name, "JPEG", wanted);
 }
 
 bool startsWith(std::span<const std::byte> bytes, std::string_view signature) {
@@ -207,10 +222,11 @@ void append(void* bytes, void* data, int size) {
     out.insert(out.end(), begin, begin + size);
 }
 
+std::uint8_t byteOf(float value) { return std::uint8_t(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); }
+
 Bytes encodePng(const Image& image) {
     std::vector<std::uint8_t> samples(image.pixels.size());
-    std::transform(image.pixels.begin(), image.pixels.end(), samples.begin(),
-                   [](float v) { return std::uint8_t(std::lround(255 * std::clamp(v, 0.0f, 1.0f))); });
+    std::transform(image.pixels.begin(), image.pixels.end(), samples.begin(), byteOf);
     Bytes bytes;
     stbi_write_png_to_func(append, &bytes, image.width, image.height, image.channels, samples.data(), 0);
     return bytes;
@@ -229,6 +245,25 @@ Image withoutAlpha(const Image& image) {
         for (int x = 0; x < image.width; ++x)
             std::copy_n(image.at(x, y), out.channels, out.at(x, y));
     return out;
+}
+
+bool isPng(std::span<const std::byte> bytes) { return startsWith(bytes, "\x89PNG\r\n\x1a\n"); }
+bool isCoded(std::span<const std::byte> bytes) { return isPng(bytes) || startsWith(bytes, "\xff\xd8\xff"); }
+Result<Codes> decodeCodes(std::span<const std::byte> bytes, const std::string& name, int wanted) {
+    return isPng(bytes) ? decodePng(bytes, name, wanted) : decodeJpeg(bytes, name, wanted);
+}
+
+Image withFourChannels(const Image& image) {
+    Image whole(image.width, image.height, 4);
+    const int colors = image.channels < 3 ? 1 : 3;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const float* from = image.at(x, y);
+            for (int c = 0; c < 3; ++c)
+                whole.at(x, y)[c] = from[c % colors];
+            whole.at(x, y)[3] = image.channels > colors ? from[colors] : 1;
+        }
+    return whole;
 }
 
 std::string pixelName(const Image& image, std::size_t sample) {
@@ -263,13 +298,40 @@ float srgbFromLinear(float linear) {
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, Encoding encoding) {
     constexpr const char* kKinds = "; must be a PNG, JPEG, HDR or PFM image";
     if (bytes.empty()) return Error{name + ": is empty" + kKinds};
-    if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodePng(bytes, name, encoding);
-    if (startsWith(bytes, "\xff\xd8\xff")) return decodeJpeg(bytes, name, encoding);
+    if (isCoded(bytes)) {
+        const Result<Codes> codes = decodeCodes(bytes, name, 0);
+        if (!codes) return codes.error();
+        return codes->words ? toFloat(*codes, codes->words.get(), encoding)
+                            : toFloat(*codes, codes->bytes.get(), encoding);
+    }
     if (startsWith(bytes, "#?")) return decodeHdr(bytes, name);
     if (isPfm(bytes)) return decodePfm(bytes, name);
     if (startsWith(bytes, "\x76\x2f\x31\x01"))
         return Error{name + ": is an EXR file, whose reader is not here" + kKinds};
     return Error{name + ": is of an unknown kind" + kKinds};
+}
+
+Result<ByteImage> decodeBytes(std::span<const std::byte> bytes, const std::string& name) {
+    ByteImage image;
+    const auto take = [&](ivec2 size, const auto* samples, auto byteOf) {
+        image.size = size;
+        image.values.resize(4 * std::size_t(size.x) * std::size_t(size.y));
+        std::transform(samples, samples + image.values.size(), image.values.begin(), byteOf);
+    };
+    if (isCoded(bytes)) {
+        const Result<Codes> codes = decodeCodes(bytes, name, 4);
+        if (!codes) return codes.error();
+        const ivec2 size(codes->width, codes->height);
+        if (codes->bytes)
+            take(size, codes->bytes.get(), [](stbi_uc value) { return value; });
+        else
+            take(size, codes->words.get(), [](stbi_us value) { return std::uint8_t((value + 128) / 257); });
+        return image;
+    }
+    const Result<Image> floats = decodeImage(bytes, name, Encoding::Linear);
+    if (!floats) return floats.error();
+    take(floats->size(), withFourChannels(*floats).pixels.data(), byteOf);
+    return image;
 }
 
 Result<Bytes> encodeImage(const Image& image, const std::string& path) {

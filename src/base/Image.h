@@ -4,6 +4,7 @@
 #include "base/File.h"
 #include "base/Math.h"
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -42,6 +43,16 @@ float srgbFromLinear(float linear);
 /// @return          1 to 4 channels; integers scaled to [0,1]. Alpha is never decoded by the sRGB curve.
 ///                  Error: "NAME: what was found; what was expected" (truncated, empty, unknown, 0-sized).
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, Encoding encoding);
+
+/// Four bytes a pixel, red to alpha, row by row from the top.
+struct ByteImage {
+    ivec2 size{0};
+    std::vector<std::uint8_t> values;
+};
+
+/// The same files as code values of 8 bits, as they are stored: finer samples are rounded, grey ones
+/// repeated, and what has no alpha has 255.
+Result<ByteImage> decodeBytes(std::span<const std::byte> bytes, const std::string& name);
 
 /// Encodes by the ending of `path`: .png (8 bit; values are written as they are, clamped to [0,1]), .hdr,
 /// .pfm (linear floats, without alpha). Error when the ending is none of these or a value cannot be held: NaN

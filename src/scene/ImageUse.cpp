@@ -46,18 +46,23 @@ Result<SharedImage> share(Image image, float min, float max, const std::string& 
     return SharedImage(std::make_shared<Image>(std::move(image)));
 }
 
+Image withThreeChannels(Image image) {
+    if (image.channels == 3) return image;
+    Image colors(image.width, image.height, 3);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                colors.at(x, y)[c] = image.at(x, y)[image.channels >= 3 ? c : 0];
+    return colors;
+}
+
 } // namespace
 
 Result<SharedImage> decodeColors(std::span<const std::byte> bytes, const std::string& name) {
-    const Result<Image> image = decodeImage(bytes, name, Encoding::Srgb);
+    Result<Image> image = decodeImage(bytes, name, Encoding::Srgb);
     if (!image) return image.error();
-    Image colors(image->width, image->height, 3);
-    for (int y = 0; y < image->height; ++y)
-        for (int x = 0; x < image->width; ++x)
-            for (int c = 0; c < 3; ++c)
-                colors.at(x, y)[c] = image->at(x, y)[image->channels >= 3 ? c : 0];
     constexpr float kMost = std::numeric_limits<float>::max();
-    return share(std::move(colors), -kMost, kMost, name, "colours must be finite");
+    return share(withThreeChannels(std::move(*image)), -kMost, kMost, name, "colours must be finite");
 }
 
 namespace {

@@ -40,13 +40,6 @@ std::string listOf(std::span<const TypeKeys> types) {
     return list;
 }
 
-Result<std::shared_ptr<const Mesh>> decodeShape(std::span<const std::byte> bytes, const std::string& name) {
-    Result<Mesh> mesh = decodeMesh(bytes, name);
-    if (!mesh) return mesh.error();
-    if (mesh->normals.empty()) mesh->normals = areaWeightedNormals(mesh->positions, mesh->indices);
-    return std::shared_ptr<const Mesh>(std::make_shared<Mesh>(std::move(*mesh)));
-}
-
 // What an interrupted load need not decode again.
 struct Decoded {
     std::map<std::string, std::any> values; // by file and decoder, or by place and what it is
@@ -65,7 +58,11 @@ struct Decoded {
         isNew = true;
     }
     // Before something is decoded: whether it must wait.
-    bool isOver() { return pauses = isNew && std::chrono::steady_clock::now() > until; }
+    bool isOver() { return waits(std::chrono::steady_clock::duration(0)); }
+    // The same of what takes about so long by itself.
+    bool waits(std::chrono::steady_clock::duration least) {
+        return pauses = isNew && std::chrono::steady_clock::now() + least > until;
+    }
 };
 
 // Turns the tree into a scene. Functions return false after the first complaint, which is kept.
@@ -148,10 +145,14 @@ private:
     template <class Value, class Decode>
     bool readFile(const Place& place, const std::string& file, Value& value, Decode decode,
                   const std::string& role) {
-        const std::string name = resolvePath(path(), file);
-        return piece(place, name + " " + role, value, [&]() -> Result<Value> {
-            const Result<Bytes> bytes = read_(name);
-            if (!bytes) return bytes.error();
+        const std::string name = resolvePath(path(), file), key = name + " " + role;
+        if (decoded_.find(key, value)) return true;
+        if (decoded_.isOver()) return false;
+        const Result<Bytes> bytes = read_(name);
+        if (!bytes) return fail(place, ": " + bytes.error().message);
+        constexpr std::size_t kBytesPerMs = 100'000; // of pictures, in a browser
+        if (decoded_.waits(std::chrono::milliseconds(bytes->size() / kBytesPerMs))) return false;
+        return piece(place, key, value, [&]() -> Result<Value> {
             auto decoded = decode(*bytes, name);
             if (!decoded) return decoded.error();
             return Value(std::move(*decoded));
@@ -595,7 +596,8 @@ private:
         const Place member = place.at(*source, "source");
         if (!readFileName(member, shape.source)) return false;
         std::shared_ptr<const Mesh>& whole = meshes_[{shape.source, ""}];
-        if (!whole && !(readFile(member, shape.source, whole, decodeShape) &&
+        const std::string file = resolvePath(path(), shape.source);
+        if (!whole && !(pieces<MeshMaking>(member, file + " mesh", whole, file, read_) &&
                         spendTextures(place, shape.source, *whole)))
             return false;
         shape.mesh = whole;

@@ -178,6 +178,19 @@ Bytes encodeMesh(const Mesh& mesh);
 /// Error "NAME: what; expected" for truncated files, indices out of range, lists whose lengths do not agree
 /// and values that are not finite or outside their range.
 Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& name);
+/// The same piece by piece, for who must not wait; a mesh without normals gets those of its triangles.
+class MeshMaking {
+public:
+    /// @param read  gives the file
+    MeshMaking(std::string name, ReadFile read);
+    ~MeshMaking();
+    /// One piece more; the mesh once it is whole.
+    std::optional<Result<std::shared_ptr<const Mesh>>> advance();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// The mesh's depth as heights (height-field thesis 2017, 3.1.2): seen along -z after `rotation`, the
 /// bounding box fitted into `size` texels with square texels and a margin of `margin` of the larger side (of

@@ -22,6 +22,9 @@ static_assert(sizeof(Node) == 44, "parent, translate, rotate as x y z w, scale: 
 /// Puts values behind each other.
 class Writer {
 public:
+    /// @param expected  about how many bytes it will be
+    explicit Writer(std::size_t expected) { bytes_.reserve(expected); }
+
     template <class T>
     void value(const T& v, const char*) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -64,6 +67,15 @@ public:
         if (!has(count, sizeof values[0], what)) return;
         values.resize(count);
         take(values.data(), count * sizeof values[0]);
+    }
+    /// The bytes of a list of them, where they lie.
+    std::span<const std::byte> bytes(const char* what) {
+        std::uint32_t count = 0;
+        value(count, what);
+        if (!has(count, 1, what)) return {};
+        const std::span<const std::byte> found = rest_.first(count);
+        rest_ = rest_.subspan(count);
+        return found;
     }
     template <class T, class Fields>
     void items(std::vector<T>& values, const char* what, const Fields& fields) {
@@ -204,11 +216,17 @@ template <class File>
 void imageFields(File& file, auto& image) {
     file.value(image.size, "sizes of textures");
     file.value(image.encoding, "sizes of textures");
-    file.list(image.texels, "textures");
 }
 
+// What is most of a large file, and not read at once.
+struct Unread {
+    std::shared_ptr<TextureImage> image;
+    std::span<const std::byte> texels;
+};
+
+// @param unread  textures of a Reader's mesh whose texels are not read yet
 template <class File, class AnyMesh>
-void meshFields(File& file, AnyMesh& mesh, bool isWhole = true) {
+void meshFields(File& file, AnyMesh& mesh, bool isWhole = true, std::vector<Unread>* unread = nullptr) {
     file.list(mesh.positions, "positions");
     file.list(mesh.indices, "indices");
     file.list(mesh.normals, "normals");
@@ -250,11 +268,12 @@ void meshFields(File& file, AnyMesh& mesh, bool isWhole = true) {
     file.items(mesh.images, "textures", [&](auto& image) {
         if constexpr (std::is_const_v<AnyMesh>) {
             imageFields(file, *image);
+            file.list(image->texels, "textures");
         } else {
-            TextureImage read;
-            imageFields(file, read);
-            read.findLeast();
-            image = std::make_shared<const TextureImage>(std::move(read));
+            const auto read = std::make_shared<TextureImage>();
+            imageFields(file, *read);
+            unread->push_back({read, file.bytes("textures")});
+            image = read;
         }
     });
     if (!isWhole) return;
@@ -525,24 +544,88 @@ bool isMesh(std::span<const std::byte> bytes) {
 }
 
 Bytes encodeMesh(const Mesh& mesh) {
-    Writer file;
+    std::size_t expected = 4096 + 4 * mesh.indices.size() + 64 * mesh.positions.size();
+    for (const auto& image : mesh.images)
+        expected += image->texels.size();
+    Writer file(expected); // else what is large would be copied as often as it doubles
     for (const char letter : kMagic)
         file.value(letter, "");
     meshFields(file, mesh);
     return file.take();
 }
 
-Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& name) {
+namespace {
+
+// Reads all but the texels.
+Status decodeVertices(std::span<const std::byte> bytes, const std::string& name, Mesh& mesh,
+                      std::vector<Unread>& unread) {
     if (!isMesh(bytes))
         return Error{name + ": is no mesh file; must be glTF 2.0, OBJ or start with " + std::string(kMagic)};
     Reader file(bytes.subspan(kMagic.size()));
-    Mesh mesh;
-    meshFields(file, mesh, startsWith(bytes, kMagic));
+    meshFields(file, mesh, startsWith(bytes, kMagic), &unread);
     if (!file.missing().empty()) return Error{name + ": " + file.missing()};
     if (file.left() > 0)
         return Error{name + ": " + std::to_string(file.left()) + " bytes follow the mesh; must be none"};
+    return Done{};
+}
+
+void readTexels(const Unread& from) {
+    const auto* texels = reinterpret_cast<const std::uint8_t*>(from.texels.data());
+    from.image->texels.assign(texels, texels + from.texels.size());
+    from.image->findLeast();
+}
+
+Status checkMesh(const Mesh& mesh, const std::string& name) {
     if (const std::string wrong = Checker(mesh).check(); !wrong.empty()) return Error{name + ": " + wrong};
+    return Done{};
+}
+
+} // namespace
+
+Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& name) {
+    Mesh mesh;
+    std::vector<Unread> unread;
+    if (Status s = decodeVertices(bytes, name, mesh, unread); !s) return s.error();
+    std::for_each(unread.begin(), unread.end(), readTexels);
+    if (Status s = checkMesh(mesh, name); !s) return s.error();
     return mesh;
 }
+
+struct MeshMaking::State {
+    std::string name;
+    ReadFile read;
+    std::optional<Bytes> bytes{}; // of the file
+    std::optional<Mesh> mesh{};
+    std::vector<Unread> unread{};
+    std::size_t next = 0; // whose texels are read
+
+    // The file, what is in it but for texels, the texels of one texture after the other.
+    std::optional<Result<std::shared_ptr<const Mesh>>> advance() {
+        if (!bytes) {
+            Result<Bytes> file = read(name);
+            if (!file) return file.error();
+            bytes = std::move(*file);
+            return std::nullopt;
+        }
+        if (!mesh) {
+            mesh.emplace();
+            if (Status s = decodeVertices(*bytes, name, *mesh, unread); !s) return s.error();
+            if (!unread.empty()) return std::nullopt;
+        }
+        if (next < unread.size()) {
+            readTexels(unread[next++]);
+            if (next < unread.size()) return std::nullopt;
+        }
+        if (Status s = checkMesh(*mesh, name); !s) return s.error();
+        if (mesh->normals.empty()) mesh->normals = areaWeightedNormals(mesh->positions, mesh->indices);
+        return std::shared_ptr<const Mesh>(std::make_shared<Mesh>(std::move(*mesh)));
+    }
+};
+
+MeshMaking::MeshMaking(std::string name, ReadFile read)
+    : state_(std::make_unique<State>(State{std::move(name), std::move(read)})) {}
+MeshMaking::~MeshMaking() = default;
+
+std::optional<Result<std::shared_ptr<const Mesh>>> MeshMaking::advance() { return state_->advance(); }
 
 } // namespace lucent::scene

@@ -9,8 +9,6 @@
 namespace lucent::scene {
 namespace {
 
-using Quad = std::array<std::uint8_t, 4>;
-
 float lightOf(std::uint8_t value, Encoding encoding) {
     static const std::array<float, 256> kFromSrgb = [] {
         std::array<float, 256> table{};
@@ -24,14 +22,6 @@ float lightOf(std::uint8_t value, Encoding encoding) {
 std::uint8_t valueOf(float light, Encoding encoding) {
     const float code = encoding == Encoding::Srgb ? srgbFromLinear(light) : light;
     return std::uint8_t(std::lround(255 * std::clamp(code, 0.0f, 1.0f)));
-}
-
-// Grey and alpha, or colour and alpha; what is not there is 1.
-Quad quadOf(const float* pixel, int channels) {
-    const bool grey = channels < 3;
-    const auto value = [&](int channel) { return valueOf(pixel[channel], Encoding::Linear); };
-    return {value(0), value(grey ? 0 : 1), value(grey ? 0 : 2),
-            channels % 2 == 0 ? value(channels - 1) : std::uint8_t(255)};
 }
 
 // The mean of each 2 x 2 texels, in linear light; an odd one at the end is its own neighbour.
@@ -70,20 +60,16 @@ void TextureImage::findLeast() {
 
 Result<TextureImage> decodeTexture(std::span<const std::byte> bytes, const std::string& name,
                                    Encoding encoding) {
-    const Result<Image> decoded = decodeImage(bytes, name, Encoding::Linear);
+    Result<ByteImage> decoded = decodeBytes(bytes, name);
     if (!decoded) return decoded.error();
     TextureImage image;
-    image.size = decoded->size();
+    image.size = decoded->size;
     image.encoding = encoding;
-    image.texels.reserve(4 * decoded->pixels.size() / std::size_t(decoded->channels));
-    for (std::size_t i = 0; i < decoded->pixels.size(); i += std::size_t(decoded->channels)) {
-        const Quad quad = quadOf(&decoded->pixels[i], decoded->channels);
-        image.texels.insert(image.texels.end(), quad.begin(), quad.end());
-    }
+    image.texels = std::move(decoded->values);
     while (std::max(image.size.x, image.size.y) > kMostTextureSide)
         image = halved(image);
-    if (image.size != decoded->size())
-        warnOnce(name + ": has " + sizeText(decoded->size()) + " texels; is shown with " +
+    if (image.size != decoded->size)
+        warnOnce(name + ": has " + sizeText(decoded->size) + " texels; is shown with " +
                  sizeText(image.size) + ", as textures have at most " + std::to_string(kMostTextureSide) +
                  " on a side");
     image.findLeast();

@@ -4,6 +4,7 @@
 #include "scene/Load.h"
 #include "technique/Technique.h"
 #include "viewer/Viewer.h"
+#include "web/Files.h"
 
 #include <emscripten.h>
 
@@ -119,10 +120,7 @@ void lucent_context_lost() { page().context->markLost(); }
 
 // --- files
 
-void file_put(const char* path, const std::uint8_t* bytes, int size) {
-    const auto content = bytesOf(bytes, size);
-    page().files[path] = Bytes(content.begin(), content.end());
-}
+std::uint8_t* file_space(const char* path, int size) { return spaceFor(page().files, path, size); }
 
 void file_forget(const char* path) { page().files.erase(path); }
 

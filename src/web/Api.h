@@ -16,8 +16,8 @@ const char* lucent_start();
 const char* lucent_capabilities();
 void lucent_context_lost();
 
-/// Keeps a file for later loads; the bytes are copied.
-void file_put(const char* path, const std::uint8_t* bytes, int size);
+/// Makes room for a file of later loads. @return  where its bytes are to be written
+std::uint8_t* file_space(const char* path, int size);
 void file_forget(const char* path);
 /// JSON: {"files": [...]} or {"error": "..."}; the scene must have been put.
 const char* scene_dependencies(const char* path);

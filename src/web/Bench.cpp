@@ -13,6 +13,7 @@
 #include "measure/TechniqueBench.h"
 #include "scene/Load.h"
 #include "technique/Technique.h"
+#include "web/Files.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -151,11 +152,8 @@ const char* bench_start() {
 /// Name of the driver.
 const char* bench_driver() { return answer(bench().context->caps().renderer); }
 
-/// Keeps a file for later loads; the bytes are copied.
-void bench_file_put(const char* path, const std::uint8_t* bytes, int size) {
-    const auto content = std::as_bytes(std::span(bytes, std::size_t(size)));
-    bench().files[path] = Bytes(content.begin(), content.end());
-}
+/// Makes room for a file for later loads. @return  where its bytes are to be written
+std::uint8_t* bench_file_space(const char* path, int size) { return spaceFor(bench().files, path, size); }
 
 // --- single pictures
 

@@ -8,6 +8,7 @@
 #include "scene/readers/GltfTextures.h"
 #include "scene/readers/Obj.h"
 #include "scene/readers/Photos.h"
+#include "web/Files.h"
 
 #include <nlohmann/json.hpp>
 
@@ -113,10 +114,9 @@ const char* answer(Result<scene::Brought> brought) {
 
 extern "C" {
 
-/// Keeps a file for the next conversion; the bytes are copied.
-void reader_file_put(const char* name, const std::uint8_t* bytes, int size) {
-    const auto content = std::as_bytes(std::span(bytes, std::size_t(size)));
-    converter().files[name] = Bytes(content.begin(), content.end());
+/// Makes room for a file for the next conversion. @return  where its bytes are to be written
+std::uint8_t* reader_file_space(const char* name, int size) {
+    return spaceFor(converter().files, name, size);
 }
 
 /// 1 for bytes that reader_to_plain() would change.

@@ -9,6 +9,7 @@
 #include "technique/Technique.h"
 #include "truth/Glass.h"
 #include "truth/RenderRelief.h"
+#include "web/Files.h"
 
 #include <algorithm>
 #include <chrono>
@@ -113,11 +114,8 @@ void solveNext() {
 
 extern "C" {
 
-/// Keeps a file of the scene; the bytes are copied.
-void truth_file_put(const char* name, const std::uint8_t* bytes, int size) {
-    const auto content = std::as_bytes(std::span(bytes, std::size_t(size)));
-    job().files[name] = Bytes(content.begin(), content.end());
-}
+/// Makes room for a file of the scene. @return  where its bytes are to be written
+std::uint8_t* truth_file_space(const char* name, int size) { return spaceFor(job().files, name, size); }
 
 /// Begins the picture of "scene.json" and forgets the files. "" or the message.
 ///
