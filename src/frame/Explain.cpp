@@ -74,7 +74,7 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     const TextureDesc screen{.size = size, .format = Format::RGBA8};
     const bool geometric = views::isGeometric(scene.view.show);
     if (!geometric)
-        if (Status r = s.prepare(picture); !r) return r.error();
+        if (const Result<bool> r = s.prepare(picture); !r) return r.error();
     const int shown = std::min(int(s.lights.size()), views::mostSamplesAtOnce(s.context, size));
     if (Status r = s.recordSlice(graph, picture, shown); !r) return r.error();
     s.composed = s.replaces(picture);

@@ -87,20 +87,24 @@ bool Renderer::State::replaces(const Picture& picture) const {
            !filtered(opaque(visible(picture.drawables)), std::not_fn(&views::Drawable::field)).empty();
 }
 
-Status Renderer::State::prepare(const Picture& picture) {
+// @return  whether guests have what they need: else again, when the GPU has answered
+Result<bool> Renderer::State::prepare(const Picture& picture) {
+    readings.restart(atOnce ? nullptr : std::function<bool()>([this] { return canLook(); }));
     for (const Member& member : members) {
         if (!member.technique->need(picture.scene)) {
             member.guest->clear();
             continue;
         }
         if (!surfaceShown) member.guest->viewChanged();
-        if (Status s = member.guest->prepare(picture); !s) return s;
+        if (Status s = member.guest->prepare(picture); !s) return s.error();
     }
+    if (!readings.areThere()) return false;
+    readings.clear();
     if (!replaces(picture))
         through = graph::Texture();
     else if (!through || through.desc() != shown.desc())
         through = graph::Texture(context.device(), shown.desc(), "frame.through");
-    return Done{};
+    return true;
 }
 
 // Triangles stay where they are while their objects do, for the last phases: rays are traced there.

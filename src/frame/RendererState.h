@@ -163,6 +163,7 @@ struct Renderer::State {
     std::unique_ptr<Running> running; // of this picture; null: nothing
     std::deque<Batch> submitted;      // the oldest first; of a picture before this one too
     double retired = 0;               // ms: when the last of them was found to be done
+    views::Readings readings;         // what guests have asked for this picture
     std::optional<gl::Fence> earlier; // of what was given up for this picture: the GPU may still draw it
     bool presentable = true;          // picture() is not being drawn into
     bool whole = false;               // a sample is complete, and not yet in the mean
@@ -234,12 +235,13 @@ struct Renderer::State {
     }
     Result<Moment> momentOf(const scene::Scene& scene);
     Result<Moment> readyMoment(const scene::Scene& scene);
-    technique::Picture pictureOf(const Moment& moment) const {
+    technique::Picture pictureOf(const Moment& moment) {
         return {.scene = moment.scene,
                 .waters = waters,
                 .eye = moment.eye,
                 .size = size,
                 .drawables = moment.drawables,
+                .readings = readings,
                 .environment = moment.environment,
                 .surroundings = given ? given : &surroundings,
                 .scenery = scenery,
@@ -256,7 +258,7 @@ struct Renderer::State {
     std::vector<technique::Guest*> needed(const scene::Scene& scene) const;
     technique::Guest* replacing(const technique::Picture& picture) const;
     bool replaces(const technique::Picture& picture) const;
-    Status prepare(const technique::Picture& picture);
+    Result<bool> prepare(const technique::Picture& picture);
     Status recordSlice(graph::FrameGraph& graph, const technique::Picture& picture, int end);
     Status recordLight(const technique::Passes& passes, graph::TextureId target, int end);
     Status recordRest(graph::FrameGraph& graph, const technique::Picture& picture);

@@ -73,6 +73,7 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
     if (started && complete())
         rested = taken = 0; // else changes that follow each other fast would let nothing be drawn
     if (started && !complete() && !earlier) earlier.emplace();
+    readings.clear();
     drop();
     auto copy = std::make_unique<scene::Scene>(asked);
     const bool isFrugal = asked.quality.maxError == 0;
@@ -247,12 +248,12 @@ bool Renderer::State::rests(int place, double since) {
     return true;
 }
 
-// Whether layers can be counted now without waiting for programs, or for what the GPU still draws.
+// Whether what guests ask can be drawn without waiting for programs, or for what the GPU still draws.
 bool Renderer::State::canLook() {
     if (earlier && !earlier->passed(0)) return false;
     earlier.reset();
     if (!context.hasUnready()) return true;
-    if (context.isCompiling()) return false;
+    if (context.isCompiling() || !readings.areDrawn()) return false;
     context.makeReady();
     return true;
 }
@@ -300,8 +301,9 @@ Status Renderer::State::slice(const scene::Scene& scene) {
         workMs += now() - beforeAround;
         if (!around) return around.error();
         if (!*around) return Done{};
-        if (!atOnce && bends(scene) && !canLook()) return Done{};
-        if (Status prepared = prepare(made->picture); !prepared) return prepared;
+        const Result<bool> prepared = prepare(made->picture);
+        if (!prepared) return prepared.error();
+        if (!*prepared) return Done{};
         if (rests(1, begins)) return Done{};
     }
     made->end = geometric ? int(lights.size()) : sliceEnd();

@@ -6,6 +6,7 @@
 #include "light/Samples.h"
 #include "views/Drawable.h"
 #include "views/FieldTextures.h"
+#include "views/Readings.h"
 #include "views/Surroundings.h"
 
 #include <functional>
@@ -31,6 +32,7 @@ struct Picture {
     const views::Eye& eye;             ///< the camera's
     ivec2 size;                        ///< pixels
     const views::Drawables& drawables; ///< all objects, those too that are hidden from the camera
+    views::Readings& readings;         ///< for Guest::prepare()
     graph::TextureHandle environment;  ///< lat-long map; None without one, or where it is switched off
     const views::Surroundings* surroundings = nullptr; ///< what Guest::lookAround() asked for; null: nothing
     std::uint64_t scenery = 0; ///< another number where anything is as it was not but the camera
@@ -76,6 +78,7 @@ public:
     virtual void lookAround(const Picture&, views::Outlooks&) const {}
 
     /// Makes what record functions need: tables, counts, plans. Only where the scene needs the technique.
+    /// Again for the same picture until Picture::readings are all there.
     virtual Status prepare(const Picture&) { return Done{}; }
     /// The camera or an object has moved, or another scene is drawn.
     virtual void viewChanged() {}

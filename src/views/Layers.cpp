@@ -171,10 +171,11 @@ void importKept(graph::FrameGraph& graph, gl::Context& context, KeptLayers& kept
 
 void askToCount(gl::Context& context) { context.program("views/count"); }
 
-Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
-                        const Drawables& glass, float time, ivec2 size) {
-    const graph::Texture counts(context.device(), {.size = size, .format = Format::RGBA16F}, "views.counts");
-    graph::FrameGraph graph;
+namespace {
+// How many surfaces each pixel shows.
+Result<graph::Texture> recordCounts(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                                    const Drawables& glass, float time, ivec2 size) {
+    graph::Texture counts(context.device(), {.size = size, .format = Format::RGBA16F}, "views.counts");
     const TextureId target = graph.import(counts.handle(), counts.desc(), counts.label());
     graph.keep(target);
     Result<Drawables> posed = recordPose(graph, context, glass, time);
@@ -189,13 +190,21 @@ Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Ey
                 draw(resources, commands, eye, size, {.blend = graph::Blend::Add});
         };
     });
-    if (Status compiled = graph.compile(); !compiled) return compiled.error();
-    graph.execute(pool);
-    const Image image = context.device().read(counts.handle());
-    if (std::string error = context.takeError(); !error.empty()) return Error{error, Fault::Machine};
+    return counts;
+}
+} // namespace
+
+Result<int> countLayers(Readings& readings, const std::string& question, graph::TexturePool& pool,
+                        gl::Context& context, const Eye& eye, const Drawables& glass, float time,
+                        ivec2 size) {
+    const Result<const Image*> counts = readings.of(question, pool, context, [&](graph::FrameGraph& graph) {
+        return recordCounts(graph, context, eye, glass, time, size);
+    });
+    if (!counts) return counts.error();
+    if (!*counts) return 1;
     float most = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); i += 4)
-        most = std::max(most, image.pixels[i]);
+    for (std::size_t i = 0; i < (*counts)->pixels.size(); i += 4)
+        most = std::max(most, (*counts)->pixels[i]);
     if (int(most) > kMostLayers)
         warnOnce("views: " + std::to_string(int(most)) +
                  " refractive surfaces lie behind each other; the nearest " + std::to_string(kMostLayers) +

@@ -3,6 +3,7 @@
 
 #include "gl/Query.h"
 #include "views/Drawable.h"
+#include "views/Readings.h"
 #include "views/Triangles.h"
 
 #include <algorithm>
@@ -31,10 +32,13 @@ struct KeptLayers {
 /// Has the program made that countLayers() draws with, so that this need not wait for it.
 void askToCount(gl::Context& context);
 
-/// How many surfaces lie behind each other at most in any pixel, by drawing all of them once and reading the
-/// picture back. At most kMostLayers; more are named in a warning.
-Result<int> countLayers(graph::TexturePool& pool, gl::Context& context, const Eye& eye,
-                        const Drawables& glass, float time, ivec2 size);
+/// How many surfaces lie behind each other at most in any pixel, by drawing all of them once. At most
+/// kMostLayers; more are named in a warning.
+///
+/// @param question  of Readings::of()
+/// @return          1 while the answer is not there
+Result<int> countLayers(Readings& readings, const std::string& question, graph::TexturePool& pool,
+                        gl::Context& context, const Eye& eye, const Drawables& glass, float time, ivec2 size);
 
 /// Asks what the layers of a frame leave out; null: nobody asks.
 struct LayerQueries {

@@ -58,7 +58,8 @@ struct Caustics : support::GlTest {
             EXPECT_TRUE(there.ok());
             drawn = *views::drawablesOf(scene, images, &waters);
             const caustics::Caustics technique(context);
-            auto planned = technique.plan(pool, scene, &eye, drawn, settings);
+            views::Readings readings;
+            auto planned = technique.plan(readings, pool, scene, &eye, drawn, settings);
             EXPECT_TRUE(planned.ok()) << planned.error().message;
             plan = std::move(*planned);
         }

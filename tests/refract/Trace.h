@@ -67,9 +67,10 @@ struct Refraction : support::GlTest {
         views::ImageCache images(*context);
         const auto drawn = views::drawablesOf(scene, images);
         EXPECT_TRUE(drawn.ok());
+        views::Readings readings;
         if (layers == 0)
-            layers =
-                *views::countLayers(pool, *context, eye, refractive(visible(*drawn)), scene.view.time, size);
+            layers = *views::countLayers(readings, "", pool, *context, eye, refractive(visible(*drawn)),
+                                         scene.view.time, size);
 
         graph::FrameGraph graph;
         const auto import = [&](const graph::Texture& texture) {

@@ -70,7 +70,8 @@ struct SubsurfaceTest : support::GlTest {
         const auto bodies = [](const views::Drawables& list) {
             return meshesOf(filtered(list, [](const views::Drawable& one) { return scatters(*one.object); }));
         };
-        const auto plan = subsurface.plan(pool, scene, bodies(posed.drawn), settings);
+        views::Readings readings;
+        const auto plan = subsurface.plan(readings, pool, scene, bodies(posed.drawn), settings);
         EXPECT_TRUE(plan.ok()) << plan.error().message;
         const std::vector<views::LampPoint> samples = views::lightSamples(scene, views::samplingOf(scene));
         const Image table = views::sampleTable(samples);

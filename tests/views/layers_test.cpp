@@ -31,7 +31,9 @@ struct LayersTest : support::GlTest {
     int count(const scene::Scene& scene) {
         graph::TexturePool pool(context->device());
         ImageCache images(*context);
-        return *countLayers(pool, *context, makeEye(scene, 1), *drawablesOf(scene, images), 0, kSize);
+        Readings readings;
+        return *countLayers(readings, "", pool, *context, makeEye(scene, 1), *drawablesOf(scene, images), 0,
+                            kSize);
     }
     /// Draws layers and gives them back, nearest first.
     std::vector<Image> draw(const scene::Scene& scene, int count, const LayerQueries& queries = {}) {

@@ -90,13 +90,10 @@ bool isConvex(const scene::Object& object) {
                                                 std::holds_alternative<scene::Sphere>(object.shape));
 }
 
-// Whether a light sees receivers behind others, farther than where one pixel of its map cannot tell.
-Result<bool> liesBehind(graph::TexturePool& pool, gl::Context& context, views::ShadowViews views,
-                        const views::Drawables& receivers, float time) {
-    if (receivers.size() == 1 && isConvex(*receivers.front()->object)) return false;
-    constexpr int kLooked = 128; // pixels a side: smaller things are not looked for
-    views.size = std::min(views.size, kLooked);
-    graph::FrameGraph graph;
+// Depths of the first and the second receivers that a light sees.
+Result<graph::Texture> recordBoth(graph::FrameGraph& graph, gl::Context& context,
+                                  const views::ShadowViews& views, const views::Drawables& receivers,
+                                  float time) {
     Result<views::Drawables> posed = views::recordPose(graph, context, receivers, time);
     if (!posed) return posed.error();
     const views::Bounds bounds = boundsOfAll(receivers);
@@ -105,7 +102,7 @@ Result<bool> liesBehind(graph::TexturePool& pool, gl::Context& context, views::S
     Result<graph::TextureId> behind = views::recordShadow(graph, context, views, *posed, bounds, *depths);
     if (!behind) return behind.error();
     const graph::TextureDesc desc{.size = views.imageSize(), .format = graph::Format::RG32F};
-    const graph::Texture both(context.device(), desc, "caustics.both");
+    graph::Texture both(context.device(), desc, "caustics.both");
     const graph::TextureId target = graph.import(both.handle(), desc, both.label());
     graph.keep(target);
     const gl::Program* program = context.program("caustics/both");
@@ -120,9 +117,23 @@ Result<bool> liesBehind(graph::TexturePool& pool, gl::Context& context, views::S
                            .textures = {{"uShadow", resources[depths]}, {"uBehind", resources[behind]}}});
         };
     });
-    if (Status s = graph.compile(); !s) return s.error();
-    graph.execute(pool);
-    const Image image = context.device().read(both.handle());
+    return both;
+}
+
+// Whether a light sees receivers behind others, farther than where one pixel of its map cannot tell. False
+// while that is not known.
+Result<bool> liesBehind(views::Readings& readings, const std::string& question, graph::TexturePool& pool,
+                        gl::Context& context, views::ShadowViews views, const views::Drawables& receivers,
+                        float time) {
+    if (receivers.size() == 1 && isConvex(*receivers.front()->object)) return false;
+    constexpr int kLooked = 128; // pixels a side: smaller things are not looked for
+    views.size = std::min(views.size, kLooked);
+    const Result<const Image*> both = readings.of(question, pool, context, [&](graph::FrameGraph& graph) {
+        return recordBoth(graph, context, views, receivers, time);
+    });
+    if (!both) return both.error();
+    if (!*both) return false;
+    const Image& image = **both;
     const views::Eye& face = views.faces.front();
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
         const float depth = image.pixels[i], next = image.pixels[i + 1];
@@ -134,10 +145,11 @@ Result<bool> liesBehind(graph::TexturePool& pool, gl::Context& context, views::S
 
 // How many surfaces lie behind each other in a view of a lamp. Of one convex thing that is known without a
 // look; pictures are read back for all others.
-Result<int> surfacesIn(graph::TexturePool& pool, gl::Context& context, const views::Eye& face,
-                       const views::Drawables& glass, float time, int size) {
+Result<int> surfacesIn(views::Readings& readings, const std::string& question, graph::TexturePool& pool,
+                       gl::Context& context, const views::Eye& face, const views::Drawables& glass,
+                       float time, int size) {
     if (glass.size() == 1 && isConvex(*glass.front()->object)) return 2;
-    return views::countLayers(pool, context, face, glass, time, ivec2(size));
+    return views::countLayers(readings, question, pool, context, face, glass, time, ivec2(size));
 }
 
 // Around all ways from a box to a lamp.
@@ -301,8 +313,9 @@ std::optional<std::string> Caustics::thrown(const scene::Scene& scene) {
     return "object \"" + bends->name + "\" casts a caustic on \"" + receives->name + "\"";
 }
 
-Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye* eye,
-                            const views::Drawables& drawables, const Settings& settings) const {
+Result<Plan> Caustics::plan(views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
+                            const views::Eye* eye, const views::Drawables& drawables,
+                            const Settings& settings) const {
     Plan plan;
     const views::Drawables glass = refractive(drawables), solids = opaque(drawables),
                            mirrors = mirrorsOf(solids), receivers = receiversOf(solids);
@@ -316,7 +329,9 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
     const views::Sampling sampling{.lamp = views::samplingOf(scene).lamp,
                                    .directions = settings.directions,
                                    .environment = views::EnvironmentSampling::Importance};
+    int number = 0;
     for (const views::LampPoint& point : views::lightSamples(scene, sampling)) {
+        const std::string question = "caustics, light " + std::to_string(++number);
         if (point.color == vec3(0)) continue;
         const views::LampPoint lamp = views::facing(point, throwing.center());
         views::ShadowSource around = lamp.source; // light leaves the cone of a spot where it is bent
@@ -337,7 +352,9 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
         const std::vector<views::Eye> faces =
             isOnWater ? std::vector<views::Eye>{} : viewsOf(glass, glassBox);
         for (const views::Eye& face : faces) {
-            const Result<int> count = surfacesIn(pool, context_, face, glass, scene.view.time, size);
+            const std::string asked = question + " face " + std::to_string(&face - faces.data());
+            const Result<int> count =
+                surfacesIn(readings, asked, pool, context_, face, glass, scene.view.time, size);
             if (!count) return count.error();
             if (*count > 0) light.glass.push_back({face, *count, borderOf(faces, size)});
         }
@@ -346,8 +363,8 @@ Result<Plan> Caustics::plan(graph::TexturePool& pool, const scene::Scene& scene,
             light.mirrors.push_back({face, 0, borderOf(mirroring, size)});
         if (!light.water && light.glass.empty() && light.mirrors.empty()) continue;
         if (settings.receiverLayers > 1 && settings.intersect == Intersect::Hybrid) {
-            Result<bool> lies = liesBehind(pool, context_, light.receivers, behind(lamp, throwing, receivers),
-                                           scene.view.time);
+            Result<bool> lies = liesBehind(readings, question, pool, context_, light.receivers,
+                                           behind(lamp, throwing, receivers), scene.view.time);
             if (!lies) return lies.error();
             light.hasBehind = *lies;
         }

@@ -115,12 +115,14 @@ public:
     explicit Caustics(gl::Context& context, views::PictureOf pictureOf = {})
         : context_(context), pictureOf_(std::move(pictureOf)) {}
 
-    /// Chooses the views of each light and counts their layers, which reads pictures back.
+    /// Chooses the views of each light and counts their layers.
     ///
+    /// @param readings   not all there: the plan is of no use yet
     /// @param eye        the camera's: what it does not show receives nothing; null: all receives
     /// @param drawables  all that bends light or receives it
-    Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye* eye,
-                      const views::Drawables& drawables, const Settings& settings) const;
+    Result<Plan> plan(views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
+                      const views::Eye* eye, const views::Drawables& drawables,
+                      const Settings& settings) const;
 
     /// Adds the passes that give each pixel of opaque objects and height fields the irradiance of caustics.
     ///

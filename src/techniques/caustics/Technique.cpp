@@ -30,10 +30,11 @@ public:
         Key key = keyOf(picture);
         if (plan_ && key_ == key) return Done{};
         clear();
-        Result<Plan> plan =
-            caustics_.plan(store_.pool, picture.scene, picture.allAround ? nullptr : &picture.eye,
-                           changingLight(picture.scene, picture.drawables), settingsOf(picture.scene));
+        Result<Plan> plan = caustics_.plan(
+            picture.readings, store_.pool, picture.scene, picture.allAround ? nullptr : &picture.eye,
+            changingLight(picture.scene, picture.drawables), settingsOf(picture.scene));
         if (!plan) return plan.error();
+        if (!picture.readings.areThere()) return Done{};
         plan_ = std::move(*plan);
         key_ = std::move(key);
         return Done{};

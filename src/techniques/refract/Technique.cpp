@@ -92,14 +92,14 @@ public:
     explicit RefractGuest(const technique::Store& store)
         : store_(store), refract_(store.context), counter_(store.context.device()) {}
 
-    // Reads a picture back only for the first picture of these objects; slices are counted for each view.
+    // Counts only for the first picture of these objects; slices are counted for each view.
     Status prepare(const Picture& picture) override {
         isUnsure_ = false;
         if (seenGlass(picture).empty() || !replaces(picture)) {
             layers_ = {};
             return Done{};
         }
-        return count(picture);
+        return count(picture, picture.readings);
     }
     void viewChanged() override { count_ = 0; }
 
@@ -161,7 +161,8 @@ public:
         if (++unanswered_ < kPatience) return false;
         const int drawn = counter_.drawn();
         counter_.reset();
-        if (Status s = count(picture); !s) return s.error();
+        views::Readings now; // waits, after so long
+        if (Status s = count(picture, now); !s) return s.error();
         isUnsure_ = false;
         return counter_.drawn() > drawn;
     }
@@ -186,7 +187,7 @@ private:
     static views::Drawables seenGlass(const Picture& picture) {
         return refractive(visible(picture.drawables));
     }
-    Status count(const Picture& picture) {
+    Status count(const Picture& picture, views::Readings& readings) {
         const views::Drawables glass = seenGlass(picture);
         std::vector<const views::MeshTextures*> meshes;
         for (const views::DrawnMesh& mesh : meshesOf(glass))
@@ -195,9 +196,11 @@ private:
         counted_ = std::move(meshes);
         counter_.poll();
         if (peels(picture) ? counter_.known() : count_ > 0) return Done{};
-        Result<int> count = views::countLayers(store_.pool, store_.context, closeEye(picture), glass,
-                                               picture.scene.view.time, picture.size);
+        Result<int> count =
+            views::countLayers(readings, "refract", store_.pool, store_.context, closeEye(picture), glass,
+                               picture.scene.view.time, picture.size);
         if (!count) return count.error();
+        if (!readings.areThere()) return Done{};
         count_ = std::max(1, *count);
         counter_.start(count_);
         return Done{};

@@ -325,7 +325,7 @@ Plan::Plan(Plan&&) noexcept = default;
 Plan& Plan::operator=(Plan&&) noexcept = default;
 Plan::~Plan() = default;
 
-Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scene,
+Result<Plan> Subsurface::plan(views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
                               const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
     Plan plan;
     plan.state_->onLayers = isOnLayers(scene);
@@ -351,7 +351,7 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
                 object.sizes[axis] = inCells ? pixelsOf(object.axes[axis], *mesh.object, cells, context_)
                                              : pixelsOf(object.axes[axis], *mesh.object, along);
             const Result<std::array<int, 3>> layers =
-                countLayers(pool, mesh, scene.view.time, object.axes, object.sizes, !inCells);
+                countLayers(readings, pool, mesh, scene.view.time, object.axes, object.sizes, !inCells);
             if (!layers) return layers.error();
             object.layers = *layers;
         }
@@ -370,8 +370,9 @@ Result<Plan> Subsurface::plan(graph::TexturePool& pool, const scene::Scene& scen
 }
 
 // @param turns  the axes turn with the object
-Result<std::array<int, 3>> Subsurface::countLayers(graph::TexturePool& pool, const views::DrawnMesh& mesh,
-                                                   float time, const std::array<views::Eye, 3>& axes,
+Result<std::array<int, 3>> Subsurface::countLayers(views::Readings& readings, graph::TexturePool& pool,
+                                                   const views::DrawnMesh& mesh, float time,
+                                                   const std::array<views::Eye, 3>& axes,
                                                    const std::array<ivec2, 3>& sizes, bool turns) {
     Counted now{.key = views::objectKey(turns ? unmoved(*mesh.object) : *mesh.object, time),
                 .sizes = sizes,
@@ -380,11 +381,14 @@ Result<std::array<int, 3>> Subsurface::countLayers(graph::TexturePool& pool, con
     if (!mesh.water && known.key == now.key && known.sizes == now.sizes) return known.layers;
     const views::Drawables alone{std::make_shared<views::DrawnMesh>(mesh)};
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        const Result<int> count = views::countLayers(pool, context_, axes[i], alone, time, now.sizes[i]);
+        const std::string question =
+            "subsurface, object " + std::to_string(mesh.index) + " axis " + std::to_string(i);
+        const Result<int> count =
+            views::countLayers(readings, question, pool, context_, axes[i], alone, time, now.sizes[i]);
         if (!count) return count.error();
         now.layers[i] = *count;
     }
-    known = now;
+    if (readings.areThere()) known = now;
     return now.layers;
 }
 

@@ -8,6 +8,7 @@
 #include "light/Occlusion.h"
 #include "scene/Scene.h"
 #include "views/ObjectKey.h"
+#include "views/Readings.h"
 #include "views/Surface.h"
 
 #include <array>
@@ -122,11 +123,12 @@ public:
 
     explicit Subsurface(gl::Context& context) : context_(context) {}
 
-    /// Makes the tables, and counts the layers of objects where an environment shines. That reads pictures
-    /// back, but for objects that have only moved or turned since.
+    /// Makes the tables, and counts the layers of objects where an environment shines, but of those that have
+    /// only moved or turned since.
     ///
+    /// @param readings  not all there: the plan is of no use yet
     /// @param meshes  visible ones that scatter
-    Result<Plan> plan(graph::TexturePool& pool, const scene::Scene& scene,
+    Result<Plan> plan(views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
                       const std::vector<views::DrawnMesh>& meshes, const Settings& settings);
 
     /// Adds the passes that sum a slice of the light samples; the first one begins anew.
@@ -150,7 +152,8 @@ private:
         std::array<ivec2, 3> sizes{};
         std::array<int, 3> layers{};
     };
-    Result<std::array<int, 3>> countLayers(graph::TexturePool& pool, const views::DrawnMesh& mesh, float time,
+    Result<std::array<int, 3>> countLayers(views::Readings& readings, graph::TexturePool& pool,
+                                           const views::DrawnMesh& mesh, float time,
                                            const std::array<views::Eye, 3>& axes,
                                            const std::array<ivec2, 3>& sizes, bool turns);
 

@@ -24,10 +24,11 @@ public:
 
     Status prepare(const technique::Picture& picture) override {
         plan_.reset();
-        Result<Plan> plan = subsurface_.plan(
-            store_.pool, picture.scene, meshesOf(scattering(picture.drawables)), settingsOf(picture.scene));
+        Result<Plan> plan =
+            subsurface_.plan(picture.readings, store_.pool, picture.scene,
+                             meshesOf(scattering(picture.drawables)), settingsOf(picture.scene));
         if (!plan) return plan.error();
-        plan_ = std::move(*plan);
+        if (picture.readings.areThere()) plan_ = std::move(*plan);
         return Done{};
     }
 

@@ -200,7 +200,8 @@ Result<Energy> energyOf(gl::Context& context, const scene::Scene& scene, const S
     if (!drawn) return drawn.error();
     const views::Eye eye = views::makeEye(scene, float(scene.size.x) / float(scene.size.y));
     const Caustics technique(context);
-    const Result<Plan> plan = technique.plan(pool, scene, &eye, *drawn, settings);
+    views::Readings readings;
+    const Result<Plan> plan = technique.plan(readings, pool, scene, &eye, *drawn, settings);
     if (!plan) return plan.error();
     return technique.measure(pool, scene, eye, *drawn, *plan, settings);
 }
