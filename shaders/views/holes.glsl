@@ -12,12 +12,17 @@ uint mixed(uint bits) {
     return bits ^ (bits >> 16u);
 }
 
-// Even in [0,1) over pixels and layers: those behind each other must know nothing of each other, while samples of a pixel,
-// which meet neighbouring triangles, must not differ. A layer is one side of an object within a 32nd of an octave of
-// depth; what is nearer together than that counts as one.
+// Factors of thresholds: odd and no multiples of five, so that they permute as many as there are of either.
+const int kStrides[8] = int[8](1, 3, 7, 9, 11, 13, 17, 19);
+
+// Even in [0,1) over pixels, layers and thresholds. Layers behind each other must know nothing of each other, while
+// samples of a pixel, which meet neighbouring triangles, must not differ. A layer is one side of an object within a 32nd
+// of an octave of depth; what is nearer together than that counts as one. Layers go through the thresholds in orders of
+// their own (a lattice): else the same ones would let light pass through both.
 float chanceOf(ivec2 pixel, int object, float depth) {
     int layer = 2 * int(floor(32.0 * log2(max(depth, 1e-6)))) + int(gl_FrontFacing);
-    return float(mixed(uint(pixel.x) + mixed(uint(pixel.y) + mixed(uint(layer) + mixed(uint(object))))) >> 8u) / 16777216.0;
+    float chance = float(mixed(uint(pixel.x) + mixed(uint(pixel.y) + mixed(uint(layer) + mixed(uint(object))))) >> 8u);
+    return fract(chance / 16777216.0 + float(kStrides[(layer + 3 * object) & 7]) * mesh.threshold);
 }
 
 // Share of the light that stops here: all or none of what is not blended.
@@ -32,5 +37,5 @@ float opacityHere() {
 //
 // @param depth  [m]  along the view's forward
 bool isHole(float depth) {
-    return opacityHere() <= fract(chanceOf(ivec2(gl_FragCoord.xy), mesh.object, depth) + mesh.threshold);
+    return opacityHere() <= chanceOf(ivec2(gl_FragCoord.xy), mesh.object, depth);
 }
