@@ -8,12 +8,6 @@
 namespace lucent::scene {
 namespace {
 
-Result<SourcedHeights> fromHeights(std::span<const std::byte> bytes, const std::string& name) {
-    Result<std::shared_ptr<const Image>> heights = decodeHeights(bytes, name);
-    if (!heights) return heights.error();
-    return SourcedHeights{*heights};
-}
-
 SourcedHeights fromIntegration(Image heights) {
     const float highest = *std::max_element(heights.pixels.begin(), heights.pixels.end());
     if (highest > 0)
@@ -38,14 +32,13 @@ struct HeightsMaking::State {
     std::unique_ptr<NormalsIntegration> normals{};
     std::optional<DepthMaking> depth{};
 
-    // Plain heights are one piece; of others the file is the first.
+    // The file is the first piece.
     std::optional<Result<SourcedHeights>> begin() {
         const Result<Bytes> bytes = read(name);
         if (!bytes) return bytes.error();
-        if (source.kind == HeightSource::Kind::Heights) return fromHeights(*bytes, name);
-        return source.kind == HeightSource::Kind::NormalMap ? beginNormals(*bytes) : beginDepth(*bytes);
+        return source.kind == HeightSource::Kind::Mesh ? beginDepth(*bytes) : beginPicture(*bytes);
     }
-    std::optional<Result<SourcedHeights>> beginNormals(std::span<const std::byte> bytes) {
+    std::optional<Result<SourcedHeights>> beginPicture(std::span<const std::byte> bytes) {
         Result<Image> decoded = decodeImage(bytes, name, Encoding::Linear);
         if (!decoded) return decoded.error();
         map = std::move(*decoded);
@@ -62,6 +55,10 @@ struct HeightsMaking::State {
             std::optional<Result<Image>> made = normals->advance();
             if (!made) return std::nullopt;
             return *made ? Result<SourcedHeights>(fromIntegration(std::move(**made))) : made->error();
+        }
+        if (map && source.kind == HeightSource::Kind::Heights) {
+            const Result<std::shared_ptr<const Image>> heights = heightsOf(*map, name);
+            return heights ? SourcedHeights{*heights} : Result<SourcedHeights>(heights.error());
         }
         if (map) {
             normals = std::make_unique<NormalsIntegration>(*map, name);

@@ -103,8 +103,10 @@ Result<SharedImage> decodePicture(std::span<const std::byte> bytes, const std::s
 
 Result<SharedImage> decodeHeights(std::span<const std::byte> bytes, const std::string& name) {
     const Result<Image> image = decodeImage(bytes, name, Encoding::Linear);
-    if (!image) return image.error();
-    return share(toOneChannel(*image, greyOf), -1e9f, 1e9f, name,
+    return image ? heightsOf(*image, name) : image.error();
+}
+Result<SharedImage> heightsOf(const Image& image, const std::string& name) {
+    return share(toOneChannel(image, greyOf), -1e9f, 1e9f, name,
                  "heights must be finite, at most 1e9 in size");
 }
 

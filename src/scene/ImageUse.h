@@ -18,6 +18,8 @@ Result<std::shared_ptr<const Image>> decodePicture(std::span<const std::byte> by
 /// Picture as one channel of heights: the first of one or two, else the mean of red, green and blue.
 /// Error when a height is not finite or beyond 1e9, naming the texel.
 Result<std::shared_ptr<const Image>> decodeHeights(std::span<const std::byte> bytes, const std::string& name);
+/// The same of a picture that is decoded.
+Result<std::shared_ptr<const Image>> heightsOf(const Image& image, const std::string& name);
 
 /// Picture as one channel of coverage: its alpha where it has one, else as decodeHeights() does.
 /// Error when a value is outside [0, 1], naming the texel.
