@@ -42,7 +42,7 @@ void main() {
     int mirror = mirrorOf(texel);
     vec3 eye = eyeRay(light.view, at);
     vec3 place = placeFrom(light.view, at, texel.z);
-    vec3 flux = start.coverage * leftAt(start.pixel) * fluxOf(light.view, light.lamp, eye, length(place));
+    vec3 flux = start.coverage * transmittanceAt(start.pixel) * fluxOf(light.view, light.lamp, eye, length(place));
     vec3 reflectance = light.mirrors[mirror].rgb;
 #ifdef WITH_BOOK
     flux *= start.own;

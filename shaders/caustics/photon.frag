@@ -78,7 +78,7 @@ void main() {
     Beam beam = Beam(placeFrom(layers.view, at, seen.texel.x), eye, 0, vec3(1.0));
     Book book = Book(vec3(0.0), vec3(0.0));
     Crossing crossing = firstCrossing(start.pixel, seen, eye);
-    vec3 flux = start.coverage * leftAt(start.pixel) * fluxOf(layers.view, layers.lamp, eye, length(beam.origin));
+    vec3 flux = start.coverage * transmittanceAt(start.pixel) * fluxOf(layers.view, layers.lamp, eye, length(beam.origin));
     flux *= layers.tint.rgb;
     int way = 1;
     int reflections = 0;

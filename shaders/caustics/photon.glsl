@@ -36,9 +36,9 @@ float markOf(float coverage, int sixths) { return coverage; }
 
 #ifdef USE_BLENDED
 uniform sampler2D uOpticalDepth; // views/optical_depth.frag
-float leftAt(ivec2 pixel) { return exp(-texelFetch(uOpticalDepth, pixel, 0).r); }
+float transmittanceAt(ivec2 pixel) { return exp(-texelFetch(uOpticalDepth, pixel, 0).r); }
 #else
-float leftAt(ivec2 pixel) { return 1.0; }
+float transmittanceAt(ivec2 pixel) { return 1.0; }
 #endif
 
 struct Start {

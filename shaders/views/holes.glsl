@@ -12,8 +12,9 @@ uint mixed(uint bits) {
     return bits ^ (bits >> 16u);
 }
 
-// Factors of thresholds: odd and no multiples of five, so that they permute as many as there are of either.
-const int kStrides[8] = int[8](1, 3, 7, 9, 11, 13, 17, 19);
+// Without factors below 11, so that multiples of so few thresholds visit all of them; neighbours differ modulo 8, the
+// thresholds of a shadow, and modulo 5, those of a pixel by default.
+const int kStrides[8] = int[8](1, 13, 11, 17, 31, 19, 23, 29);
 
 // Even in [0,1) over pixels, layers and thresholds. Layers behind each other must know nothing of each other, while
 // samples of a pixel, which meet neighbouring triangles, must not differ. A layer is one side of an object within a 32nd

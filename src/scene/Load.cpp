@@ -152,11 +152,10 @@ private:
         if (!bytes) return fail(place, ": " + bytes.error().message);
         constexpr std::size_t kBytesPerMs = 100'000; // of pictures, in a browser
         if (decoded_.waits(std::chrono::milliseconds(bytes->size() / kBytesPerMs))) return false;
-        return piece(place, key, value, [&]() -> Result<Value> {
-            auto decoded = decode(*bytes, name);
-            if (!decoded) return decoded.error();
-            return Value(std::move(*decoded));
-        });
+        auto decoded = decode(*bytes, name);
+        if (!decoded) return fail(place, ": " + decoded.error().message);
+        decoded_.add(key, value = Value(std::move(*decoded)));
+        return true;
     }
     // What is made for a place, unless it was made before the load was interrupted.
     template <class Value, class Make>

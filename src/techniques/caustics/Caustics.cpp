@@ -364,7 +364,7 @@ Result<Plan> Caustics::plan(views::Readings& readings, graph::TexturePool& pool,
         if (!light.water && light.glass.empty() && light.mirrors.empty()) continue;
         if (settings.receiverLayers > 1 && settings.intersect == Intersect::Hybrid) {
             Result<bool> lies = liesBehind(readings, question, pool, context_, light.receivers,
-                                           behind(lamp, throwing, receivers), scene.view.time);
+                                           withoutBlendedBefore(lamp, throwing, receivers), scene.view.time);
             if (!lies) return lies.error();
             light.hasBehind = *lies;
         }

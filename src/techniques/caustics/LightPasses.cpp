@@ -30,8 +30,8 @@ Extent extentOf(const views::Bounds& box, vec3 along) {
 }
 } // namespace
 
-views::Drawables behind(const views::LampPoint& lamp, const views::Bounds& bending,
-                        views::Drawables receivers) {
+views::Drawables withoutBlendedBefore(const views::LampPoint& lamp, const views::Bounds& bending,
+                                      views::Drawables receivers) {
     const vec3 from(lamp.place);
     const vec3 way = lamp.place.w != 0 ? bending.center() - from : -from;
     const float first = extentOf(bending, way).low;

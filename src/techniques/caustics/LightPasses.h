@@ -21,8 +21,8 @@ inline views::Drawables receiversOf(views::Drawables solids) {
 /// in the stead of what the light falls on.
 ///
 /// @param bending  box around that
-views::Drawables behind(const views::LampPoint& lamp, const views::Bounds& bending,
-                        views::Drawables receivers);
+views::Drawables withoutBlendedBefore(const views::LampPoint& lamp, const views::Bounds& bending,
+                                      views::Drawables receivers);
 
 /// Whether all that refracts is water that a lamp looks down on, so that rays may begin on it.
 bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const views::Drawables& glass,
@@ -57,7 +57,8 @@ public:
     LightPasses(graph::FrameGraph& graph, gl::Context& context, Targets& targets, const Inputs& in,
                 const Plan::Light& light, const Settings& settings, const views::PictureOf& pictureOf)
         : graph_(graph), context_(context), targets_(targets), in_(in), light_(light), settings_(settings),
-          pictureOf_(pictureOf), receivers_(behind(light.lamp, bendingIn(in), receiversOf(in.solids))),
+          pictureOf_(pictureOf),
+          receivers_(withoutBlendedBefore(light.lamp, bendingIn(in), receiversOf(in.solids))),
           blended_(filtered(in.solids, &views::Drawable::isBlended)),
           solids_(filtered(in.solids, std::not_fn(&views::Drawable::isBlended))) {}
 
