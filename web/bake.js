@@ -51,8 +51,8 @@ export class BakeBar {
     if (this.#work !== mine) return;
     const start = performance.now();
     const report = (share, isOnPage) => {
-      const here = isOnPage ? 'This page may start no worker and waits. ' : '';
-      if (this.#work === mine) this.#show(`${here}Precomputing ${object}: ${progressText(share, start)}`, share);
+      const place = isOnPage ? 'This page may start no worker; precomputing' : 'Precomputing';
+      if (this.#work === mine) this.#show(`${place} ${object}${isOnPage ? ' here' : ''}: ${progressText(share, start)}`, share);
     };
     try {
       const { bytes } = await runJob(kAddress, { files: this.#actions.ask(), technique }, report, mine.signal);

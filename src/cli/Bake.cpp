@@ -70,13 +70,15 @@ Status bakeObject(const BakeOptions& options) {
     const auto object = objectOf(options, baker, *scene);
     if (!object) return object.error();
     const std::atomic<bool>& interrupted = catchInterrupt();
-    const Result<Bytes> file = [&] {
+    const Result<Bytes> file = [&]() -> Result<Bytes> {
+        constexpr double kSlice = 100; // ms until progress is shown again
         ProgressBar bar;
-        return baker.bake(scene->technique.at(options.technique), **object,
-                          {options.threads, [&](double share) {
-                               bar.show(share);
-                               return !interrupted;
-                           }});
+        const auto baking = baker.bake(scene->technique.at(options.technique), **object, options.threads);
+        while (!interrupted) {
+            if (auto made = baking->advance(kSlice)) return std::move(*made);
+            bar.show(baking->share());
+        }
+        return Error{"the bake was stopped; nothing is kept of it"};
     }();
     if (!file) return Error{"objects." + (*object)->name + ": " + file.error().message, file.error().fault};
     if (Status written = writeFile(options.output, *file); !written) return written;

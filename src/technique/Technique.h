@@ -21,18 +21,20 @@ namespace lucent::technique {
 class Guest;
 struct Store;
 
-/// How long work is done; no result depends on it.
-struct BakeWork {
-    int threads = 0; ///< 0: as many as the machine has
-    /// Called now and then with the finished share, [0,1], from the calling thread. @return false: it stops
-    std::function<bool(double)> goOn = [](double) { return true; };
+/// Work that is done once for an object, in slices of time.
+class Baking {
+public:
+    virtual ~Baking() = default;
+    /// Works on for about so long. @return the file once all is done, or why there is none
+    virtual std::optional<Result<std::vector<std::byte>>> advance(double ms) = 0;
+    virtual double share() const = 0; ///< of the work that is done, [0,1]
 };
 
 /// Work that a technique does once for an object, into files that scenes name (scene::Object::bake).
 struct Baker {
     bool (*takes)(const scene::Object&); ///< whether it bakes such an object
-    /// The file, or why there is none.
-    Result<std::vector<std::byte>> (*bake)(const Settings&, const scene::Object&, const BakeWork&);
+    /// @param threads  0: as many as the machine has; the file does not depend on it
+    std::unique_ptr<Baking> (*bake)(const Settings&, const scene::Object&, int threads);
     /// What is to be worked out before the object is drawn, as text that tells it from other work; empty
     /// where it is there.
     std::string (*missing)(const Settings&, const scene::Object&);

@@ -37,7 +37,13 @@ struct Page {
     std::map<int, Load> loads;                         // of each viewer
     std::vector<std::pair<std::string, Bytes>> packed; // files of a scene for another module
     Image linear;                                      // that viewer_linear answered with
-    Bytes baked;                                       // that bake_scene answered with
+    struct Bake {
+        const technique::Technique* technique = nullptr;
+        std::unique_ptr<scene::Loading> loading;
+        std::unique_ptr<technique::Baking> baking; // once that is done
+        Result<Bytes> file = Bytes();              // what it came to
+    };
+    Bake bake;
     std::string answer;
 };
 
@@ -144,35 +150,56 @@ const char* scene_dependencies(const char* path) {
 
 // --- work that is done once for an object
 
-EM_JS(void, report_share, (double share), { Module.reportShare(share); })
-
 namespace {
 
-Result<Bytes> bakeFirst(const char* path, const char* name) {
+Status beginBake(const char* path, const char* name) {
     const technique::Technique* technique = technique::find(name);
     if (!technique || !technique->baker) return Error{std::string(name) + ": is no technique that bakes"};
-    const Result<scene::Scene> scene = scene::load(path, readFetched, technique::tables());
+    page().bake = {.technique = technique,
+                   .loading = std::make_unique<scene::Loading>(path, readFetched, technique::tables())};
+    return Done{};
+}
+
+Result<std::unique_ptr<technique::Baking>> bakingOf(const technique::Technique& technique,
+                                                    const Result<scene::Scene>& scene) {
     if (!scene) return scene.error();
-    const technique::Baker& baker = *technique->baker;
+    const technique::Baker& baker = *technique.baker;
     const auto object = std::find_if(scene->objects.begin(), scene->objects.end(), baker.takes);
     if (object == scene->objects.end())
-        return Error{std::string(path) + ": has no object that " + name + " bakes"};
-    return baker.bake(scene->technique.at(name), *object, {.threads = 1, .goOn = [](double share) {
-                                                               report_share(share);
-                                                               return true;
-                                                           }});
+        return Error{"the scene has no object that " + std::string(technique.name) + " bakes"};
+    return baker.bake(scene->technique.at(std::string(technique.name)), *object, 1);
+}
+
+// @return the file once it is whole
+std::optional<Result<Bytes>> workOnBake(double ms) {
+    Page::Bake& bake = page().bake;
+    if (bake.baking) return bake.baking->advance(ms);
+    const std::optional<Result<scene::Scene>> scene = bake.loading->advance(ms);
+    if (!scene) return std::nullopt;
+    auto baking = bakingOf(*bake.technique, *scene);
+    if (!baking) return Result<Bytes>(baking.error());
+    bake.baking = std::move(*baking);
+    return std::nullopt;
 }
 
 } // namespace
 
-const char* bake_scene(const char* path, const char* technique) {
-    Result<Bytes> file = bakeFirst(path, technique);
+const char* bake_begin(const char* path, const char* technique) { return answer(beginBake(path, technique)); }
+
+double bake_step(double ms) {
+    std::optional<Result<Bytes>> file = workOnBake(ms);
+    if (!file) return page().bake.baking ? std::min(page().bake.baking->share(), 0.999) : 0;
+    page().bake = {.file = std::move(*file)};
+    return 1;
+}
+
+const char* bake_file() {
+    const Result<Bytes>& file = page().bake.file;
     JsonWriter json;
     json.beginObject();
     if (file) {
-        page().baked = std::move(*file);
-        json.key("at").value(double(std::uintptr_t(page().baked.data())));
-        json.key("size").value(int(page().baked.size()));
+        json.key("at").value(double(std::uintptr_t(file->data())));
+        json.key("size").value(int(file->size()));
     } else {
         json.key("error").value(file.error().message);
     }

@@ -22,10 +22,13 @@ void file_forget(const char* path);
 /// JSON: {"files": [...]} or {"error": "..."}; the scene must have been put.
 const char* scene_dependencies(const char* path);
 
-/// Works out once what a technique needs of the first object that it takes, of a scene that was put; no
-/// context is needed. Calls Module.reportShare(share in [0,1]) now and then. JSON: {"at", "size"} of the
-/// file, valid until the next call, or {"error"}.
-const char* bake_scene(const char* path, const char* technique);
+/// Begins to work out what a technique needs of the first object that it takes, of a scene that was put; no
+/// viewer is involved. "" or the message.
+const char* bake_begin(const char* path, const char* technique);
+/// Works on for about so long. @return the finished share, [0,1]: 1 when there is a file or will be none
+double bake_step(double ms);
+/// {"at", "size"} of the file, which lies there until another begins, or {"error"}.
+const char* bake_file();
 
 int viewer_create(); ///< handle > 0
 void viewer_destroy(int viewer);
@@ -86,7 +89,7 @@ const char* viewer_comparison(int viewer);
 /// JSON array of {"name", "at", "size"}: files of the scene that is showing, with its images, for the module
 /// of Truth.cpp. Their bytes stay valid until the next call for any viewer.
 const char* viewer_ask_truth(int viewer);
-/// The same of a scene of what viewer_stats() says is to be baked, for bake_scene() of another module.
+/// The same of a scene of what viewer_stats() says is to be baked, for bake_begin() of another module.
 const char* viewer_ask_bake(int viewer);
 /// What that answered, for the work that viewer_stats() named; "" or the message.
 const char* viewer_take_bake(int viewer, const char* work, const std::uint8_t* bytes, int size);

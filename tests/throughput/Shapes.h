@@ -51,9 +51,17 @@ inline std::vector<vec3> lit(const Surface& surface, const std::function<float(c
 }
 
 inline Surface surfaceFrom(const scene::Mesh& mesh, int side = 128, int border = 4, float scale = 1) {
-    Result<Surface> surface = surfaceOf(mesh, scale, side, border);
-    EXPECT_TRUE(surface) << surface.error().message;
-    return std::move(*surface);
+    Surface laid;
+    Stages stages;
+    addSurface(stages, std::make_shared<scene::Mesh>(mesh), scale, side, border,
+               [&](Result<Surface> surface) -> Status {
+                   if (!surface) return surface.error();
+                   laid = std::move(*surface);
+                   return Done{};
+               });
+    const Status done = stages.finish();
+    EXPECT_TRUE(done) << done.error().message;
+    return laid;
 }
 
 /// The vertex that is nearest to a place.

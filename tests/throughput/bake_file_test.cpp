@@ -40,7 +40,7 @@ struct File {
 File fileOf(const BakeOptions& options) {
     File file;
     file.key = keyOf(ball(), options, DipoleGeometry::Planar);
-    Result<Bake> baked = bake(ball(), options, DipoleGeometry::Planar, {});
+    Result<Bake> baked = bake(ball(), options, DipoleGeometry::Planar);
     EXPECT_TRUE(baked) << baked.error().message;
     file.bake = std::move(*baked);
     file.bytes = encodeBake(file.key, file.bake);

@@ -12,7 +12,7 @@ namespace {
 using namespace shapes;
 
 Bake bakeOf(const scene::Mesh& mesh, const Medium& medium, BakeOptions options) {
-    Result<Bake> baked = bake(mesh, 1, medium, options, {});
+    Result<Bake> baked = BakeMaking(std::make_shared<scene::Mesh>(mesh), 1, medium, options).finish();
     EXPECT_TRUE(baked) << baked.error().message;
     return std::move(*baked);
 }
@@ -204,20 +204,33 @@ TEST(Bake, BearsNeedlesAndVerticesApart) {
                 EXPECT_TRUE(value[c] > -1e-4f && value[c] < 1.05f) << int(local) << ' ' << value[c];
 }
 
-TEST(Bake, StopsWhereItIsToldAndTellsHowFarItIs) {
+TEST(Bake, InSlicesComesToTheSameAndTellsHowFarItIs) {
     for (const Local local : kLocals) {
+        const auto mesh = std::make_shared<scene::Mesh>(patch(0.02f, 16));
+        const Bake whole = bakeOf(*mesh, dense(), with(local));
+        BakeMaking making(mesh, 1, dense(), with(local), 1);
+        std::optional<Result<Bake>> made;
         double last = 0;
-        const auto all = bake(patch(0.02f, 16), 1, dense(), with(local), {1, [&](double share) {
-                                                                              EXPECT_GE(share, last);
-                                                                              last = share;
-                                                                              return true;
-                                                                          }});
-        EXPECT_TRUE(all);
+        int slices = 0;
+        for (; !(made = making.advance(0)); ++slices) {
+            EXPECT_GE(making.share(), last);
+            last = making.share();
+        }
+        EXPECT_GT(slices, 500); // of one piece each
         EXPECT_GT(last, 0.9);
-        const auto none =
-            bake(patch(0.02f, 16), 1, dense(), with(local), {1, [](double share) { return share < 0.6; }});
-        ASSERT_FALSE(none);
-        EXPECT_EQ(none.error().message, "the bake was stopped; nothing is kept of it");
+        ASSERT_TRUE(*made) << made->error().message;
+        EXPECT_EQ((*made)->factors, whole.factors);
+        EXPECT_EQ((*made)->filters, whole.filters);
+        EXPECT_EQ((*made)->evened, whole.evened);
+        EXPECT_EQ((*made)->surface.duals.values, whole.surface.duals.values);
+    }
+}
+
+TEST(Bake, CanBeLeftInTheMiddle) {
+    for (const Local local : kLocals) {
+        BakeMaking making(std::make_shared<scene::Mesh>(patch(0.02f, 16)), 1, dense(), with(local));
+        while (making.share() < 0.5)
+            ASSERT_FALSE(making.advance(1));
     }
 }
 

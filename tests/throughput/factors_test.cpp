@@ -13,9 +13,12 @@ using namespace shapes;
 
 Factors factorsFrom(const Hats& hats, const Response& response, const FactorOptions& options) {
     const FactorRows rows(hats, response, options);
-    Result<Factors> factors = factorsOf(rows, hats, options, {});
-    EXPECT_TRUE(factors) << factors.error().message;
-    return std::move(*factors);
+    Factors factors;
+    Stages stages;
+    addFactors(stages, 1, rows, hats, options, factors);
+    const Status done = stages.finish();
+    EXPECT_TRUE(done) << done.error().message;
+    return factors;
 }
 
 vec3 middleOf(const Hats& hats, const Factors& factors) {
@@ -121,26 +124,15 @@ TEST(Factors, SayWhenAllOfThemAreTooMany) {
     const Hats hats = hatsOf(patch(1, 120), 1); // 14,641 vertices
     const Response response(dense(), 2, 0);
     const FactorOptions options{.method = Global::Dense, .quadrature = false};
-    const auto factors = factorsOf(FactorRows(hats, response, options), hats, options, {});
-    ASSERT_FALSE(factors);
-    EXPECT_EQ(factors.error().message,
+    const FactorRows rows(hats, response, options);
+    Factors factors;
+    Stages stages;
+    addFactors(stages, 1, rows, hats, options, factors);
+    const Status done = stages.finish();
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().message,
               "all factors of 14641 vertices are 2453 MiB; must be sparse or hierarchical, or "
               "fewer than 13,377");
-}
-
-TEST(Factors, StopWhereTheyAreTold) {
-    const Hats hats = hatsOf(patch(0.02f, 30), 1);
-    const Response response(dense(), 0.03, 0);
-    double last = 0;
-    const Work work{2, [&](double share) {
-                        EXPECT_GE(share, last);
-                        last = share;
-                        return share < 0.2;
-                    }};
-    const auto factors = factorsOf(FactorRows(hats, response, {}), hats, {}, work);
-    ASSERT_FALSE(factors);
-    EXPECT_EQ(factors.error().message, "the bake was stopped; nothing is kept of it");
-    EXPECT_LT(last, 0.9);
 }
 
 } // namespace

@@ -241,7 +241,7 @@ TEST_F(Precomputed, WhatStandsInTheWayKeepsLightFromIt) {
 TEST_F(Precomputed, TakesItsBakeFromAFileAndRefusesThatOfAnother) {
     const Image baked = picture();
     const BakeOptions options = optionsOf(settings());
-    const Result<Bake> made = bake(scene.objects[0], options, DipoleGeometry::Planar, {});
+    const Result<Bake> made = bake(scene.objects[0], options, DipoleGeometry::Planar);
     ASSERT_TRUE(made);
     const BakeKey key = keyOf(scene.objects[0], options, DipoleGeometry::Planar);
     scene.objects[0].bake = std::make_shared<const Bytes>(encodeBake(key, *made));

@@ -41,11 +41,13 @@ protected:
         EXPECT_TRUE(scene.ok()) << scene.error().message;
         if (!scene) return {};
         EXPECT_EQ(scene->objects.size(), 1u);
-        const Result<Bytes> file =
-            technique::find("throughput")
-                ->baker->bake(scene->technique.at("throughput"), scene->objects[0], {});
-        EXPECT_TRUE(file.ok());
-        return file ? *file : Bytes();
+        const auto baking = technique::find("throughput")
+                                ->baker->bake(scene->technique.at("throughput"), scene->objects[0], 0);
+        for (;;)
+            if (const auto file = baking->advance(100)) {
+                EXPECT_TRUE(file->ok());
+                return *file ? **file : Bytes();
+            }
     }
     void bring() {
         const Status taken = viewer->takeBake(work(), baked());

@@ -61,8 +61,22 @@ test('it can be ended and begun again', async () => {
 });
 
 test('a page that may start no worker does the same', async () => {
-  const page = await open({ init: () => (self.Worker = class { constructor() { throw new Error('none here'); } }) });
+  const page = await open({
+    init: () => {
+      self.Worker = class { constructor() { throw new Error('none here'); } };
+      self.said = new Set();
+      const watch = () => {
+        const text = document.querySelector('lucent-viewer')?.shadowRoot?.querySelector('.bar.bake')?.textContent;
+        if (text) self.said.add(text);
+        setTimeout(watch); // between slices
+      };
+      watch();
+    },
+  });
+  await bar(page).waitFor();
   await baked(page);
+  const shares = await page.evaluate(() => [...self.said].filter((text) => text.includes('precomputing block here: ')));
+  assert.ok(shares.length > 5, `a person sees it go on: ${shares}`);
   const own = await picture(page);
   await page.leave();
   const other = await open();

@@ -11,7 +11,7 @@ namespace lucent::throughput {
 namespace {
 
 constexpr double kCutSpacings = 1.5; // of vertices: what these carry is linear between them
-constexpr int kMostRadius = 15;      // texels
+constexpr double kMostRadius = 15;   // texels
 
 double extentOf(const scene::Mesh& mesh, float scale) {
     vec3 low(std::numeric_limits<float>::infinity()), high(-low);
@@ -35,14 +35,17 @@ std::vector<vec3> normalsOf(const Surface& surface) {
     return normals;
 }
 
-// Light that each texel gets of texels around, by the near part.
+// Adds light that each texel gets of texels around, by the near part.
 template <class Irradiance>
-std::vector<vec3> gathered(const Surface& surface, const Response& response, int radius, const Work& work,
-                           Status& status, const Irradiance& irradiance) {
-    const std::vector<Texel>& texels = surface.texels.list;
-    const std::vector<vec3> positions = positionsOf(surface), normals = normalsOf(surface);
-    std::vector<vec3> sums(texels.size(), vec3(0));
-    status = forEach(texels.size(), work, [&](std::size_t to) {
+void addGathered(Stages& stages, double share, const Surface& surface, const Response& response, int radius,
+                 const Irradiance& irradiance, std::vector<vec3>& sums) {
+    struct Places {
+        std::vector<vec3> positions, normals;
+    };
+    const auto places = std::make_shared<const Places>(Places{positionsOf(surface), normalsOf(surface)});
+    sums.assign(surface.texels.list.size(), vec3(0));
+    stages.forEach(share, sums.size(), [=, &surface, &response, &sums](std::size_t to) {
+        const std::vector<Texel>& texels = surface.texels.list;
         if (!texels[to].isShown) return;
         for (int y = -radius; y <= radius; ++y)
             for (int x = -radius; x <= radius; ++x) {
@@ -50,15 +53,15 @@ std::vector<vec3> gathered(const Surface& surface, const Response& response, int
                 if (from < 0) continue;
                 const auto at = std::size_t(from);
                 sums[to] += texels[at].area * irradiance(at) *
-                            response.near(positions[at], normals[at], positions[to]);
+                            response.near(places->positions[at], places->normals[at], places->positions[to]);
             }
     });
-    return sums;
 }
 
-std::vector<vec3> sumsOf(const FactorRows& rows, std::size_t count, const Work& work, Status& status) {
-    std::vector<vec3> sums(count);
-    status = forEach(count, work, [&](std::size_t j) {
+void addSums(Stages& stages, double share, const FactorRows& rows, std::size_t count,
+             std::vector<vec3>& sums) {
+    sums.assign(count, vec3(0));
+    stages.forEach(share, count, [&rows, count, &sums](std::size_t j) {
         std::vector<vec3> row(count);
         rows.fill(std::uint32_t(j), row);
         dvec3 sum(0);
@@ -66,114 +69,6 @@ std::vector<vec3> sumsOf(const FactorRows& rows, std::size_t count, const Work& 
             sum += dvec3(factor);
         sums[j] = vec3(sum);
     });
-    return sums;
-}
-
-Status bakeLive(Bake& baked, const scene::Mesh& mesh, float scale, double extent, const Work& work) {
-    // As wide as texels of 7 x 7 at least; the border must be one texel wider for what is read between
-    // texels.
-    int radius = Filters::kRadius;
-    for (int attempt = 0; attempt < 4; ++attempt) {
-        Result<Surface> surface = surfaceOf(mesh, scale, baked.options.side, radius + 1);
-        if (!surface && attempt == 0) return surface.error();
-        if (!surface) { // no room for borders so wide: texels leave their light less far
-            radius = baked.radius;
-            break;
-        }
-        baked.surface = std::move(*surface);
-        baked.radius = radius;
-        const double wanted = kCutSpacings * baked.surface.hats.spacing() / double(baked.surface.texels.size);
-        const int next = std::clamp(int(std::ceil(wanted)), Filters::kRadius, kMostRadius);
-        if (next <= radius) break;
-        radius = next;
-    }
-    baked.cut = (float(radius) + 0.5f) * baked.surface.texels.size;
-    const Response response(baked.medium, extent, double(baked.cut));
-    const FactorRows rows(baked.surface.hats, response, baked.options.factors);
-    Result<Factors> factors =
-        factorsOf(rows, baked.surface.hats, baked.options.factors, partOf(work, 0, 0.7));
-    if (!factors) return factors.error();
-    baked.factors = std::move(*factors);
-    Status done = Done{};
-    baked.evened = gathered(baked.surface, response, radius, partOf(work, 0.7, 0.8), done,
-                            [](std::size_t) { return 1.0f; });
-    if (!done) return done;
-    return forEach(baked.evened.size(), partOf(work, 0.8, 1), [&](std::size_t i) {
-        vec3& found = baked.evened[i];
-        if (!baked.surface.texels.list[i].isShown) return;
-        const vec3 wanted = rows.nearAround(baked.surface.texels.list[i].place);
-        for (int c = 0; c < 3; ++c)
-            found[c] = found[c] > 0 ? wanted[c] / found[c] : 1;
-    });
-}
-
-// Ours: each filter takes what the fit left wrong of even light, by the shares of K in it. What leaves of
-// even light is known by the split response, whose far part is linear between vertices.
-Status evenOut(Bake& baked, double extent, const Work& work) {
-    const Surface& surface = baked.surface;
-    const std::vector<Texel>& texels = surface.texels.list;
-    const double cut = std::max(kCutSpacings * surface.hats.spacing(), 3.5 * double(surface.texels.size));
-    const Response split(baked.medium, extent, cut), whole(baked.medium, extent, 0);
-    const FactorRows rows(surface.hats, split, baked.options.factors);
-    Status summed = Done{};
-    const std::vector<vec3> far = sumsOf(rows, surface.hats.count(), partOf(work, 0, 0.5), summed);
-    if (!summed) return summed;
-    const Lit even = baked.relight(std::vector<vec3>(texels.size(), vec3(1)));
-    const std::vector<vec3> positions = positionsOf(surface), normals = normalsOf(surface);
-    return forEach(texels.size(), partOf(work, 0.5, 1), [&](std::size_t to) {
-        if (!texels[to].isShown) return;
-        const Place& place = texels[to].place;
-        vec3 wanted = rows.nearAround(place) - even.local[to] - even.global[to], sum(0);
-        for (int k = 0; k < 3; ++k)
-            wanted += place.weights[k] * far[surface.hats.triangles[place.triangle][std::size_t(k)]];
-        constexpr int kRadius = Filters::kRadius;
-        std::array<vec3, std::size_t(Filters::kWidth) * std::size_t(Filters::kWidth)> shares{};
-        std::size_t number = 0;
-        for (int y = -kRadius; y <= kRadius; ++y)
-            for (int x = -kRadius; x <= kRadius; ++x, ++number) {
-                const int from = surface.texels.find(texels[to].at + ivec2(x, y));
-                if (from < 0) continue;
-                const auto at = std::size_t(from);
-                shares[number] = texels[at].area * whole.whole(positions[at], normals[at], positions[to]);
-                sum += shares[number];
-            }
-        for (std::size_t k = 0; k < shares.size(); ++k)
-            for (int c = 0; c < 3; ++c)
-                if (sum[c] > 0)
-                    baked.filters.factors[to * shares.size() + k][c] += wanted[c] * shares[k][c] / sum[c];
-    });
-}
-
-Status bakeStored(Bake& baked, const scene::Mesh& mesh, float scale, double extent, const Work& work) {
-    baked.radius = Filters::kRadius;
-    // The fit looks one texel beyond the filter, and so do those that read between texels.
-    Result<Surface> surface = surfaceOf(mesh, scale, baked.options.side, Filters::kRadius + 2);
-    if (!surface) return surface.error();
-    baked.surface = std::move(*surface);
-    const Hats& hats = baked.surface.hats;
-    const Response response(baked.medium, extent, 0);
-    FactorOptions options = baked.options.factors;
-    options.diagonal = true;
-    const FactorRows all(hats, response, options);
-    options.diagonal = baked.options.blend == Blend::None;
-    const FactorRows rows(hats, response, options);
-    Result<Factors> factors = factorsOf(rows, hats, options, partOf(work, 0, 0.5));
-    if (!factors) return factors.error();
-    baked.factors = std::move(*factors);
-    if (baked.options.blend == Blend::None) {
-        Result<Filters> filters = plainFilters(baked.surface, response, partOf(work, 0.5, 1));
-        if (!filters) return filters.error();
-        baked.filters = std::move(*filters);
-        return Done{};
-    }
-    Status summed = Done{};
-    const std::vector<vec3> whole = sumsOf(all, hats.count(), partOf(work, 0.5, 0.6), summed);
-    if (!summed) return summed;
-    Result<Filters> filters =
-        fittedFilters(baked.surface, response, rows, baked.factors, whole, partOf(work, 0.6, 0.8));
-    if (!filters) return filters.error();
-    baked.filters = std::move(*filters);
-    return evenOut(baked, extent, partOf(work, 0.8, 1));
 }
 
 template <class Value>
@@ -191,48 +86,224 @@ std::vector<vec3> Bake::vertexIrradiance(std::span<const vec3> irradiance) const
     return sums;
 }
 
+std::vector<vec3> Bake::vertexRadiosity(std::span<const vec3> irradiance) const {
+    std::vector<vec3> radiosity = factors.product(vertexIrradiance(irradiance));
+    if (options.local == Local::Stored) addProduct(filters.direct, irradiance, radiosity);
+    return radiosity;
+}
+
+vec3 Bake::globalAt(std::size_t texel, std::span<const vec3> vertexRadiosity) const {
+    const Place& place = surface.texels.list[texel].place;
+    vec3 sum(0);
+    for (int k = 0; k < 3; ++k)
+        sum += place.weights[k] * vertexRadiosity[surface.hats.triangles[place.triangle][std::size_t(k)]];
+    return sum;
+}
+
+vec3 Bake::filteredAt(std::size_t texel, std::span<const vec3> irradiance) const {
+    constexpr int kRadius = Filters::kRadius;
+    std::size_t number = texel * std::size_t(Filters::kWidth) * std::size_t(Filters::kWidth);
+    vec3 sum(0);
+    for (int y = -kRadius; y <= kRadius; ++y)
+        for (int x = -kRadius; x <= kRadius; ++x, ++number) {
+            const int from = surface.texels.find(surface.texels.list[texel].at + ivec2(x, y));
+            if (from >= 0) sum += filters.factors[number] * irradiance[std::size_t(from)];
+        }
+    return sum;
+}
+
 Lit Bake::relight(std::span<const vec3> irradiance) const {
-    const std::vector<Texel>& texels = surface.texels.list;
-    std::vector<vec3> vertices = factors.product(vertexIrradiance(irradiance));
-    if (options.local == Local::Stored) addProduct(filters.direct, irradiance, vertices);
-    Lit lit{std::vector<vec3>(texels.size(), vec3(0)), std::vector<vec3>(texels.size(), vec3(0))};
-    for (std::size_t to = 0; to < texels.size(); ++to) {
-        const Place& place = texels[to].place;
-        for (int k = 0; k < 3; ++k)
-            lit.global[to] +=
-                place.weights[k] * vertices[surface.hats.triangles[place.triangle][std::size_t(k)]];
-    }
-    if (options.local == Local::Live) {
-        const Response response(medium, 2.0 * double(cut), double(cut));
-        Status done = Done{};
-        lit.local =
-            gathered(surface, response, radius, {}, done, [&](std::size_t i) { return irradiance[i]; });
-        for (std::size_t to = 0; to < texels.size(); ++to)
-            lit.local[to] *= evened[to];
+    const std::size_t count = surface.texels.list.size();
+    const std::vector<vec3> vertices = vertexRadiosity(irradiance);
+    Lit lit{std::vector<vec3>(count), std::vector<vec3>(count)};
+    for (std::size_t to = 0; to < count; ++to)
+        lit.global[to] = globalAt(to, vertices);
+    if (options.local == Local::Stored) {
+        for (std::size_t to = 0; to < count; ++to)
+            lit.local[to] = filteredAt(to, irradiance);
         return lit;
     }
-    std::size_t number = 0;
-    for (std::size_t to = 0; to < texels.size(); ++to)
-        for (int y = -radius; y <= radius; ++y)
-            for (int x = -radius; x <= radius; ++x, ++number) {
-                const int from = surface.texels.find(texels[to].at + ivec2(x, y));
-                if (from >= 0) lit.local[to] += filters.factors[number] * irradiance[std::size_t(from)];
-            }
+    const Response response(medium, 2.0 * double(cut), double(cut));
+    Stages stages;
+    addGathered(
+        stages, 1, surface, response, radius, [irradiance](std::size_t i) { return irradiance[i]; },
+        lit.local);
+    (void)stages.finish(); // adding up does not fail
+    for (std::size_t to = 0; to < count; ++to)
+        lit.local[to] *= evened[to];
     return lit;
 }
 
 std::size_t Bake::bytes() const { return factors.bytes() + filters.bytes() + surface.duals.bytes(); }
 
-Result<Bake> bake(const scene::Mesh& mesh, float scale, const Medium& medium, const BakeOptions& options,
-                  const Work& work) {
+// What the stages of a bake work on.
+struct BakeMaking::State {
+    std::shared_ptr<const scene::Mesh> mesh;
+    float scale;
+    double extent;
     Bake baked;
-    baked.options = options;
-    baked.medium = medium;
-    const double extent = extentOf(mesh, scale);
-    const Status done = options.local == Local::Live ? bakeLive(baked, mesh, scale, extent, work)
-                                                     : bakeStored(baked, mesh, scale, extent, work);
-    if (!done) return done.error();
-    return baked;
+    std::optional<Response> response;
+    std::optional<FactorRows> rows;
+    std::vector<vec3> whole; // of Stored: sums of rows with the diagonal
+    // Of Stored: what leaves of even light.
+    struct Even {
+        Response split, all;
+        FactorRows rows;
+        std::vector<vec3> positions, normals, ones, vertices, far;
+        Even(const Medium& medium, double extent, double cut, const Surface& surface,
+             const FactorOptions& options)
+            : split(medium, extent, cut), all(medium, extent, 0), rows(surface.hats, split, options),
+              positions(positionsOf(surface)), normals(normalsOf(surface)),
+              ones(surface.texels.list.size(), vec3(1)) {}
+    };
+    std::optional<Even> even;
+    Stages stages; // ends before what it works on
+
+    State(std::shared_ptr<const scene::Mesh> of, float metres, const Medium& medium,
+          const BakeOptions& options, int threads)
+        : mesh(std::move(of)), scale(metres), extent(extentOf(*mesh, scale)), stages(threads) {
+        baked.options = options;
+        baked.medium = medium;
+        baked.radius = Filters::kRadius;
+        if (options.local == Local::Live)
+            layLive(0, Filters::kRadius);
+        else
+            layStored();
+    }
+
+    // As wide as texels of 7 x 7 at least; the border must be one texel wider for what is read between
+    // texels.
+    void layLive(int attempt, int radius) {
+        addSurface(stages, mesh, scale, baked.options.side, radius + 1,
+                   [this, attempt, radius](Result<Surface> surface) -> Status {
+                       if (!surface && attempt == 0) return surface.error();
+                       if (surface) { // else no room for borders so wide: light is left less far
+                           baked.surface = std::move(*surface);
+                           baked.radius = radius;
+                           const double spacings = kCutSpacings * baked.surface.hats.spacing();
+                           const double wanted = std::ceil(spacings / double(baked.surface.texels.size));
+                           const int next = int(std::clamp(wanted, double(Filters::kRadius), kMostRadius));
+                           if (next > radius && attempt < 3) {
+                               layLive(attempt + 1, next);
+                               return Done{};
+                           }
+                       }
+                       fillLive();
+                       return Done{};
+                   });
+    }
+
+    void fillLive() {
+        baked.cut = (float(baked.radius) + 0.5f) * baked.surface.texels.size;
+        response.emplace(baked.medium, extent, double(baked.cut));
+        rows.emplace(baked.surface.hats, *response, baked.options.factors);
+        addFactors(stages, 0.7, *rows, baked.surface.hats, baked.options.factors, baked.factors);
+        stages.then([this]() -> Status {
+            addGathered(
+                stages, 0.1, baked.surface, *response, baked.radius, [](std::size_t) { return 1.0f; },
+                baked.evened);
+            stages.forEach(0.2, baked.evened.size(), [this](std::size_t i) { evenLive(i); });
+            return Done{};
+        });
+    }
+
+    void evenLive(std::size_t i) {
+        if (!baked.surface.texels.list[i].isShown) return;
+        vec3& found = baked.evened[i];
+        const vec3 wanted = rows->nearAround(baked.surface.texels.list[i].place);
+        for (int c = 0; c < 3; ++c)
+            found[c] = found[c] > 0 ? wanted[c] / found[c] : 1;
+    }
+
+    void layStored() {
+        // The fit looks one texel beyond the filter, and so do those that read between texels.
+        addSurface(stages, mesh, scale, baked.options.side, Filters::kRadius + 2,
+                   [this](Result<Surface> surface) -> Status {
+                       if (!surface) return surface.error();
+                       baked.surface = std::move(*surface);
+                       fillStored();
+                       return Done{};
+                   });
+    }
+
+    void fillStored() {
+        const Hats& hats = baked.surface.hats;
+        response.emplace(baked.medium, extent, 0);
+        FactorOptions options = baked.options.factors;
+        options.diagonal = baked.options.blend == Blend::None;
+        rows.emplace(hats, *response, options);
+        addFactors(stages, 0.5, *rows, hats, options, baked.factors);
+        if (baked.options.blend == Blend::None) {
+            addPlainFilters(stages, 0.5, baked.surface, *response, baked.filters);
+            return;
+        }
+        options.diagonal = true;
+        const auto all = std::make_shared<const FactorRows>(hats, *response, options);
+        addSums(stages, 0.1, *all, hats.count(), whole);
+        stages.then([this, all]() -> Status { // the last that needs them
+            addFittedFilters(stages, 0.2, baked.surface, *response, *rows, baked.factors, whole,
+                             baked.filters);
+            stages.then([this]() -> Status {
+                evenStored();
+                return Done{};
+            });
+            return Done{};
+        });
+    }
+
+    // Ours: each filter takes what the fit left wrong of even light, by the shares of K in it. What leaves
+    // of even light is known by the split response, whose far part is linear between vertices.
+    void evenStored() {
+        const Surface& surface = baked.surface;
+        const double cut = std::max(kCutSpacings * surface.hats.spacing(), 3.5 * double(surface.texels.size));
+        even.emplace(baked.medium, extent, cut, surface, baked.options.factors);
+        addSums(stages, 0.1, even->rows, surface.hats.count(), even->far);
+        even->vertices = baked.vertexRadiosity(even->ones);
+        stages.forEach(0.1, even->ones.size(), [this](std::size_t to) { evenStored(to); });
+    }
+
+    void evenStored(std::size_t to) {
+        const std::vector<Texel>& texels = baked.surface.texels.list;
+        if (!texels[to].isShown) return;
+        const vec3 wanted = even->rows.nearAround(texels[to].place) + baked.globalAt(to, even->far) -
+                            baked.filteredAt(to, even->ones) - baked.globalAt(to, even->vertices);
+        constexpr int kRadius = Filters::kRadius;
+        std::array<vec3, std::size_t(Filters::kWidth) * std::size_t(Filters::kWidth)> shares{};
+        std::size_t number = 0;
+        vec3 sum(0);
+        for (int y = -kRadius; y <= kRadius; ++y)
+            for (int x = -kRadius; x <= kRadius; ++x, ++number) {
+                const int from = baked.surface.texels.find(texels[to].at + ivec2(x, y));
+                if (from < 0) continue;
+                const auto at = std::size_t(from);
+                shares[number] = texels[at].area *
+                                 even->all.whole(even->positions[at], even->normals[at], even->positions[to]);
+                sum += shares[number];
+            }
+        for (std::size_t k = 0; k < shares.size(); ++k)
+            for (int c = 0; c < 3; ++c)
+                if (sum[c] > 0)
+                    baked.filters.factors[to * shares.size() + k][c] += wanted[c] * shares[k][c] / sum[c];
+    }
+};
+
+BakeMaking::BakeMaking(std::shared_ptr<const scene::Mesh> mesh, float scale, const Medium& medium,
+                       const BakeOptions& options, int threads)
+    : state_(std::make_unique<State>(std::move(mesh), scale, medium, options, threads)) {}
+BakeMaking::~BakeMaking() = default;
+
+std::optional<Result<Bake>> BakeMaking::advance(double ms) {
+    const Result<bool> done = state_->stages.advance(ms);
+    if (!done) return Result<Bake>(done.error());
+    if (!*done) return std::nullopt;
+    return Result<Bake>(std::move(state_->baked));
+}
+
+double BakeMaking::share() const { return state_->stages.share(); }
+
+Result<Bake> BakeMaking::finish() {
+    if (Status done = state_->stages.finish(); !done) return done.error();
+    return std::move(state_->baked);
 }
 
 } // namespace lucent::throughput

@@ -6,6 +6,8 @@
 #include "techniques/throughput/Factors.h"
 
 #include <array>
+#include <memory>
+#include <optional>
 
 namespace lucent::throughput {
 
@@ -50,10 +52,31 @@ struct Bake {
     /// @param irradiance  of each of surface.texels.list, W/m² that enters
     Lit relight(std::span<const vec3> irradiance) const;
     std::size_t bytes() const; ///< of factors and filters
+
+    /// What vertices carry to vertices, of which `global` is read.
+    std::vector<vec3> vertexRadiosity(std::span<const vec3> irradiance) const;
+    vec3 globalAt(std::size_t texel, std::span<const vec3> vertexRadiosity) const;
+    /// What a texel gets of those around by its filter; of Stored.
+    vec3 filteredAt(std::size_t texel, std::span<const vec3> irradiance) const;
 };
 
-/// @param scale  metres a unit of the mesh
-Result<Bake> bake(const scene::Mesh& mesh, float scale, const Medium& medium, const BakeOptions& options,
-                  const Work& work);
+/// Works one out in slices of time.
+class BakeMaking {
+public:
+    /// @param scale    metres a unit of the mesh
+    /// @param threads  0: as many as the machine has; the bake does not depend on it
+    BakeMaking(std::shared_ptr<const scene::Mesh> mesh, float scale, const Medium& medium,
+               const BakeOptions& options, int threads = 0);
+    ~BakeMaking();
+    /// Works on for about so long. @return the bake once it is whole, or why there is none
+    std::optional<Result<Bake>> advance(double ms);
+    /// Works on until it is.
+    Result<Bake> finish();
+    double share() const; ///< of the work that is done, [0,1]
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 } // namespace lucent::throughput

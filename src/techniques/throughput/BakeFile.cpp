@@ -233,9 +233,13 @@ std::string textOf(const BakeKey& key) {
     return inHex(fingerprint.value());
 }
 
-Result<Bake> bake(const scene::Object& object, const BakeOptions& options, DipoleGeometry geometry,
-                  const Work& work) {
-    return bake(*scene::meshOf(object), object.transform.scale, mediumOf(object, geometry), options, work);
+BakeMaking makingOf(const scene::Object& object, const BakeOptions& options, DipoleGeometry geometry,
+                    int threads) {
+    return {scene::meshOf(object), object.transform.scale, mediumOf(object, geometry), options, threads};
+}
+
+Result<Bake> bake(const scene::Object& object, const BakeOptions& options, DipoleGeometry geometry) {
+    return makingOf(object, options, geometry).finish();
 }
 
 Bytes encodeBake(const BakeKey& key, const Bake& bake) {

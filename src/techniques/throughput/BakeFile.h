@@ -22,8 +22,9 @@ BakeKey keyOf(const scene::Object& object, const BakeOptions& options, DipoleGeo
 std::string textOf(const BakeKey& key);
 
 /// Bakes the object's mesh as it is at rest.
-Result<Bake> bake(const scene::Object& object, const BakeOptions& options, DipoleGeometry geometry,
-                  const Work& work);
+BakeMaking makingOf(const scene::Object& object, const BakeOptions& options, DipoleGeometry geometry,
+                    int threads = 0);
+Result<Bake> bake(const scene::Object& object, const BakeOptions& options, DipoleGeometry geometry);
 
 /// "LUCENTTP", the version, the key and everything else, little-endian.
 Bytes encodeBake(const BakeKey& key, const Bake& bake);

@@ -66,20 +66,17 @@ public:
                 exact_[surface.duals.columns[k]].emplace_back(v, double(surface.duals.values[k]));
     }
 
-    Result<Filters> run(const Work& work) {
-        if (Status s = forEach(known_.size(), partOf(work, 0, 0.2),
-                               [&](std::size_t j) { known_[j] = rows_.close(std::uint32_t(j)); });
-            !s)
-            return s.error();
-        Filters filters;
-        filters.factors.assign(filtering_.count() * kFactors, vec3(0));
-        std::vector<std::array<dvec3, 3>> weights(filtering_.count());
-        if (Status s = forEach(filtering_.count(), partOf(work, 0.2, 1),
-                               [&](std::size_t lit) { weights[lit] = fit(lit, filters.factors); });
-            !s)
-            return s.error();
-        filters.direct = directOf(weights);
-        return filters;
+    void add(Stages& stages, double share, Filters& made) {
+        stages.forEach(0.2 * share, known_.size(),
+                       [this](std::size_t j) { known_[j] = rows_.close(std::uint32_t(j)); });
+        made.factors.assign(filtering_.count() * kFactors, vec3(0));
+        weights_.resize(filtering_.count());
+        stages.forEach(0.8 * share, filtering_.count(),
+                       [this, &made](std::size_t lit) { weights_[lit] = fit(lit, made.factors); });
+        stages.then([this, &made]() -> Status {
+            made.direct = directOf(weights_);
+            return Done{};
+        });
     }
 
 private:
@@ -243,31 +240,31 @@ private:
     std::span<const vec3> whole_;
     std::vector<vec3> even_;
     std::vector<std::vector<std::pair<std::uint32_t, vec3>>> known_; // FactorRows::close()
-    std::vector<std::vector<Dual>> exact_; // of texels that have some of their chart
+    std::vector<std::vector<Dual>> exact_;      // of texels that have some of their chart
+    std::vector<std::array<dvec3, 3>> weights_; // w, as fit() has them
 };
 
 } // namespace
 
-Result<Filters> plainFilters(const Surface& surface, const Response& response, const Work& work) {
-    const Filtering filtering(surface, response);
-    Filters filters;
-    filters.factors.assign(filtering.count() * kFactors, vec3(0));
-    filters.direct.starts.assign(surface.hats.count() + 1, 0);
-    if (Status s =
-            forEach(filtering.count(), work,
-                    [&](std::size_t to) {
-                        filtering.forEachAround(to, Filters::kRadius, [&](std::size_t lit, ivec2 away) {
-                            filters.factors[to * kFactors + placeOf(away)] = vec3(filtering.factor(lit, to));
-                        });
-                    });
-        !s)
-        return s.error();
-    return filters;
+void addPlainFilters(Stages& stages, double share, const Surface& surface, const Response& response,
+                     Filters& made) {
+    const auto filtering = std::make_shared<const Filtering>(surface, response);
+    made.factors.assign(filtering->count() * kFactors, vec3(0));
+    made.direct.starts.assign(surface.hats.count() + 1, 0);
+    stages.forEach(share, filtering->count(), [filtering, &made](std::size_t to) {
+        filtering->forEachAround(to, Filters::kRadius, [&](std::size_t lit, ivec2 away) {
+            made.factors[to * kFactors + placeOf(away)] = vec3(filtering->factor(lit, to));
+        });
+    });
 }
 
-Result<Filters> fittedFilters(const Surface& surface, const Response& response, const FactorRows& rows,
-                              const Factors& factors, std::span<const vec3> whole, const Work& work) {
-    return Fitting(surface, response, rows, factors, whole).run(work);
+void addFittedFilters(Stages& stages, double share, const Surface& surface, const Response& response,
+                      const FactorRows& rows, const Factors& factors, std::span<const vec3> whole,
+                      Filters& made) {
+    // It stays while one of the stages does.
+    const auto fitting = std::make_shared<Fitting>(surface, response, rows, factors, whole);
+    fitting->add(stages, share, made);
+    stages.then([fitting]() -> Status { return Done{}; });
 }
 
 } // namespace lucent::throughput

@@ -20,7 +20,11 @@ struct Filters {
 };
 
 /// The filters alone, K = A R_d: added to what vertices carry they count close light twice.
-Result<Filters> plainFilters(const Surface& surface, const Response& response, const Work& work);
+///
+/// @param share  of all the stages' work, [0,1]
+/// @param made   is whole when what is added ends
+void addPlainFilters(Stages& stages, double share, const Surface& surface, const Response& response,
+                     Filters& made);
 
 /// Fits, for each texel that is lit, what its triangle's vertices get of it directly, w_v, in place of the
 /// diagonal of the factors: such that the sum of all that is interpolated leaves on the border of 9 x 9
@@ -36,7 +40,8 @@ Result<Filters> plainFilters(const Surface& surface, const Response& response, c
 /// @param rows     without diagonal
 /// @param factors  of these rows
 /// @param whole    sums of the rows with diagonal: what leaves of even light
-Result<Filters> fittedFilters(const Surface& surface, const Response& response, const FactorRows& rows,
-                              const Factors& factors, std::span<const vec3> whole, const Work& work);
+void addFittedFilters(Stages& stages, double share, const Surface& surface, const Response& response,
+                      const FactorRows& rows, const Factors& factors, std::span<const vec3> whole,
+                      Filters& made);
 
 } // namespace lucent::throughput

@@ -289,47 +289,44 @@ private:
     std::atomic<std::uint64_t> bytes_{0};
 };
 
-Result<Factors> denseOf(const FactorRows& rows, std::size_t count, const Work& work) {
-    const std::uint64_t bytes = std::uint64_t(count) * count * sizeof(vec3);
-    if (bytes > kMostBytes)
-        return Error{"all factors of " + std::to_string(count) + " vertices are " +
-                         std::to_string(bytes >> 20) +
-                         " MiB; must be sparse or hierarchical, or fewer than 13,377",
-                     Fault::Machine};
-    Factors factors{
-        .method = Global::Dense, .count = count, .dense = {}, .close = {}, .inner = {}, .outer = {}};
-    factors.dense.resize(count * count);
-    if (Status s = forEach(count, work,
-                           [&](std::size_t j) {
-                               rows.fill(std::uint32_t(j),
-                                         std::span(factors.dense).subspan(j * count, count));
-                           });
-        !s)
-        return s.error();
-    return factors;
+void addDense(Stages& stages, double share, const FactorRows& rows, std::size_t count, Factors& made) {
+    stages.then([&stages, share, &rows, count, &made]() -> Status {
+        const std::uint64_t bytes = std::uint64_t(count) * count * sizeof(vec3);
+        if (bytes > kMostBytes)
+            return Error{"all factors of " + std::to_string(count) + " vertices are " +
+                             std::to_string(bytes >> 20) +
+                             " MiB; must be sparse or hierarchical, or fewer than 13,377",
+                         Fault::Machine};
+        made.dense.resize(count * count);
+        stages.forEach(share, count, [&rows, count, &made](std::size_t j) {
+            rows.fill(std::uint32_t(j), std::span(made.dense).subspan(j * count, count));
+        });
+        return Done{};
+    });
 }
 
-Result<Factors> sparseOf(const FactorRows& rows, std::size_t count, float threshold, const Work& work) {
-    std::vector<std::vector<std::pair<std::uint32_t, vec3>>> kept(count);
-    Room room;
-    if (Status s = forEach(count, work,
-                           [&](std::size_t j) {
-                               if (room.isFull()) return;
-                               std::vector<vec3> row(count);
-                               rows.fill(std::uint32_t(j), row);
-                               for (std::uint32_t i = 0; i < count; ++i)
-                                   if (std::max({row[i].r, row[i].g, row[i].b}) >= threshold)
-                                       kept[j].emplace_back(i, row[i]);
-                               room.take(kept[j]);
-                           });
-        !s)
-        return s.error();
-    if (room.isFull()) return room.error(count);
-    Factors factors{
-        .method = Global::Sparse, .count = count, .dense = {}, .close = {}, .inner = {}, .outer = {}};
-    for (const auto& row : kept)
-        append(factors.close, row);
-    return factors;
+void addSparse(Stages& stages, double share, const FactorRows& rows, std::size_t count, float threshold,
+               Factors& made) {
+    struct Kept {
+        std::vector<std::vector<std::pair<std::uint32_t, vec3>>> rows;
+        Room room;
+    };
+    const auto kept = std::make_shared<Kept>();
+    kept->rows.resize(count);
+    stages.forEach(share, count, [kept, &rows, count, threshold](std::size_t j) {
+        if (kept->room.isFull()) return;
+        std::vector<vec3> row(count);
+        rows.fill(std::uint32_t(j), row);
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (std::max({row[i].r, row[i].g, row[i].b}) >= threshold) kept->rows[j].emplace_back(i, row[i]);
+        kept->room.take(kept->rows[j]);
+    });
+    stages.then([kept, count, &made]() -> Status {
+        if (kept->room.isFull()) return kept->room.error(count);
+        for (const auto& row : kept->rows)
+            append(made.close, row);
+        return Done{};
+    });
 }
 
 // --- hierarchical: a matrix of blocks (Hackbusch 1999), far ones as sums of few products of a column and a
@@ -449,37 +446,25 @@ public:
             places_[tree_.order[k]] = k;
     }
 
-    Result<Factors> run(const Work& work) {
-        const std::size_t count = close_.size();
-        Room room;
-        if (Status s = forEach(count, partOf(work, 0, 0.35),
-                               [&](std::size_t j) {
-                                   if (room.isFull()) return;
-                                   exact_[j] = rows_.close(std::uint32_t(j));
-                                   room.take(exact_[j]);
-                                   sums_[j] = sumOf(std::uint32_t(j));
-                               });
-            !s)
-            return s.error();
-        if (room.isFull()) return room.error(count);
-        std::vector<Pair> pairs{{0, 0}};
-        double done = 0.35;
-        while (!pairs.empty()) { // one size of blocks after another
-            std::vector<Made> made(pairs.size());
-            const double next = done + (1 - done) / 3;
-            if (Status s = forEach(pairs.size(), partOf(work, done, next),
-                                   [&](std::size_t k) { made[k] = make(pairs[k]); });
-                !s)
-                return s.error();
-            done = next;
-            std::vector<Pair> rest;
-            for (std::size_t k = 0; k < pairs.size(); ++k) {
-                put(pairs[k], made[k]);
-                rest.insert(rest.end(), made[k].children.begin(), made[k].children.end());
-            }
-            pairs = std::move(rest);
-        }
-        return joined();
+    void add(Stages& stages, double share, Factors& made) {
+        constexpr double kExact = 0.35; // of the work
+        stages.forEach(kExact * share, close_.size(), [this](std::size_t j) {
+            if (room_.isFull()) return;
+            exact_[j] = rows_.close(std::uint32_t(j));
+            room_.take(exact_[j]);
+            sums_[j] = sumOf(std::uint32_t(j));
+        });
+        stages.then([this, &stages, share, &made]() -> Status {
+            if (room_.isFull()) return room_.error(close_.size());
+            pairs_ = {{0, 0}};
+            addBlocks(stages, (1 - kExact) * share);
+            stages.inOrder(0, close_.size(), [this, &made](std::size_t j) { join(std::uint32_t(j), made); });
+            stages.then([this, &made]() -> Status {
+                made.inner = std::move(inner_);
+                return Done{};
+            });
+            return Done{};
+        });
     }
 
 private:
@@ -510,6 +495,22 @@ private:
         for (const vec3& factor : row)
             sum += dvec3(factor);
         return vec3(sum);
+    }
+
+    // Makes blocks of one size, and then those that are to be made instead.
+    void addBlocks(Stages& stages, double share) {
+        made_.assign(pairs_.size(), {});
+        stages.forEach(share / 3, pairs_.size(), [this](std::size_t k) { made_[k] = make(pairs_[k]); });
+        stages.then([this, &stages, share]() -> Status {
+            std::vector<Pair> rest;
+            for (std::size_t k = 0; k < pairs_.size(); ++k) {
+                put(pairs_[k], made_[k]);
+                rest.insert(rest.end(), made_[k].children.begin(), made_[k].children.end());
+            }
+            pairs_ = std::move(rest);
+            if (!pairs_.empty()) addBlocks(stages, share * 2 / 3);
+            return Done{};
+        });
     }
 
     // What a block, or a factor, of so much of the area may leave out of a row.
@@ -565,29 +566,21 @@ private:
         }
     }
 
-    Result<Factors> joined() {
-        Factors factors{.method = Global::Hierarchical,
-                        .count = close_.size(),
-                        .dense = {},
-                        .close = {},
-                        .inner = std::move(inner_),
-                        .outer = {}};
-        for (std::uint32_t j = 0; j < close_.size(); ++j) {
-            std::sort(close_[j].begin(), close_[j].end());
-            auto known = exact_[j].begin();
-            std::vector<std::pair<std::uint32_t, vec3>> row;
-            for (const std::uint32_t i : close_[j]) {
-                while (known != exact_[j].end() && known->first < i)
-                    ++known;
-                const bool isExact = known != exact_[j].end() && known->first == i;
-                const vec3 factor = isExact ? known->second : rows_.onePoint(i, j);
-                if (glm::any(glm::greaterThan(factor, toleranceOf(j, hats_.areas[i]))))
-                    row.emplace_back(i, factor);
-            }
-            append(factors.close, row);
-            append(factors.outer, outer_[j]);
+    // The rows of one vertex.
+    void join(std::uint32_t j, Factors& made) {
+        std::sort(close_[j].begin(), close_[j].end());
+        auto known = exact_[j].begin();
+        std::vector<std::pair<std::uint32_t, vec3>> row;
+        for (const std::uint32_t i : close_[j]) {
+            while (known != exact_[j].end() && known->first < i)
+                ++known;
+            const bool isExact = known != exact_[j].end() && known->first == i;
+            const vec3 factor = isExact ? known->second : rows_.onePoint(i, j);
+            if (glm::any(glm::greaterThan(factor, toleranceOf(j, hats_.areas[i]))))
+                row.emplace_back(i, factor);
         }
-        return factors;
+        append(made.close, row);
+        append(made.outer, outer_[j]);
     }
 
     const FactorRows& rows_;
@@ -600,22 +593,30 @@ private:
     std::vector<std::vector<std::pair<std::uint32_t, vec3>>> outer_;
     Rows<vec3> inner_;
     std::vector<vec3> sums_;
+    Room room_;
+    std::vector<Pair> pairs_; // that come next
+    std::vector<Made> made_;  // of them
     const Hats& hats_;
 };
 
 } // namespace
 
-Result<Factors> factorsOf(const FactorRows& rows, const Hats& hats, const FactorOptions& options,
-                          const Work& work) {
+void addFactors(Stages& stages, double share, const FactorRows& rows, const Hats& hats,
+                const FactorOptions& options, Factors& made) {
+    made = {
+        .method = options.method, .count = hats.count(), .dense = {}, .close = {}, .inner = {}, .outer = {}};
     switch (options.method) {
     case Global::Dense:
-        return denseOf(rows, hats.count(), work);
+        return addDense(stages, share, rows, hats.count(), made);
     case Global::Sparse:
-        return sparseOf(rows, hats.count(), options.threshold, work);
+        return addSparse(stages, share, rows, hats.count(), options.threshold, made);
     case Global::Hierarchical:
         break;
     }
-    return Hierarchy(rows, hats, options.epsilon).run(work);
+    // It stays while one of the stages does.
+    const auto hierarchy = std::make_shared<Hierarchy>(rows, hats, options.epsilon);
+    hierarchy->add(stages, share, made);
+    stages.then([hierarchy]() -> Status { return Done{}; });
 }
 
 } // namespace lucent::throughput

@@ -1,8 +1,8 @@
 #pragma once
 /// Throughput factors from vertex to vertex, and their product with the irradiance of the vertices.
 
-#include "techniques/throughput/Parallel.h"
 #include "techniques/throughput/Response.h"
+#include "techniques/throughput/Stages.h"
 #include "techniques/throughput/Surface.h"
 
 #include <span>
@@ -81,10 +81,11 @@ struct Factors {
     bool operator==(const Factors&) const = default;
 };
 
-/// @return  Error where the work was stopped, or (Fault::Machine) where the factors of so many vertices are
-/// more
-///          than 2 GiB
-Result<Factors> factorsOf(const FactorRows& rows, const Hats& hats, const FactorOptions& options,
-                          const Work& work);
+/// Works factors out. The work fails (Fault::Machine) where those of so many vertices are more than 2 GiB.
+///
+/// @param share  of all the stages' work, [0,1]
+/// @param made   is whole when what is added ends
+void addFactors(Stages& stages, double share, const FactorRows& rows, const Hats& hats,
+                const FactorOptions& options, Factors& made);
 
 } // namespace lucent::throughput

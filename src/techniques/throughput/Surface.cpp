@@ -73,26 +73,35 @@ Polygon inTexel(const Corners& t, ivec2 at) {
 class Paver {
 public:
     /// @param scale  of the atlas, texels a metre
-    Paver(Surface& surface, const scene::Atlas& atlas, double scale, int border)
+    Paver(Surface& surface, std::shared_ptr<const scene::Atlas> atlas, double scale, int border)
         : surface_(surface), hats_(surface.hats), texels_(surface.texels), duals_(surface.duals),
-          atlas_(atlas), scale_(scale), border_(border) {}
-
-    void run() {
-        const std::size_t side = std::size_t(atlas_.side);
-        texels_.side = atlas_.side;
+          atlas_(std::move(atlas)), scale_(scale), border_(border) {
+        const std::size_t side = std::size_t(atlas_->side);
+        texels_.side = atlas_->side;
         texels_.size = float(1 / scale_);
         texels_.indexAt.assign(side * side, -1);
         shares_.resize(hats_.count());
-        for (std::uint32_t t = 0; t < hats_.triangles.size(); ++t) {
-            cutUp(t);
-            const Corners corners = cornersOf(t);
-            surface_.places.push_back({vec2(corners[0]), vec2(corners[1]), vec2(corners[2])});
-        }
-        findMiddles();
-        addBorder();
-        for (Texel& texel : texels_.list)
-            texel.isShown = isShown(texel);
-        joinShares();
+    }
+
+    void add(Stages& stages) {
+        stages.inOrder(0, hats_.triangles.size(), [this](std::size_t t) { cutUp(std::uint32_t(t)); });
+        stages.then([this, &stages]() -> Status {
+            const std::size_t own = texels_.list.size();
+            stages.inOrder(0, own, [this](std::size_t i) { findMiddle(i); });
+            stages.inOrder(0, own, [this](std::size_t i) { reachAround(i); });
+            return Done{};
+        });
+        stages.then([this, &stages]() -> Status {
+            around_ = {nearest_.begin(), nearest_.end()};
+            stages.inOrder(0, around_.size(), [this](std::size_t k) { addAround(k); });
+            return Done{};
+        });
+        stages.then([this, &stages]() -> Status {
+            stages.inOrder(0, texels_.list.size(),
+                           [this](std::size_t i) { texels_.list[i].isShown = isShown(texels_.list[i]); });
+            stages.inOrder(0, shares_.size(), [this](std::size_t v) { joinShares(v); });
+            return Done{};
+        });
     }
 
 private:
@@ -107,7 +116,7 @@ private:
     Corners cornersOf(std::uint32_t t) const {
         Corners corners;
         for (std::size_t i = 0; i < 3; ++i)
-            corners[i] = dvec2(atlas_.places[atlas_.mesh->indices[3 * hats_.sources[t] + i]]);
+            corners[i] = dvec2(atlas_->places[atlas_->mesh->indices[3 * hats_.sources[t] + i]]);
         return corners;
     }
 
@@ -127,6 +136,7 @@ private:
     // Gives each texel its part of a triangle.
     void cutUp(std::uint32_t t) {
         const Corners corners = cornersOf(t);
+        surface_.places.push_back({vec2(corners[0]), vec2(corners[1]), vec2(corners[2])});
         const double flat = areaOf(corners);
         const dvec2 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
         if (!(flat > 1e-9)) { // smaller than what the places' floats can tell
@@ -235,42 +245,40 @@ private:
         return true;
     }
 
-    // The middles that lie beside their texels' own surface.
-    void findMiddles() {
-        for (std::size_t i = 0; i < texels_.list.size(); ++i) {
-            const Start& start = starts_[i];
-            if (start.hasMiddle) continue;
-            if (walk(i, start, dvec2(texels_.list[i].at) + 0.5)) continue;
-            // Past an open edge: the middle of what there is stands for it.
-            const Corners corners = cornersOf(start.triangle);
-            const bool isFlat = !(areaOf(corners) > 1e-12);
-            setPlace(i, start.triangle, isFlat ? dvec3(1.0 / 3) : weightsAt(corners, start.place), corners);
-            texels_.list[i].area = texels_.list[i].own;
-        }
+    // The middle of a texel, where it lies beside the texel's own surface.
+    void findMiddle(std::size_t i) {
+        const Start& start = starts_[i];
+        if (start.hasMiddle) return;
+        if (walk(i, start, dvec2(texels_.list[i].at) + 0.5)) return;
+        // Past an open edge: the middle of what there is stands for it.
+        const Corners corners = cornersOf(start.triangle);
+        const bool isFlat = !(areaOf(corners) > 1e-12);
+        setPlace(i, start.triangle, isFlat ? dvec3(1.0 / 3) : weightsAt(corners, start.place), corners);
+        texels_.list[i].area = texels_.list[i].own;
     }
 
-    void addBorder() {
-        const std::size_t own = texels_.list.size();
-        // The nearest texel with some of the chart itself.
-        std::map<std::pair<int, int>, std::pair<double, std::size_t>> nearest;
-        for (std::size_t i = 0; i < own; ++i)
-            for (int y = -border_; y <= border_; ++y)
-                for (int x = -border_; x <= border_; ++x) {
-                    const ivec2 at = texels_.list[i].at + ivec2(x, y);
-                    if (at != inside(at) || texels_.find(at) >= 0) continue;
-                    const double away = glm::length(dvec2(at) + 0.5 - starts_[i].place);
-                    auto [found, isNew] = nearest.try_emplace({at.y, at.x}, away, i);
-                    if (!isNew && away < found->second.first) found->second = {away, i};
-                }
-        for (const auto& [at, from] : nearest) {
-            const ivec2 place(at.second, at.first);
-            const Start start = starts_[from.second];
-            const std::size_t texel = texelAt(place);
-            if (walk(texel, start, dvec2(place) + 0.5)) continue;
-            texels_.list.pop_back(); // nothing goes on there
-            starts_.pop_back();
-            texels_.indexAt[std::size_t(place.y) * std::size_t(texels_.side) + std::size_t(place.x)] = -1;
-        }
+    // Offers a texel with some of the chart to places of the border.
+    void reachAround(std::size_t i) {
+        for (int y = -border_; y <= border_; ++y)
+            for (int x = -border_; x <= border_; ++x) {
+                const ivec2 at = texels_.list[i].at + ivec2(x, y);
+                if (at != inside(at) || texels_.find(at) >= 0) continue;
+                const double away = glm::length(dvec2(at) + 0.5 - starts_[i].place);
+                auto [found, isNew] = nearest_.try_emplace({at.y, at.x}, away, i);
+                if (!isNew && away < found->second.first) found->second = {away, i};
+            }
+    }
+
+    // Goes on from there.
+    void addAround(std::size_t k) {
+        const auto& [at, from] = around_[k];
+        const ivec2 place(at.second, at.first);
+        const Start start = starts_[from.second];
+        const std::size_t texel = texelAt(place);
+        if (walk(texel, start, dvec2(place) + 0.5)) return;
+        texels_.list.pop_back(); // nothing goes on there
+        starts_.pop_back();
+        texels_.indexAt[std::size_t(place.y) * std::size_t(texels_.side) + std::size_t(place.x)] = -1;
     }
 
     bool isShown(const Texel& texel) const {
@@ -282,26 +290,27 @@ private:
         return false;
     }
 
-    void joinShares() {
-        duals_ = {};
-        for (const auto& shares : shares_) {
-            for (const auto& [texel, share] : shares) {
-                duals_.columns.push_back(texel);
-                duals_.values.push_back(float(share));
-            }
-            duals_.starts.push_back(std::uint32_t(duals_.columns.size()));
+    void joinShares(std::size_t vertex) {
+        for (const auto& [texel, share] : shares_[vertex]) {
+            duals_.columns.push_back(texel);
+            duals_.values.push_back(float(share));
         }
+        duals_.starts.push_back(std::uint32_t(duals_.columns.size()));
     }
 
     Surface& surface_;
     const Hats& hats_;
     Texels& texels_;
     Rows<float>& duals_;
-    const scene::Atlas& atlas_;
+    std::shared_ptr<const scene::Atlas> atlas_;
     double scale_;
     int border_;
     std::vector<Start> starts_; // one a texel
     std::vector<std::map<std::uint32_t, double>> shares_;
+    // Places of the border, and for each the nearest texel with some of the chart and how far that is.
+    using Around = std::map<std::pair<int, int>, std::pair<double, std::size_t>>;
+    Around nearest_;
+    std::vector<Around::value_type> around_; // the same
 };
 
 // Finds the triangles across sides that exactly two share.
@@ -409,15 +418,58 @@ vec3 normalAt(const Hats& hats, const Place& place) {
     return length > 0 ? sum / length : hats.normals[hats.triangles[place.triangle][0]];
 }
 
-Result<Surface> surfaceOf(const scene::Mesh& mesh, float scale, int side, int border) {
-    Surface surface;
-    surface.hats = hatsOf(mesh, scale);
-    if (surface.hats.triangles.empty()) return Error{"the mesh has no triangle with an area; must have one"};
-    const auto atlas = scene::atlasOf(
-        mesh, scene::Charting{.side = side, .cosine = kChartCosine, .border = border, .fitted = true});
-    if (!atlas) return atlas.error();
-    Paver(surface, **atlas, (*atlas)->scale / double(scale), border).run();
-    return surface;
+namespace {
+
+// Lays one mesh out.
+class Laying : public std::enable_shared_from_this<Laying> {
+public:
+    Laying(std::shared_ptr<const scene::Mesh> mesh, float scale, const scene::Charting& charting,
+           std::function<Status(Result<Surface>)> taken)
+        : mesh_(std::move(mesh)), scale_(scale), charting_(charting), taken_(std::move(taken)) {}
+
+    Status begin(Stages& stages) {
+        surface_.hats = hatsOf(*mesh_, scale_);
+        if (surface_.hats.triangles.empty())
+            return taken_(Error{"the mesh has no triangle with an area; must have one"});
+        making_.emplace(mesh_, charting_);
+        advance(stages);
+        return Done{};
+    }
+
+private:
+    // The atlas, piece by piece, and the texels in it. Stages keep this as long as there are any.
+    void advance(Stages& stages) {
+        stages.then([self = shared_from_this(), &stages]() -> Status {
+            const std::optional<scene::AtlasMaking::Made> atlas = self->making_->advance();
+            if (!atlas) {
+                self->advance(stages);
+                return Done{};
+            }
+            if (!*atlas) return self->taken_(atlas->error());
+            self->paver_.emplace(self->surface_, **atlas, (**atlas)->scale / double(self->scale_),
+                                 self->charting_.border);
+            self->paver_->add(stages);
+            stages.then([self]() -> Status { return self->taken_(std::move(self->surface_)); });
+            return Done{};
+        });
+    }
+
+    std::shared_ptr<const scene::Mesh> mesh_;
+    float scale_;
+    scene::Charting charting_;
+    std::function<Status(Result<Surface>)> taken_;
+    Surface surface_;
+    std::optional<scene::AtlasMaking> making_;
+    std::optional<Paver> paver_;
+};
+
+} // namespace
+
+void addSurface(Stages& stages, std::shared_ptr<const scene::Mesh> mesh, float scale, int side, int border,
+                std::function<Status(Result<Surface>)> taken) {
+    const scene::Charting charting{.side = side, .cosine = kChartCosine, .border = border, .fitted = true};
+    const auto laying = std::make_shared<Laying>(std::move(mesh), scale, charting, std::move(taken));
+    stages.then([laying, &stages] { return laying->begin(stages); });
 }
 
 } // namespace lucent::throughput

@@ -4,6 +4,7 @@
 
 #include "base/Math.h"
 #include "scene/Atlas.h"
+#include "techniques/throughput/Stages.h"
 
 #include <array>
 #include <cstdint>
@@ -91,9 +92,13 @@ struct Surface {
     Rows<float> duals;
 };
 
+/// Lays a mesh out.
+///
+/// @param scale   metres a unit of the mesh
 /// @param side    texels of the atlas
 /// @param border  texels
-/// @return        Error where the mesh does not fit into such an atlas, or has no area
-Result<Surface> surfaceOf(const scene::Mesh& mesh, float scale, int side, int border);
+/// @param taken   called once; with an Error where the mesh does not fit into such an atlas, or has no area
+void addSurface(Stages& stages, std::shared_ptr<const scene::Mesh> mesh, float scale, int side, int border,
+                std::function<Status(Result<Surface>)> taken);
 
 } // namespace lucent::throughput

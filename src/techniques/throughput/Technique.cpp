@@ -84,12 +84,27 @@ private:
     Throughput throughput_;
 };
 
-Result<std::vector<std::byte>> bakeFile(const lucent::Settings& settings, const scene::Object& object,
-                                        const technique::BakeWork& work) {
-    const BakeOptions options = optionsOf(settings.as<Settings>());
-    const Result<Bake> made = bake(object, options, DipoleGeometry::Planar, {work.threads, work.goOn});
-    if (!made) return made.error();
-    return encodeBake(keyOf(object, options, DipoleGeometry::Planar), *made);
+class BakingFile : public technique::Baking {
+public:
+    BakingFile(const scene::Object& object, const BakeOptions& options, int threads)
+        : key_(keyOf(object, options, DipoleGeometry::Planar)),
+          making_(makingOf(object, options, DipoleGeometry::Planar, threads)) {}
+    std::optional<Result<std::vector<std::byte>>> advance(double ms) override {
+        const std::optional<Result<Bake>> made = making_.advance(ms);
+        if (!made) return std::nullopt;
+        if (!*made) return Result<std::vector<std::byte>>(made->error());
+        return encodeBake(key_, **made);
+    }
+    double share() const override { return making_.share(); }
+
+private:
+    BakeKey key_;
+    BakeMaking making_;
+};
+
+std::unique_ptr<technique::Baking> bakeFile(const lucent::Settings& settings, const scene::Object& object,
+                                            int threads) {
+    return std::make_unique<BakingFile>(object, optionsOf(settings.as<Settings>()), threads);
 }
 
 std::string missing(const lucent::Settings& settings, const scene::Object& object) {

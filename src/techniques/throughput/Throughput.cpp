@@ -106,7 +106,7 @@ Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const Ba
     const auto key = keptKey(object, options);
     if (const Made* made = object.kept.find<Made>(key)) return *made;
     Result<Bake> made = object.bake ? decodeBake(*object.bake, object.bakeFile, key.first)
-                                    : bake(object, options, DipoleGeometry::Planar, {});
+                                    : bake(object, options, DipoleGeometry::Planar);
     if (!made)
         return Error{"objects." + object.name + (object.bake ? ".bake: " : ": ") + made.error().message,
                      made.error().fault};
