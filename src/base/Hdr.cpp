@@ -2,6 +2,7 @@
 
 #include "base/ImageSize.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -109,39 +110,82 @@ std::array<float, 256> stepsOf() {
 
 } // namespace
 
-Result<Image> decodeHdr(std::span<const std::byte> bytes, const std::string& name) {
-    const Error damaged{name + ": the HDR file is cut or damaged; must be a whole Radiance RGBE file"};
-    Input input(bytes);
-    std::string line;
-    bool known = false;
-    do {
-        if (!input.takeLine(line)) return damaged;
-        if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
-            return Error{name + ": is stored as " + line.substr(7) + "; must be 32-bit_rle_rgbe"};
-        known |= line.starts_with("FORMAT=");
-    } while (!line.empty());
-    if (!known || !input.takeLine(line)) return damaged;
-    int width = 0, height = 0;
-    if (std::sscanf(line.c_str(), "-Y %d +X %d", &height, &width) != 2)
-        return Error{name + ": has the layout \"" + line + "\"; must be -Y height +X width"};
-    if (Status size = checkImageSize(width, height, 3, name); !size) return size.error();
-    // A run codes at most 127 pixels of a channel in two bytes: fewer bytes than this cannot hold the
-    // picture.
-    if (input.left() < std::size_t(height) * 4) return damaged;
+bool isHdr(std::span<const std::byte> bytes) {
+    return bytes.size() > 2 && bytes[0] == std::byte('#') && bytes[1] == std::byte('?');
+}
 
-    Image image(width, height, 3);
-    const std::array<float, 256> steps = stepsOf();
-    std::vector<Rgbe> row(static_cast<std::size_t>(width));
-    for (int y = 0; y < height; ++y) {
-        if (!takeRow(input, row)) return damaged;
-        float* to = image.at(0, y);
+struct HdrReading::State {
+    Bytes bytes;
+    std::string name;
+    Input input{bytes};
+    std::array<float, 256> steps = stepsOf();
+    std::vector<Rgbe> row;
+    Image image;
+    int rows = 0; // that are there
+
+    State(Bytes all, std::string of) : bytes(std::move(all)), name(std::move(of)) {}
+
+    Error damaged() const {
+        return {name + ": the HDR file is cut or damaged; must be a whole Radiance RGBE file"};
+    }
+
+    Status begin() {
+        std::string line;
+        bool known = false;
+        do {
+            if (!input.takeLine(line)) return damaged();
+            if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
+                return Error{name + ": is stored as " + line.substr(7) + "; must be 32-bit_rle_rgbe"};
+            known |= line.starts_with("FORMAT=");
+        } while (!line.empty());
+        if (!known || !input.takeLine(line)) return damaged();
+        int width = 0, height = 0;
+        if (std::sscanf(line.c_str(), "-Y %d +X %d", &height, &width) != 2)
+            return Error{name + ": has the layout \"" + line + "\"; must be -Y height +X width"};
+        if (Status size = checkImageSize(width, height, 3, name); !size) return size.error();
+        // A run codes at most 127 pixels of a channel in two bytes: fewer bytes than this cannot hold the
+        // picture.
+        if (input.left() < std::size_t(height) * 4) return damaged();
+        image = Image(width, height, 3);
+        row.resize(std::size_t(width));
+        return Done{};
+    }
+
+    Status takeNext() {
+        if (!takeRow(input, row)) return damaged();
+        float* to = image.at(0, rows++);
         for (const Rgbe& pixel : row) {
             const float step = steps[pixel[3]];
             for (std::size_t c = 0; c < 3; ++c)
                 *to++ = float(pixel[c]) * step;
         }
+        return Done{};
     }
-    return image;
+
+    std::optional<Result<Image>> advance() {
+        if (row.empty()) {
+            const Status begun = begin();
+            return begun ? std::nullopt : std::optional(Result<Image>(begun.error()));
+        }
+        constexpr int kPixels = 1 << 17; // of a piece
+        const int end = std::min(image.height, rows + std::max(1, kPixels / image.width));
+        while (rows < end)
+            if (const Status taken = takeNext(); !taken) return Result<Image>(taken.error());
+        if (rows < image.height) return std::nullopt;
+        return Result<Image>(std::move(image));
+    }
+};
+
+HdrReading::HdrReading(Bytes bytes, std::string name)
+    : state_(std::make_unique<State>(std::move(bytes), std::move(name))) {}
+HdrReading::~HdrReading() = default;
+
+std::optional<Result<Image>> HdrReading::advance() { return state_->advance(); }
+
+Result<Image> decodeHdr(std::span<const std::byte> bytes, const std::string& name) {
+    HdrReading reading(Bytes(bytes.begin(), bytes.end()), name);
+    for (;;)
+        if (std::optional<Result<Image>> image = reading.advance()) return std::move(*image);
 }
 
 } // namespace lucent

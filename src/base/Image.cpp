@@ -304,7 +304,7 @@ Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& n
         return codes->words ? toFloat(*codes, codes->words.get(), encoding)
                             : toFloat(*codes, codes->bytes.get(), encoding);
     }
-    if (startsWith(bytes, "#?")) return decodeHdr(bytes, name);
+    if (isHdr(bytes)) return decodeHdr(bytes, name);
     if (isPfm(bytes)) return decodePfm(bytes, name);
     if (startsWith(bytes, "\x76\x2f\x31\x01"))
         return Error{name + ": is an EXR file, whose reader is not here" + kKinds};

@@ -1,5 +1,6 @@
 #include "scene/ImageUse.h"
 
+#include "base/Hdr.h"
 #include "base/Log.h"
 #include "base/Text.h"
 #include "scene/Scene.h"
@@ -64,6 +65,38 @@ Result<SharedImage> decodeColors(std::span<const std::byte> bytes, const std::st
     constexpr float kMost = std::numeric_limits<float>::max();
     return share(withThreeChannels(std::move(*image)), -kMost, kMost, name, "colours must be finite");
 }
+
+struct ColorsMaking::State {
+    std::string name;
+    ReadFile read;
+    std::optional<Bytes> file = std::nullopt; // that is decoded in one piece
+    std::unique_ptr<HdrReading> rows = nullptr;
+
+    std::optional<Result<SharedImage>> advance() {
+        if (file) return decodeColors(*file, name);
+        if (!rows) return begin();
+        std::optional<Result<Image>> image = rows->advance();
+        if (!image) return std::nullopt;
+        if (!*image) return Result<SharedImage>(image->error());
+        return Result<SharedImage>(std::make_shared<const Image>(std::move(**image)));
+    }
+    std::optional<Result<SharedImage>> begin() {
+        Result<Bytes> bytes = read(name);
+        if (!bytes) return Result<SharedImage>(bytes.error());
+        if (isHdr(*bytes))
+            rows = std::make_unique<HdrReading>(std::move(*bytes), name);
+        else
+            file = std::move(*bytes);
+        return std::nullopt;
+    }
+};
+
+ColorsMaking::ColorsMaking(std::string name, ReadFile read)
+    : state_(std::make_unique<State>(State{.name = std::move(name), .read = std::move(read)})) {}
+ColorsMaking::~ColorsMaking() = default;
+
+std::optional<Result<SharedImage>> ColorsMaking::advance() { return state_->advance(); }
+std::size_t ColorsMaking::bytes() const { return state_->file ? state_->file->size() : 0; }
 
 namespace {
 

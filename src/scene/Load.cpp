@@ -128,6 +128,11 @@ private:
     }
 
     // --- files ---
+    // That decoding so much of a picture takes in a browser.
+    static std::chrono::milliseconds timeFor(std::size_t bytes) {
+        constexpr std::size_t kBytesPerMs = 100'000;
+        return std::chrono::milliseconds(bytes / kBytesPerMs);
+    }
     // Functions do the same for every place; others depend on what stands beside it.
     template <class Decode>
     static std::string roleOf(const Place& place, Decode decode) {
@@ -150,8 +155,7 @@ private:
         if (decoded_.isOver()) return false;
         const Result<Bytes> bytes = read_(name);
         if (!bytes) return fail(place, ": " + bytes.error().message);
-        constexpr std::size_t kBytesPerMs = 100'000; // of pictures, in a browser
-        if (decoded_.waits(std::chrono::milliseconds(bytes->size() / kBytesPerMs))) return false;
+        if (decoded_.waits(timeFor(bytes->size()))) return false;
         auto decoded = decode(*bytes, name);
         if (!decoded) return fail(place, ": " + decoded.error().message);
         decoded_.add(key, value = Value(std::move(*decoded)));
@@ -177,6 +181,8 @@ private:
             return false;
         for (;;) {
             if (decoded_.isOver()) return false;
+            if constexpr (requires { making->bytes(); })
+                if (decoded_.waits(timeFor(making->bytes()))) return false;
             auto made = making->advance();
             decoded_.isNew = true;
             if (!made) continue;
@@ -193,6 +199,17 @@ private:
         if (!json) return true;
         const Place member = place.at(*json, key);
         return readFileName(member, file) && readFile(member, file, map, decode);
+    }
+    bool readColors(const Place& place, const std::string& file, std::shared_ptr<const Image>& map) {
+        const std::string name = resolvePath(path(), file);
+        return pieces<ColorsMaking>(place, name + " colors", map, name, read_);
+    }
+    bool readColorMap(const Place& place, std::string_view key, std::string& file,
+                      std::shared_ptr<const Image>& map) {
+        const Json* json = place.json.find(key);
+        if (!json) return true;
+        const Place member = place.at(*json, key);
+        return readFileName(member, file) && readColors(member, file, map);
     }
 
     // --- parts of a scene ---
@@ -283,8 +300,7 @@ private:
         const Json* source = place.json.find("source");
         const Place member = source ? place.at(*source, "source") : place;
         if (source && !readFileName(member, environment.source)) return false;
-        if (!isProcedural(environment.source))
-            return readFile(member, environment.source, environment.map, decodeColors);
+        if (!isProcedural(environment.source)) return readColors(member, environment.source, environment.map);
         environment.map = *loadEnvironmentMap(environment.source, {});
         return true;
     }
@@ -356,19 +372,24 @@ private:
         return chooseKind(place, object) && refuseOtherKinds(place, object) && readKind(place, object) &&
                readPreset(place, material) && readTable(place, material) &&
                keepStatus(place, check(material)) && spendBody(place, object) &&
-               readMap(place, "baseMap", material.baseMapFile, material.baseMap, decodeColors) &&
-               readMap(place, "diffuseMap", material.diffuseMapFile, material.diffuseMap, decodeColors) &&
-               readMap(place, "specularMap", material.specularMapFile, material.specularMap, decodeColors);
+               readColorMap(place, "baseMap", material.baseMapFile, material.baseMap) &&
+               readColorMap(place, "diffuseMap", material.diffuseMapFile, material.diffuseMap) &&
+               readColorMap(place, "specularMap", material.specularMapFile, material.specularMap);
     }
     bool readTable(const Place& place, Material& material) {
         auto* measured = std::get_if<MeasuredBrdf>(&material.kind);
         if (!measured) return true;
+        const Json* json = place.json.find("table");
+        if (!json) return missing(place, "table", "the name of a file");
         const auto decode = [&](std::span<const std::byte> bytes, const std::string& name) {
             return decodeTable(bytes, name, measured->form, measured->blocks);
         };
-        return place.json.find("table")
-                   ? readMap(place, "table", measured->tableFile, measured->table, decode)
-                   : missing(place, "table", "the name of a file");
+        if (measured->form == TableForm::Merl)
+            return readMap(place, "table", measured->tableFile, measured->table, decode);
+        if (!readColorMap(place, "table", measured->tableFile, measured->table)) return false;
+        const Status fits = checkTable(*measured->table, measured->form, measured->blocks);
+        return fits || fail(place.at(*json, "table"),
+                            ": " + resolvePath(path(), measured->tableFile) + ": " + fits.error().message);
     }
     // A height field that is no relief is drawn as triangles.
     bool spendBody(const Place& place, const Object& object) {

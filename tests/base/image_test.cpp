@@ -1,3 +1,4 @@
+#include "base/Hdr.h"
 #include "base/Image.h"
 #include "base/Stb.h"
 #include "tests/base/Png.h"
@@ -259,6 +260,22 @@ TEST(Image, AJpegWithTooManyHuffmanCodesIsRefused) {
     late.insert(late.end(), 16, std::byte(255));
     EXPECT_EQ(messageOf(late, "a.jpg"),
               "a.jpg: has a Huffman table of more than 256 codes; must be a whole JPEG file");
+}
+
+TEST(Image, HdrComesPieceByPiece) {
+    Image image(700, 400, 3);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = float(i % 251) / 32;
+    const Bytes file = *encodeImage(image, "a.hdr");
+    HdrReading reading(file, "a.hdr");
+    std::optional<Result<Image>> read;
+    int pieces = 1;
+    for (; !(read = reading.advance()); ++pieces) {
+    }
+    EXPECT_EQ(pieces, 4); // the header and 280,000 pixels
+    ASSERT_TRUE(*read) << read->error().message;
+    EXPECT_EQ((*read)->pixels, decodeHdr(file, "a.hdr")->pixels);
+    EXPECT_NEAR((*read)->at(699, 399)[2], image.at(699, 399)[2], 8 / 256.0); // of the largest channel
 }
 
 } // namespace
