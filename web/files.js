@@ -52,6 +52,8 @@ export class Reach {
   }
 }
 
+const kSoon = 4e6; // bytes of an answer below which its parts are not waited for one by one
+
 /** What is fetched for one scene: how far it is, of what servers have announced, and an end to it. */
 export class Fetching {
   #report;
@@ -69,20 +71,29 @@ export class Fetching {
     return fetch(url, { signal: this.#signal });
   }
   /** The bytes of an answer. */
-  async take({ body, headers }) {
+  async take(response) {
+    const { body, headers } = response;
     const length = Number(headers.get('content-length')); // of what is packed less than comes
     this.#announced += length;
+    if (0 < length && length < kSoon) {
+      const bytes = new Uint8Array(await response.arrayBuffer());
+      this.#count(length);
+      return bytes;
+    }
     const parts = [];
-    let came = 0;
+    let [size, came] = [0, 0];
     for (const reader = body.getReader(); ; ) {
       const { done, value } = await reader.read();
       if (done) break;
       parts.push(value);
+      size += value.length;
       this.#count(Math.min(value.length, length - came));
       came = Math.min(length, came + value.length);
     }
     this.#count(length - came);
-    return new Uint8Array(await new Blob(parts).arrayBuffer());
+    const bytes = new Uint8Array(size);
+    parts.reduce((at, part) => (bytes.set(part, at), at + part.length), 0);
+    return bytes;
   }
 
   #count(bytes) {
@@ -124,17 +135,20 @@ export async function toPlain(name, bytes, part) {
   const needs = await reading.ask({ task: 'needs', name, bytes });
   if (!needs) return { name, bytes };
   const parts = new Map([[name, bytes]]);
-  for (const { file, optional } of needs) {
-    const content = await part(file).catch((error) => {
-      if (!optional || error.name === 'AbortError') throw error;
-    });
-    if (!content) continue;
-    parts.set(file, content);
-    if (!/\.mtl$/i.test(file)) continue;
-    const textures = await reading.ask({ task: 'needs', name: file, bytes: content });
-    needs.push(...textures.map((one) => ({ ...one, file: besideFile(file, one.file) })));
-  }
+  await Promise.all(needs.map((need) => collectPart(need, part, parts)));
   return reading.ask({ task: 'convert', name, parts });
+}
+
+/** Adds a file that another one needs, and what that file needs itself, to `parts`. */
+async function collectPart({ file, optional }, part, parts) {
+  const content = await part(file).catch((error) => {
+    if (!optional || error.name === 'AbortError') throw error;
+  });
+  if (!content) return;
+  parts.set(file, content);
+  if (!/\.mtl$/i.test(file)) return;
+  const textures = await reading.ask({ task: 'needs', name: file, bytes: content });
+  await Promise.all(textures.map((one) => collectPart({ ...one, file: besideFile(file, one.file) }, part, parts)));
 }
 
 /** Linear values as EXR. @param picture  width, height and bytes of 4 floats a pixel @return {Promise<Blob>} */

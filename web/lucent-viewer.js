@@ -109,6 +109,7 @@ export class LucentViewer extends HTMLElement {
   #display = null; // the canvas's context
   #handle = 0; // the module's viewer, 0: none yet
   #task = 0; // number of the newest load: older ones give up
+  #leaving = null; // that of a load of another scene, for which the one that is shown is not refined any more
   #src = null; // what is loaded or on its way
   #shown = null; // what is loaded
   #brought = null; // {path, files} of the scene that is shown, where it is made of a person's files
@@ -529,7 +530,8 @@ export class LucentViewer extends HTMLElement {
     const { width, height } = this.#size;
     const { more, drawn } = this.#runtime.draw(this.#handle, width, height, seconds);
     this.#sync();
-    this.#takePicture(drawn);
+    const shown = this.#takePicture(drawn);
+    if (shown && this.#leaving === this.#task && !this.#settled.length) return false; // what comes is worth more
     return more && (this.#seen || !this.#complete || this.#capturing); // nothing plays where nobody sees it
   }
   contextLost() {
@@ -695,7 +697,7 @@ export class LucentViewer extends HTMLElement {
   /** @param again  whether to try once more where another viewer ended the module */
   async #loadSource(again = true) {
     if (!this.src || this.src === this.#src) return;
-    const task = ++this.#task;
+    const task = (this.#leaving = ++this.#task);
     this.#src = this.src;
     this.#status.textContent = 'Loading…';
     this.#fetching.abort();
@@ -721,6 +723,11 @@ export class LucentViewer extends HTMLElement {
       if (error.code !== 'abort' || !again || this.#handle) return;
       this.#src = null;
       this.#loadSource(false);
+    } finally {
+      if (this.#leaving === task) {
+        this.#leaving = null;
+        this.#request();
+      }
     }
   }
 
@@ -855,6 +862,7 @@ export class LucentViewer extends HTMLElement {
 
   // Their words, as they are worked out: each call takes its time.
   #showProfiles() {
+    if (!this.stats().shown) return this.#showProfilesLater(); // the first look comes first
     const profiles = this.#profilesSoFar();
     this.#twin.describe(profiles.filter(({ pending }) => !pending));
     if (profiles.some(({ pending }) => pending)) this.#showProfilesLater();
@@ -975,6 +983,7 @@ export class LucentViewer extends HTMLElement {
     }
     if (finished) this.#settled.splice(0).forEach((resolve) => resolve());
     if (drawn) this.#emit('frame', { complete });
+    return shown;
   }
 
   #whenFinished() {

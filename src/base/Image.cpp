@@ -322,10 +322,12 @@ Result<ByteImage> decodeBytes(std::span<const std::byte> bytes, const std::strin
         const Result<Codes> codes = decodeCodes(bytes, name, 4);
         if (!codes) return codes.error();
         const ivec2 size(codes->width, codes->height);
-        if (codes->bytes)
-            take(size, codes->bytes.get(), [](stbi_uc value) { return value; });
-        else
+        if (codes->bytes) {
+            const stbi_uc* from = codes->bytes.get();
+            image = {size, {from, from + 4 * std::size_t(size.x) * std::size_t(size.y)}};
+        } else {
             take(size, codes->words.get(), [](stbi_us value) { return std::uint8_t((value + 128) / 257); });
+        }
         return image;
     }
     const Result<Image> floats = decodeImage(bytes, name, Encoding::Linear);

@@ -263,8 +263,10 @@ Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
     const double begins = now();
     if (taken == 0 && bends(scene)) views::askToCount(context); // it is made meanwhile
     while (!atOnce && taken < int(scene.objects.size())) {
-        const Result<views::Drawable::Ptr> one = views::drawableOf(scene, taken++, images, &waters);
-        if (!one) return one.error();
+        if (!images.takeTexture(scene.objects[std::size_t(taken)])) {
+            const Result<views::Drawable::Ptr> one = views::drawableOf(scene, taken++, images, &waters);
+            if (!one) return one.error();
+        }
         if (now() - begins > kSliceMs) return false;
     }
     return true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace lucent::scene {
 namespace {
@@ -52,10 +53,14 @@ vec4 TextureImage::texel(ivec2 at) const {
 }
 
 void TextureImage::findLeast() {
-    std::uint8_t least = 255;
-    for (std::size_t i = 1; i < texels.size(); i += 4)
-        least = std::min(least, texels[i]);
-    leastGreen = lightOf(least, encoding);
+    constexpr std::uint32_t kGreen = 0xff00; // of a texel as one number: quicker than byte by byte
+    std::uint32_t least = kGreen;
+    for (std::size_t i = 0; i < texels.size(); i += 4) {
+        std::uint32_t texel;
+        std::memcpy(&texel, &texels[i], sizeof texel);
+        least = std::min(least, texel & kGreen);
+    }
+    leastGreen = lightOf(std::uint8_t(least >> 8), encoding);
 }
 
 Result<TextureImage> decodeTexture(std::span<const std::byte> bytes, const std::string& name,

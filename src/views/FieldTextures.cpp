@@ -203,6 +203,30 @@ Result<const Prisms*> ImageCache::prisms(const std::shared_ptr<const scene::Disp
     return entry.value.get();
 }
 
+graph::TextureHandle ImageCache::texture(const std::shared_ptr<const scene::TextureImage>& image) {
+    auto& entry = textures_[image.get()];
+    if (!entry.value) {
+        entry.value = std::make_unique<graph::Texture>(textureOf(context_.device(), *image));
+        entry.source = image;
+    }
+    entry.used = true;
+    return entry.value->handle();
+}
+
+bool ImageCache::takeTexture(const scene::Object& object) {
+    const scene::Textures* textures = scene::texturesOf(object);
+    if (!textures) return false;
+    for (const scene::TextureUse* use :
+         {&textures->color, &textures->emission, &textures->roughness, &textures->normal}) {
+        if (use->image < 0) continue;
+        const auto& image = std::get<scene::MeshShape>(object.shape).mesh->images[std::size_t(use->image)];
+        if (textures_.contains(image.get())) continue;
+        texture(image);
+        return true;
+    }
+    return false;
+}
+
 Textured ImageCache::textured(const scene::Mesh& mesh, const scene::Textures& textures) {
     static const auto kWhite = [] {
         auto white = std::make_shared<scene::TextureImage>();
@@ -211,14 +235,7 @@ Textured ImageCache::textured(const scene::Mesh& mesh, const scene::Textures& te
         return std::shared_ptr<const scene::TextureImage>(white);
     }();
     const auto handleOf = [&](const scene::TextureUse& use) {
-        const auto& image = use.image < 0 ? kWhite : mesh.images[std::size_t(use.image)];
-        auto& entry = textures_[image.get()];
-        if (!entry.value) {
-            entry.value = std::make_unique<graph::Texture>(textureOf(context_.device(), *image));
-            entry.source = image;
-        }
-        entry.used = true;
-        return entry.value->handle();
+        return texture(use.image < 0 ? kWhite : mesh.images[std::size_t(use.image)]);
     };
     MeshTextures& vertices = *meshes_.at(&mesh).value;
     vertices.addCoordinates(context_);
