@@ -336,7 +336,7 @@ export class LucentViewer extends HTMLElement {
    * red, green and blue; distances (mm) and values (1/mm²) of its R_d; text, the same in words.
    */
   profiles() {
-    return this.#profilesSoFar().filter(({ pending }) => !pending);
+    return this.#profilesSoFar(true).filter(({ pending }) => !pending);
   }
 
   /**
@@ -856,14 +856,15 @@ export class LucentViewer extends HTMLElement {
     return done;
   }
 
-  #profilesSoFar() {
-    return JSON.parse(this.#ask('viewer_profiles') || '[]');
+  // @param numbers  false: owner and text alone, which take no time
+  #profilesSoFar(numbers) {
+    return JSON.parse(this.#ask('viewer_profiles', numbers) || '[]');
   }
 
   // Their words, as they are worked out: each call takes its time.
   #showProfiles() {
     if (!this.stats().shown) return this.#showProfilesLater(); // the first look comes first
-    const profiles = this.#profilesSoFar();
+    const profiles = this.#profilesSoFar(false);
     this.#twin.describe(profiles.filter(({ pending }) => !pending));
     if (profiles.some(({ pending }) => pending)) this.#showProfilesLater();
   }

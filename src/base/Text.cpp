@@ -19,10 +19,18 @@ std::string shortestText(Value value, Value (*parse)(const char*, char**), int d
         std::snprintf(text, sizeof text, "%.0f", double(value));
         return text;
     }
-    for (int precision = 1; precision <= digits; ++precision) {
+    const auto write = [&](int precision) {
         std::snprintf(text, sizeof text, "%.*g", precision, double(value));
-        if (parse(text, nullptr) == value) break;
+    };
+    for (int least = 1; least < digits;) { // more digits than are enough are enough
+        const int middle = (least + digits) / 2;
+        write(middle);
+        if (parse(text, nullptr) == value)
+            digits = middle;
+        else
+            least = middle + 1;
     }
+    write(digits);
     return text;
 }
 

@@ -1,5 +1,7 @@
 #include "viewer/Figure.h"
 
+#include "base/JsonWriter.h"
+
 namespace lucent::viewer {
 
 std::vector<Figure> figuresOf(const scene::Scene& scene, double ms) {
@@ -10,11 +12,17 @@ std::vector<Figure> figuresOf(const scene::Scene& scene, double ms) {
     return all;
 }
 
-std::string figuresJson(const std::vector<Figure>& figures) {
-    std::string text = "[";
+std::string figuresJson(const std::vector<Figure>& figures, bool numbers) {
+    JsonWriter json;
+    json.beginArray();
     for (const Figure& figure : figures)
-        text += (text.size() > 1 ? ",\n" : "") + figure.json;
-    return text + "]\n";
+        if (figure.isPending)
+            json.beginObject().key("owner").value(figure.owner).key("pending").value(true).end();
+        else if (numbers)
+            json.raw(figure.json());
+        else
+            json.beginObject().key("owner").value(figure.owner).key("text").value(figure.text).end();
+    return json.end().text();
 }
 
 } // namespace lucent::viewer

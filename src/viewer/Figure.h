@@ -16,8 +16,9 @@ namespace lucent::viewer {
 struct Figure {
     std::string owner; ///< the object's name
     std::string text;  ///< the same for those who cannot see it
-    std::string json;  ///< its numbers, a JSON object with "owner" and "text", for the page
     float height;      ///< CSS pixels
+    /// Its numbers: a JSON object with "owner" and "text".
+    std::function<std::string()> json;
     /// Draws it at a place [CSS pixels], so wide. Needs a current ImGui window.
     std::function<void(ImDrawList&, vec2, float, const Theme&)> draw;
     Group place = Group::Subsurface; ///< among whose controls it stands
@@ -37,6 +38,8 @@ std::span<const PanelPart* const> panelParts();
 /// All figures of a scene, some of them pending.
 std::vector<Figure> figuresOf(const scene::Scene& scene, double ms);
 /// JSON array of them; {"owner", "pending": true} of those that are pending.
-std::string figuresJson(const std::vector<Figure>& figures);
+///
+/// @param numbers  false: "owner" and "text" alone, which take no time
+std::string figuresJson(const std::vector<Figure>& figures, bool numbers);
 
 } // namespace lucent::viewer

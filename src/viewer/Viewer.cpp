@@ -349,7 +349,9 @@ std::string Viewer::stats() const {
     return statsJson(input);
 }
 
-std::string Viewer::profiles() const { return state_->scene ? figuresJson(state_->allFigures()) : "[]\n"; }
+std::string Viewer::profiles(bool numbers) const {
+    return state_->scene ? figuresJson(state_->allFigures(), numbers) : "[]";
+}
 
 std::string Viewer::changes() const { return changesJson(state_->controls, &state_->play.playing); }
 std::string Viewer::sceneJson() const { return state_->scene ? scene::toJson(*state_->scene) : ""; }

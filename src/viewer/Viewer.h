@@ -121,7 +121,9 @@ public:
     /// JSON array: of each object that has subsurface scattering owner, profile; reach [mm] and whole (the
     /// share that leaves again) of red, green and blue; distances [mm] and values [1/mm²] of R_d; text, the
     /// same in words.
-    std::string profiles() const;
+    ///
+    /// @param numbers  false: owner and text alone, which take no time
+    std::string profiles(bool numbers = true) const;
     /// JSON object path -> value of every parameter that differs from the loaded scene: what a link carries.
     /// Never "playing": whether things move is up to whoever follows the link.
     std::string changes() const;

@@ -321,7 +321,7 @@ const char* viewer_act(int viewer, const char* path) { return answer(viewerOf(vi
 void viewer_focus(int viewer, const char* path) { viewerOf(viewer).focusControl(path); }
 const char* viewer_controls(int viewer) { return answer(viewerOf(viewer).controls()); }
 const char* viewer_stats(int viewer) { return answer(viewerOf(viewer).stats()); }
-const char* viewer_profiles(int viewer) { return answer(viewerOf(viewer).profiles()); }
+const char* viewer_profiles(int viewer, bool numbers) { return answer(viewerOf(viewer).profiles(numbers)); }
 const char* viewer_changes(int viewer) { return answer(viewerOf(viewer).changes()); }
 const char* viewer_scene_json(int viewer) { return answer(viewerOf(viewer).sceneJson()); }
 const char* viewer_title(int viewer) { return answer(viewerOf(viewer).title()); }

@@ -80,7 +80,7 @@ void viewer_focus(int viewer, const char* path);
 const char* viewer_controls(int viewer);
 const char* viewer_stats(int viewer);
 const char* viewer_changes(int viewer);
-const char* viewer_profiles(int viewer); ///< JSON, see Viewer::profiles()
+const char* viewer_profiles(int viewer, bool numbers); ///< JSON, see Viewer::profiles()
 const char* viewer_scene_json(int viewer);
 const char* viewer_title(int viewer);
 const char* viewer_caption(int viewer);

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 namespace lucent::brdf {
 
@@ -266,10 +267,7 @@ void drawPlot(ImDrawList& list, vec2 at, float width, const LobePlot& plot, cons
 }
 
 viewer::Figure pendingOf(const scene::Object& object) {
-    JsonWriter json;
-    json.beginObject().key("owner").value(object.name).key("pending").value(true).end();
-    return {
-        .owner = object.name, .text = "", .json = json.text(), .height = 0, .draw = {}, .isPending = true};
+    return {.owner = object.name, .text = "", .height = 0, .json = {}, .draw = {}, .isPending = true};
 }
 
 std::vector<viewer::Figure> figures(const scene::Scene& scene, double ms) {
@@ -282,13 +280,14 @@ std::vector<viewer::Figure> figures(const scene::Scene& scene, double ms) {
             list.push_back(pendingOf(object));
             continue;
         }
-        LobePlot plot = plotOf(scene, object);
-        viewer::Figure figure{plot.owner, describe(plot), jsonOf(plot), kLobeHeight + kChartHeight,
-                              {},         Group::Material};
-        figure.draw = [plot = std::move(plot)](ImDrawList& drawn, vec2 at, float width, const Theme& theme) {
-            drawPlot(drawn, at, width, plot, theme);
-        };
-        list.push_back(std::move(figure));
+        const auto plot = std::make_shared<const LobePlot>(plotOf(scene, object));
+        list.push_back({.owner = plot->owner,
+                        .text = describe(*plot),
+                        .height = kLobeHeight + kChartHeight,
+                        .json = [plot] { return jsonOf(*plot); },
+                        .draw = [plot](ImDrawList& drawn, vec2 at, float width,
+                                       const Theme& theme) { drawPlot(drawn, at, width, *plot, theme); },
+                        .place = Group::Material});
     }
     return list;
 }

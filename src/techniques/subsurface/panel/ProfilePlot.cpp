@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 namespace lucent::subsurface {
 
@@ -182,12 +183,15 @@ void drawProfilePlot(ImDrawList& list, vec2 at, float width, const ProfilePlot& 
 
 std::vector<viewer::Figure> figures(const scene::Scene& scene, double) {
     std::vector<viewer::Figure> list;
-    for (ProfilePlot& plot : profilePlots(scene)) {
-        viewer::Figure figure{plot.owner, describe(plot), jsonOf(plot), kPlotHeight, {}};
-        figure.draw = [plot = std::move(plot)](ImDrawList& drawn, vec2 at, float width, const Theme& theme) {
-            drawProfilePlot(drawn, at, width, plot, theme);
-        };
-        list.push_back(std::move(figure));
+    for (ProfilePlot& made : profilePlots(scene)) {
+        const auto plot = std::make_shared<const ProfilePlot>(std::move(made));
+        list.push_back(
+            {.owner = plot->owner,
+             .text = describe(*plot),
+             .height = kPlotHeight,
+             .json = [plot] { return jsonOf(*plot); },
+             .draw = [plot](ImDrawList& drawn, vec2 at, float width,
+                            const Theme& theme) { drawProfilePlot(drawn, at, width, *plot, theme); }});
     }
     return list;
 }
