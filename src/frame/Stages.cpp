@@ -263,7 +263,7 @@ Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
     const double begins = now();
     if (taken == 0 && bends(scene)) views::askToCount(context); // it is made meanwhile
     while (!atOnce && taken < int(scene.objects.size())) {
-        if (!images.takeTexture(scene.objects[std::size_t(taken)])) {
+        if (!images.takePart(scene.objects[std::size_t(taken)])) {
             const Result<views::Drawable::Ptr> one = views::drawableOf(scene, taken++, images, &waters);
             if (!one) return one.error();
         }

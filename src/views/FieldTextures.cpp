@@ -1,5 +1,7 @@
 #include "views/FieldTextures.h"
 
+#include "views/Paint.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -213,7 +215,10 @@ graph::TextureHandle ImageCache::texture(const std::shared_ptr<const scene::Text
     return entry.value->handle();
 }
 
-bool ImageCache::takeTexture(const scene::Object& object) {
+bool ImageCache::takePart(const scene::Object& object) {
+    const bool isMesh = !object.isField() && !object.isDisplaced() && !isPainted(object); // of its own
+    if (isMesh && !meshes_.contains(scene::meshOf(object).get()))
+        return mesh(scene::meshOf(object), false).ok();
     const scene::Textures* textures = scene::texturesOf(object);
     if (!textures) return false;
     for (const scene::TextureUse* use :

@@ -62,8 +62,9 @@ public:
     Result<const Prisms*> prisms(const std::shared_ptr<const scene::DisplacedBase>& base);
     /// What a mesh that mesh() knows is drawn with, of whose images these are.
     Textured textured(const scene::Mesh& mesh, const scene::Textures& textures);
-    /// Takes one of an object's pictures that textured() needs to the GPU. @return false: all are there
-    bool takeTexture(const scene::Object& object);
+    /// Takes one part of what an object is drawn with to the GPU: its vertices, one of its pictures. @return
+    /// false: all are there, or it has no such parts
+    bool takePart(const scene::Object& object);
     /// A colour map or alpha: 1 channel becomes R32F, 3 become RGBA16F filtered.
     Result<graph::TextureHandle> image(const std::shared_ptr<const Image>& image);
     /// The maps of a painting, each uploaded once: one that changes is another image. Error (Fault::Machine)
