@@ -52,8 +52,6 @@ export class Reach {
   }
 }
 
-const kSoon = 4e6; // bytes of an answer below which its parts are not waited for one by one
-
 /** What is fetched for one scene: how far it is, of what servers have announced, and an end to it. */
 export class Fetching {
   #report;
@@ -71,15 +69,9 @@ export class Fetching {
     return fetch(url, { signal: this.#signal });
   }
   /** The bytes of an answer. */
-  async take(response) {
-    const { body, headers } = response;
+  async take({ body, headers }) {
     const length = Number(headers.get('content-length')); // of what is packed less than comes
     this.#announced += length;
-    if (0 < length && length < kSoon) {
-      const bytes = new Uint8Array(await response.arrayBuffer());
-      this.#count(length);
-      return bytes;
-    }
     const parts = [];
     let [size, came] = [0, 0];
     for (const reader = body.getReader(); ; ) {
