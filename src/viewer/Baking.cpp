@@ -34,10 +34,12 @@ Status Viewer::takeBake(const std::string& work, std::span<const std::byte> file
     State& s = *state_;
     if (!s.missingBake || s.missingBake->work != work)
         return Error{"bake " + work + ": is not awaited any more"};
-    const auto& [technique, key, scene, object] = *s.missingBake;
-    Status taken =
-        technique->baker->take(scene.technique.at(std::string(technique->name)), scene.objects[object], file);
-    if (!taken) return taken;
+    const scene::Scene& scene = s.missingBake->scene;
+    const technique::Baker& baker = *s.missingBake->technique->baker;
+    const Settings& settings = scene.technique.at(std::string(s.missingBake->technique->name));
+    for (const scene::Object& object : scene.objects) // there may be several of the same mesh and material
+        if (baker.takes(object) && baker.missing(settings, object) == work)
+            if (Status taken = baker.take(settings, object, file); !taken) return taken;
     s.stale = true;
     s.settled = false;
     s.dropSides();

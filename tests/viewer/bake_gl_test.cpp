@@ -86,6 +86,17 @@ TEST_F(BakedElsewhere, IsTheSameAsWorkedOutAtOnce) {
     EXPECT_EQ(window->read().pixels, brought.pixels);
 }
 
+TEST_F(BakedElsewhere, ServesAllObjectsOfTheSameMeshAndMaterial) {
+    nlohmann::json scene = nlohmann::json::parse(kBakedBlock);
+    scene["objects"].push_back(scene["objects"][0]);
+    scene["objects"][1]["name"] = "other";
+    scene["objects"][1]["transform"]["translate"] = {0.01, 0, 0};
+    load(scene.dump().c_str());
+    ASSERT_NE(work(), "");
+    bring();
+    EXPECT_EQ(work(), "");
+}
+
 TEST_F(BakedElsewhere, IsRefusedWhereItIsOfSomethingElse) {
     const std::string first = work();
     const Bytes file = baked();
