@@ -74,8 +74,8 @@ TEST(Load, SceneOfTheSpecificationIsRead) {
     EXPECT_EQ(scene->quality.maxError, 0.01f);
 }
 
-// With no time at all one file is decoded each time (heights and colours in three pieces), and each once, whoever
-// names it; the whole comes by itself.
+// With no time at all one file is decoded each time (heights and colours in three pieces), and each once,
+// whoever names it; the whole comes by itself.
 TEST(Load, GoesOnWhereItWasInterrupted) {
     Files files;
     files.put("h.pfm", test::smallHeights());
