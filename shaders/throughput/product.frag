@@ -1,8 +1,8 @@
 // throughput/product.frag: rows of a matrix of which most is 0, times a vector. A pixel is a row.
 //
 // in    uStarts   where each row starts among the entries, and the next one
-//       uEntries  column; bits of its factors of red, green and blue
-//       uVector   as many texels a row as it is wide
+//       uEntries  column's texel in the vector, y in the upper half; bits of its factors of red, green and blue
+//       uVector
 //       uSum      USE_SUM: a vector that is added
 // out   oSum.rgb
 #pragma variants - USE_SUM
@@ -20,18 +20,15 @@ layout(location = 0) out vec4 oSum;
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    int row = at.y * kVectorWidth + at.x;
+    int row = (at.y << kVectorBits) + at.x;
     if (row >= product.rows) discard;
-    int width = textureSize(uVector, 0).x;
-    int entriesWidth = textureSize(uEntries, 0).x;
-    int startsWidth = textureSize(uStarts, 0).x;
-    int first = int(texelFetch(uStarts, ivec2(row % startsWidth, row / startsWidth), 0).r);
-    int end = int(texelFetch(uStarts, ivec2((row + 1) % startsWidth, (row + 1) / startsWidth), 0).r);
+    int first = int(texelFetch(uStarts, inList(row), 0).r);
+    int end = int(texelFetch(uStarts, inList(row + 1), 0).r);
     vec3 sum = vec3(0.0);
     for (int k = first; k < end; ++k) {
-        uvec4 entry = texelFetch(uEntries, ivec2(k % entriesWidth, k / entriesWidth), 0);
-        int column = int(entry.x);
-        sum += uintBitsToFloat(entry.yzw) * texelFetch(uVector, ivec2(column % width, column / width), 0).rgb;
+        uvec4 entry = texelFetch(uEntries, inList(k), 0);
+        ivec2 column = ivec2(entry.x & 0xffffu, entry.x >> 16);
+        sum += uintBitsToFloat(entry.yzw) * texelFetch(uVector, column, 0).rgb;
     }
 #ifdef USE_SUM
     sum += texelFetch(uSum, at, 0).rgb;

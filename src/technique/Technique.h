@@ -38,8 +38,10 @@ struct Baker {
     /// What is to be worked out before the object is drawn, as text that tells it from other work; empty
     /// where it is there.
     std::string (*missing)(const Settings&, const scene::Object&);
-    /// Keeps what bake() made with the object and its copies. Error where it was made of something else.
-    Status (*take)(const Settings&, const scene::Object&, std::span<const std::byte> file);
+    /// Keeps what bake() made with objects that miss the same, and their copies. Error where it was made of
+    /// something else.
+    Status (*take)(const Settings&, std::span<const scene::Object* const> objects,
+                   std::span<const std::byte> file);
     /// Makes the object one that is drawn without.
     void (*leaveOut)(scene::Object&);
 };

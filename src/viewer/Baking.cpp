@@ -37,9 +37,10 @@ Status Viewer::takeBake(const std::string& work, std::span<const std::byte> file
     const scene::Scene& scene = s.missingBake->scene;
     const technique::Baker& baker = *s.missingBake->technique->baker;
     const Settings& settings = scene.technique.at(std::string(s.missingBake->technique->name));
-    for (const scene::Object& object : scene.objects) // there may be several of the same mesh and material
-        if (baker.takes(object) && baker.missing(settings, object) == work)
-            if (Status taken = baker.take(settings, object, file); !taken) return taken;
+    std::vector<const scene::Object*> objects; // there may be several of the same mesh and material
+    for (const scene::Object& object : scene.objects)
+        if (baker.takes(object) && baker.missing(settings, object) == work) objects.push_back(&object);
+    if (Status taken = baker.take(settings, objects, file); !taken) return taken;
     s.stale = true;
     s.settled = false;
     s.dropSides();

@@ -96,7 +96,7 @@ TEST(BakeFile, RefusesWhatIsNoBakeOrAnEarlierOne) {
     Bytes earlier = file.bytes;
     earlier[8] = std::byte(0);
     EXPECT_EQ(refusal(earlier, file.key),
-              "ball.bake: is a bake of version 0; must be of version 1: bake again");
+              "ball.bake: is a bake of version 0; must be of version 2: bake again");
     Bytes longer = file.bytes;
     longer.push_back(std::byte(0));
     EXPECT_EQ(refusal(longer, file.key), "ball.bake: has 1 bytes behind its bake; must end there");

@@ -221,7 +221,7 @@ TEST(Bake, InSlicesComesToTheSameAndTellsHowFarItIs) {
         ASSERT_TRUE(*made) << made->error().message;
         EXPECT_EQ((*made)->factors, whole.factors);
         EXPECT_EQ((*made)->filters, whole.filters);
-        EXPECT_EQ((*made)->evened, whole.evened);
+        EXPECT_EQ((*made)->reach, whole.reach);
         EXPECT_EQ((*made)->surface.duals.values, whole.surface.duals.values);
     }
 }

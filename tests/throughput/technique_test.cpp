@@ -210,6 +210,34 @@ TEST_F(Precomputed, LightOnABallIsPlacedAsTheExactDipoleHasIt) {
     }
 }
 
+// A small picture asks for what it shows, a large one for the whole atlas: every third pixel of it is the
+// same place.
+TEST_F(Precomputed, SmallPicturesShowWhatLargeOnesShow) {
+    const Image small = picture();
+    scene.size = {144, 144};
+    const Image large = picture();
+    float most = 0;
+    for (int y = 0; y < small.height; ++y)
+        for (int x = 0; x < small.width; ++x) {
+            const float *one = small.at(x, y), *same = large.at(3 * x + 1, 3 * y + 1);
+            if (one[3] == 0 || same[3] == 0) continue; // its edge is rounded either way
+            for (int c = 0; c < 3; ++c)
+                most = std::max(most, std::abs(one[c] - same[c]));
+        }
+    EXPECT_LT(most, 0.005f); // of 0.4: between texels the one has a kernel, the other a mean of four
+    EXPECT_GT(most, 0);
+}
+
+TEST_F(Precomputed, EqualObjectsShareABake) {
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects[1].name = "other";
+    scene.objects[1].kept = {};
+    scene.objects[1].transform.translate = {0.03f, 0, 0};
+    picture();
+    const auto bakeOfObject = [&](std::size_t i) { return *bakeOf(scene.objects[i], optionsOf(settings())); };
+    EXPECT_EQ(bakeOfObject(0), bakeOfObject(1));
+}
+
 TEST_F(Precomputed, ItsLightTurnsAndMovesWithIt) {
     const Image before = picture();
     scene.objects[0].transform.translate = {0.3f, -0.2f, 0.1f};

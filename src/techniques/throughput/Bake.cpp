@@ -35,29 +35,6 @@ std::vector<vec3> normalsOf(const Surface& surface) {
     return normals;
 }
 
-// Adds light that each texel gets of texels around, by the near part.
-template <class Irradiance>
-void addGathered(Stages& stages, double share, const Surface& surface, const Response& response, int radius,
-                 const Irradiance& irradiance, std::vector<vec3>& sums) {
-    struct Places {
-        std::vector<vec3> positions, normals;
-    };
-    const auto places = std::make_shared<const Places>(Places{positionsOf(surface), normalsOf(surface)});
-    sums.assign(surface.texels.list.size(), vec3(0));
-    stages.forEach(share, sums.size(), [=, &surface, &response, &sums](std::size_t to) {
-        const std::vector<Texel>& texels = surface.texels.list;
-        if (!texels[to].isShown) return;
-        for (int y = -radius; y <= radius; ++y)
-            for (int x = -radius; x <= radius; ++x) {
-                const int from = surface.texels.find(texels[to].at + ivec2(x, y));
-                if (from < 0) continue;
-                const auto at = std::size_t(from);
-                sums[to] += texels[at].area * irradiance(at) *
-                            response.near(places->positions[at], places->normals[at], places->positions[to]);
-            }
-    });
-}
-
 void addSums(Stages& stages, double share, const FactorRows& rows, std::size_t count,
              std::vector<vec3>& sums) {
     sums.assign(count, vec3(0));
@@ -123,15 +100,32 @@ Lit Bake::relight(std::span<const vec3> irradiance) const {
             lit.local[to] = filteredAt(to, irradiance);
         return lit;
     }
-    const Response response(medium, 2.0 * double(cut), double(cut));
-    Stages stages;
-    addGathered(
-        stages, 1, surface, response, radius, [irradiance](std::size_t i) { return irradiance[i]; },
-        lit.local);
-    (void)stages.finish(); // adding up does not fail
-    for (std::size_t to = 0; to < count; ++to)
-        lit.local[to] *= evened[to];
+    gather(irradiance, lit.local);
     return lit;
+}
+
+// Light that each texel gets of texels around, by the near part: shares of its reach.
+void Bake::gather(std::span<const vec3> irradiance, std::vector<vec3>& lit) const {
+    const Response response(medium, 2.0 * double(cut), double(cut));
+    const std::vector<vec3> positions = positionsOf(surface), normals = normalsOf(surface);
+    const std::vector<Texel>& texels = surface.texels.list;
+    Stages stages;
+    stages.forEach(1, texels.size(), [&](std::size_t to) {
+        if (!texels[to].isShown) return;
+        vec3 sum(0), weights(0);
+        for (int y = -radius; y <= radius; ++y)
+            for (int x = -radius; x <= radius; ++x) {
+                const int from = surface.texels.find(texels[to].at + ivec2(x, y));
+                if (from < 0) continue;
+                const auto at = std::size_t(from);
+                const vec3 weight =
+                    texels[at].area * response.near(positions[at], normals[at], positions[to]);
+                sum += weight * irradiance[at];
+                weights += weight;
+            }
+        lit[to] = reach[to] * sum / glm::max(weights, vec3(1e-30f));
+    });
+    (void)stages.finish(); // adding up does not fail
 }
 
 std::size_t Bake::bytes() const { return factors.bytes() + filters.bytes() + surface.duals.bytes(); }
@@ -198,21 +192,11 @@ struct BakeMaking::State {
         response.emplace(baked.medium, extent, double(baked.cut));
         rows.emplace(baked.surface.hats, *response, baked.options.factors);
         addFactors(stages, 0.7, *rows, baked.surface.hats, baked.options.factors, baked.factors);
-        stages.then([this]() -> Status {
-            addGathered(
-                stages, 0.1, baked.surface, *response, baked.radius, [](std::size_t) { return 1.0f; },
-                baked.evened);
-            stages.forEach(0.2, baked.evened.size(), [this](std::size_t i) { evenLive(i); });
-            return Done{};
+        const std::vector<Texel>& texels = baked.surface.texels.list;
+        baked.reach.assign(texels.size(), vec3(0));
+        stages.forEach(0.3, texels.size(), [this, &texels](std::size_t i) {
+            if (texels[i].isShown) baked.reach[i] = rows->nearAround(texels[i].place);
         });
-    }
-
-    void evenLive(std::size_t i) {
-        if (!baked.surface.texels.list[i].isShown) return;
-        vec3& found = baked.evened[i];
-        const vec3 wanted = rows->nearAround(baked.surface.texels.list[i].place);
-        for (int c = 0; c < 3; ++c)
-            found[c] = found[c] > 0 ? wanted[c] / found[c] : 1;
     }
 
     void layStored() {

@@ -38,12 +38,12 @@ struct Bake {
     Medium medium;
     Surface surface;
     Factors factors;
-    Filters filters;          ///< of Stored
-    float cut = 0;            ///< m, how far texels leave light around them; of Live
-    int radius = 0;           ///< texels, as far in the atlas
-    std::vector<vec3> evened; ///< of Live, for each texel: factor of what it gets of texels around, by which
-                              ///< it gets of even light what the near part's integral over the surface says,
-                              ///< however coarse texels are and whichever of them show the same place
+    Filters filters;         ///< of Stored
+    float cut = 0;           ///< m, how far texels leave light around them; of Live
+    int radius = 0;          ///< texels, as far in the atlas
+    std::vector<vec3> reach; ///< of Live, for each texel: integral of the near part over the surface, which
+                             ///< texels around share by their near parts: what leaves of even light is
+                             ///< right however coarse they are and whichever of them show the same place
 
     /// E_v: by the dual basis.
     std::vector<vec3> vertexIrradiance(std::span<const vec3> irradiance) const;
@@ -58,6 +58,9 @@ struct Bake {
     vec3 globalAt(std::size_t texel, std::span<const vec3> vertexRadiosity) const;
     /// What a texel gets of those around by its filter; of Stored.
     vec3 filteredAt(std::size_t texel, std::span<const vec3> irradiance) const;
+
+private:
+    void gather(std::span<const vec3> irradiance, std::vector<vec3>& lit) const;
 };
 
 /// Works one out in slices of time.

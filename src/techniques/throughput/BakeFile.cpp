@@ -14,7 +14,7 @@ namespace lucent::throughput {
 namespace {
 
 constexpr std::string_view kMagic = "LUCENTTP";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 static_assert(std::endian::native == std::endian::little, "bakes are written as they lie in memory");
 static_assert(sizeof(Texel) == 36 && sizeof(std::array<vec2, 3>) == 24, "nothing lies between members");
 
@@ -130,7 +130,7 @@ void bakeFields(File& file, Baked& bake) {
     rowFields(file, bake.filters.direct, "filters");
     file.value(bake.cut, "reach");
     file.value(bake.radius, "reach");
-    file.list(bake.evened, "reach");
+    file.list(bake.reach, "reach");
 }
 
 // Whether rows are so many and name nothing beyond what they are multiplied by.
@@ -181,7 +181,7 @@ bool isWhole(const Bake& bake) {
            isWhole(factors.outer, isHierarchical ? vertices : 0, moments) &&
            bake.filters.factors.size() == (isStored ? count * kFilter : 0) &&
            isWhole(bake.filters.direct, isStored ? vertices : 0, count) && bake.radius > 0 &&
-           bake.radius < 64 && bake.evened.size() == (isStored ? 0 : count);
+           bake.radius < 64 && bake.reach.size() == (isStored ? 0 : count);
 }
 
 // FNV-1a.

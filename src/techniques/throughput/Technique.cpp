@@ -113,12 +113,16 @@ std::string missing(const lucent::Settings& settings, const scene::Object& objec
     return textOf(keyOf(object, options, DipoleGeometry::Planar));
 }
 
-Status take(const lucent::Settings& settings, const scene::Object& object, std::span<const std::byte> file) {
+Status take(const lucent::Settings& settings, std::span<const scene::Object* const> objects,
+            std::span<const std::byte> file) {
     const BakeOptions options = optionsOf(settings.as<Settings>());
+    const scene::Object& first = *objects.front();
     Result<Bake> made =
-        decodeBake(file, "objects." + object.name, keyOf(object, options, DipoleGeometry::Planar));
+        decodeBake(file, "objects." + first.name, keyOf(first, options, DipoleGeometry::Planar));
     if (!made) return made.error();
-    keepBake(object, options, std::move(*made));
+    const auto shared = std::make_shared<const Bake>(std::move(*made));
+    for (const scene::Object* object : objects)
+        keepBake(*object, options, shared);
     return Done{};
 }
 

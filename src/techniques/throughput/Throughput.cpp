@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace lucent::throughput {
@@ -18,8 +19,9 @@ using graph::TextureId;
 
 namespace {
 
-constexpr int kVectorWidth = 256;    // shaders/throughput/vector.glsl
+constexpr int kVectorWidth = 256;    // these: shaders/throughput/vector.glsl
 constexpr int kTexelsInRow = 2048;   // of lists
+constexpr int kTexelsOfPixel = 4;    // are interpolated where a view shows an atlas
 constexpr int kMostTexels = 1 << 22; // of occlusion at once: 64 MiB
 
 vec2 octahedral(vec3 n) {
@@ -61,6 +63,24 @@ Rows<vec3> overAtlas(const Rows<Value>& rows, const Texels& texels) {
     return over;
 }
 
+// Whether a picture asks for less of an atlas than all of it.
+bool seesFew(const Bake& bake, ivec2 picture) {
+    const int side = bake.surface.texels.side;
+    return bake.options.local == Local::Live && kTexelsOfPixel * picture.x * picture.y <= side * side;
+}
+
+SpreadBlock spreadBlock(const Bake& bake, const Settings& settings) {
+    return {.radius = bake.radius,
+            .cut = bake.cut,
+            .local = settings.part == Part::Global ? 0.0f : 1.0f,
+            .global = settings.part == Part::Local ? 0.0f : 1.0f};
+}
+
+SeenBlock seenBlock(const Shown& in, const views::DrawnMesh& mesh) {
+    return {.clipFromBody = in.eye.clipFromWorld * worldFromBody(*mesh.object)};
+}
+int cornersOf(const BakeTextures& baked) { return 3 * int(baked.bake->surface.hats.triangles.size()); }
+
 Rows<vec3> rowsOfDense(const Factors& factors) {
     Rows<vec3> rows;
     for (std::size_t j = 0; j < factors.count; ++j) {
@@ -87,9 +107,10 @@ std::optional<std::string> need(const scene::Scene& scene) {
 namespace {
 
 using Made = std::shared_ptr<const Bake>;
-// By what it was made of, and the file that holds it.
-auto keptKey(const scene::Object& object, const BakeOptions& options) {
-    return std::pair(keyOf(object, options, DipoleGeometry::Planar), object.bake);
+// What it was made of, and the file that holds it.
+using MadeOf = std::pair<BakeKey, decltype(scene::Object::bake)>;
+MadeOf keptKey(const scene::Object& object, const BakeOptions& options) {
+    return {keyOf(object, options, DipoleGeometry::Planar), object.bake};
 }
 
 } // namespace
@@ -98,8 +119,8 @@ bool isBaked(const scene::Object& object, const BakeOptions& options) {
     return object.bake || object.kept.find<Made>(keptKey(object, options));
 }
 
-void keepBake(const scene::Object& object, const BakeOptions& options, Bake made) {
-    object.kept.keep(keptKey(object, options), Made(std::make_shared<const Bake>(std::move(made))));
+void keepBake(const scene::Object& object, const BakeOptions& options, std::shared_ptr<const Bake> made) {
+    object.kept.keep(keptKey(object, options), Made(std::move(made)));
 }
 
 Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const BakeOptions& options) {
@@ -123,7 +144,7 @@ graph::Texture Throughput::textureOf(const std::vector<vec4>& texels, ivec2 size
     return texture;
 }
 
-Result<Matrix> Throughput::matrixOf(const Rows<vec3>& rows, const char* label) {
+Result<Matrix> Throughput::matrixOf(const Rows<vec3>& rows, int width, const char* label) {
     const ivec2 size = listSize(rows.columns.size());
     if (size.y > context_.caps().maxTextureSize)
         return Error{std::string(label) + ": has " + std::to_string(rows.columns.size()) +
@@ -134,7 +155,9 @@ Result<Matrix> Throughput::matrixOf(const Rows<vec3>& rows, const char* label) {
     std::vector<Entry> entries(std::size_t(size.x) * std::size_t(size.y), Entry(0));
     for (std::size_t k = 0; k < rows.columns.size(); ++k) {
         const vec3& value = rows.values[k];
-        entries[k] = {rows.columns[k], glm::floatBitsToUint(value.r), glm::floatBitsToUint(value.g),
+        const std::uint32_t x = rows.columns[k] % std::uint32_t(width),
+                            y = rows.columns[k] / std::uint32_t(width);
+        entries[k] = {x | y << 16, glm::floatBitsToUint(value.r), glm::floatBitsToUint(value.g),
                       glm::floatBitsToUint(value.b)};
     }
     std::vector<std::uint32_t> starts = rows.starts;
@@ -148,15 +171,15 @@ Result<Matrix> Throughput::matrixOf(const Rows<vec3>& rows, const char* label) {
     return matrix;
 }
 
-Result<Body> Throughput::upload(std::shared_ptr<const Bake> bake) {
-    Body body;
-    body.bake = bake;
+Result<BakeTextures> Throughput::upload(std::shared_ptr<const Bake> bake) {
+    BakeTextures gpu;
+    gpu.bake = bake;
     const Surface& surface = bake->surface;
     const Hats& hats = surface.hats;
     const int side = surface.texels.side;
     const std::size_t count = std::size_t(side) * std::size_t(side);
-    std::vector<vec4> place(count, vec4(0)), frame(count, vec4(0)), corners(count, vec4(0)), evened;
-    if (!bake->evened.empty()) evened.assign(count, vec4(0));
+    std::vector<vec4> place(count, vec4(0)), frame(count, vec4(0)), corners(count, vec4(0)), reach;
+    if (!bake->reach.empty()) reach.assign(count, vec4(0));
     for (std::size_t t = 0; t < surface.texels.list.size(); ++t) {
         const Texel& texel = surface.texels.list[t];
         const std::size_t at = std::size_t(texel.at.y) * std::size_t(side) + std::size_t(texel.at.x);
@@ -165,19 +188,19 @@ Result<Body> Throughput::upload(std::shared_ptr<const Bake> bake) {
             vec4(octahedral(normalAt(hats, texel.place)), texel.place.weights.y, texel.place.weights.z);
         const auto& vertices = hats.triangles[texel.place.triangle];
         corners[at] = vec4(float(vertices[0]), float(vertices[1]), float(vertices[2]), float(texel.isShown));
-        if (!evened.empty()) evened[at] = vec4(bake->evened[t], 0);
+        if (!reach.empty()) reach[at] = vec4(bake->reach[t], float(texel.isShown));
     }
-    body.place = textureOf(place, ivec2(side), "throughput.place");
-    body.frame = textureOf(frame, ivec2(side), "throughput.frame");
-    body.corners = textureOf(corners, ivec2(side), "throughput.corners");
+    gpu.place = textureOf(place, ivec2(side), "throughput.place");
+    gpu.frame = textureOf(frame, ivec2(side), "throughput.frame");
+    gpu.corners = textureOf(corners, ivec2(side), "throughput.corners");
     std::vector<vec4> triangles, charts;
     for (std::size_t t = 0; t < hats.triangles.size(); ++t)
         for (std::size_t i = 0; i < 3; ++i) {
-            triangles.emplace_back(hats.positions[hats.triangles[t][i]], 0);
+            triangles.emplace_back(hats.positions[hats.triangles[t][i]], float(hats.triangles[t][i]));
             charts.emplace_back(surface.places[t][i], 0, 0);
         }
-    body.triangles = textureOf(triangles, listSize(triangles.size()), "throughput.triangles");
-    body.charts = textureOf(charts, listSize(charts.size()), "throughput.charts");
+    gpu.triangles = textureOf(triangles, listSize(triangles.size()), "throughput.triangles");
+    gpu.charts = textureOf(charts, listSize(charts.size()), "throughput.charts");
     if (bake->options.local == Local::Live) {
         constexpr int kNearEntries = 1024; // read at the nearest: off by 1e-3 where R_d is steepest
         const Response response(bake->medium, 2.0 * double(bake->cut), double(bake->cut));
@@ -186,13 +209,13 @@ Result<Body> Throughput::upload(std::shared_ptr<const Bake> bake) {
             const float u = float(i) / float(kNearEntries - 1);
             near.emplace_back(response.near(vec3(0), vec3(0, 0, 1), vec3(bake->cut * u * u, 0, 0)), 0);
         }
-        body.near = textureOf(near, {kNearEntries, 1}, "throughput.near");
-        body.evened = textureOf(evened, ivec2(side), "throughput.evened");
+        gpu.near = textureOf(near, {kNearEntries, 1}, "throughput.near");
+        gpu.reach = textureOf(reach, ivec2(side), "throughput.reach");
     } else {
         constexpr int kLayers = Filters::kWidth * Filters::kWidth;
-        body.filters = graph::Texture(context_.device(),
-                                      {.size = ivec2(side), .format = Format::RGBA16F, .layers = kLayers},
-                                      "throughput.filters");
+        gpu.filters = graph::Texture(context_.device(),
+                                     {.size = ivec2(side), .format = Format::RGBA16F, .layers = kLayers},
+                                     "throughput.filters");
         for (int layer = 0; layer < kLayers; ++layer) {
             std::vector<std::uint64_t> halves(count, 0);
             for (std::size_t t = 0; t < surface.texels.list.size(); ++t) {
@@ -200,55 +223,80 @@ Result<Body> Throughput::upload(std::shared_ptr<const Bake> bake) {
                 halves[std::size_t(at.y) * std::size_t(side) + std::size_t(at.x)] = glm::packHalf4x16(
                     vec4(bake->filters.factors[t * std::size_t(kLayers) + std::size_t(layer)], 0));
             }
-            context_.device().upload(body.filters.handle(), 0, layer, halves);
+            context_.device().upload(gpu.filters.handle(), 0, layer, halves);
         }
     }
     const Factors& factors = bake->factors;
     Rows<vec3> direct;
     if (bake->options.local == Local::Stored) direct = overAtlas(bake->filters.direct, surface.texels);
-    const std::tuple<Matrix*, Rows<vec3>, const char*> matrices[] = {
-        {&body.duals, overAtlas(surface.duals, surface.texels), "throughput.duals"},
-        {&body.close, factors.method == Global::Dense ? rowsOfDense(factors) : factors.close,
+    const std::tuple<Matrix*, Rows<vec3>, int, const char*> matrices[] = {
+        {&gpu.duals, overAtlas(surface.duals, surface.texels), side, "throughput.duals"},
+        {&gpu.close, factors.method == Global::Dense ? rowsOfDense(factors) : factors.close, kVectorWidth,
          "throughput.close"},
-        {&body.inner, factors.inner, "throughput.inner"},
-        {&body.outer, factors.outer, "throughput.outer"},
-        {&body.direct, direct, "throughput.direct"}};
-    for (const auto& [matrix, rows, label] : matrices) {
+        {&gpu.inner, factors.inner, kVectorWidth, "throughput.inner"},
+        {&gpu.outer, factors.outer, kVectorWidth, "throughput.outer"},
+        {&gpu.direct, direct, side, "throughput.direct"}};
+    for (const auto& [matrix, rows, width, label] : matrices) {
         if (rows.count() == 0) continue;
-        Result<Matrix> made = matrixOf(rows, label);
+        Result<Matrix> made = matrixOf(rows, width, label);
         if (!made) return made.error();
         *matrix = std::move(*made);
     }
-    for (graph::Texture& entered : body.entered)
-        entered = graph::Texture(context_.device(), {.size = ivec2(side), .format = Format::RGBA32F},
-                                 "throughput.entered");
-    return body;
+    return gpu;
+}
+
+// Of objects that are made of the same, one is worked out.
+Result<Made> bakeOnce(const scene::Object& object, const BakeOptions& options,
+                      std::vector<std::pair<MadeOf, Made>>& known) {
+    const MadeOf key = keptKey(object, options);
+    const auto same =
+        std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.first == key; });
+    if (same != known.end()) {
+        if (!object.kept.find<Made>(key)) object.kept.keep(key, same->second);
+        return same->second;
+    }
+    Result<Made> made = bakeOf(object, options);
+    if (made) known.emplace_back(key, *made);
+    return made;
 }
 
 Status Throughput::prepare(const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
     std::map<int, Body> before = std::exchange(bodies_, {});
+    std::vector<std::pair<MadeOf, Made>> known;
     for (const views::DrawnMesh& mesh : meshes) {
-        Result<std::shared_ptr<const Bake>> bake = bakeOf(*mesh.object, optionsOf(settings));
+        const Result<Made> bake = bakeOnce(*mesh.object, optionsOf(settings), known);
         if (!bake) return bake.error();
-        const auto known = before.find(mesh.index);
-        if (known != before.end() && known->second.bake == *bake) {
-            bodies_.emplace(mesh.index, std::move(known->second));
-            continue;
-        }
-        Result<Body> body = upload(*bake);
-        if (!body)
-            return Error{"objects." + mesh.object->name + ": " + body.error().message, body.error().fault};
-        bodies_.emplace(mesh.index, std::move(*body));
+        Body& body = bodies_[mesh.index];
+        if (const auto own = before.find(mesh.index); own != before.end()) body = std::move(own->second);
+        if (body.baked && body.baked->bake == *bake) continue;
+        Result<std::shared_ptr<const BakeTextures>> baked = texturesOf(*bake, before);
+        if (!baked)
+            return Error{"objects." + mesh.object->name + ": " + baked.error().message, baked.error().fault};
+        body.baked = std::move(*baked);
+        for (graph::Texture& entered : body.entered)
+            entered = graph::Texture(context_.device(),
+                                     {.size = ivec2((*bake)->surface.texels.side), .format = Format::RGBA32F},
+                                     "throughput.entered");
     }
     return Done{};
+}
+
+Result<std::shared_ptr<const BakeTextures>> Throughput::texturesOf(const std::shared_ptr<const Bake>& bake,
+                                                                   const std::map<int, Body>& before) {
+    for (const std::map<int, Body>* bodies : {&before, &std::as_const(bodies_)})
+        for (const auto& [index, body] : *bodies)
+            if (body.baked && body.baked->bake == bake) return body.baked;
+    Result<BakeTextures> made = upload(bake);
+    if (!made) return made.error();
+    return std::make_shared<const BakeTextures>(std::move(*made));
 }
 
 // --- light
 
 Status Throughput::addTo(graph::FrameGraph& graph, const Arriving& in, const views::DrawnMesh& mesh,
                          Body& body, const Settings& settings) {
-    const ivec2 size = body.place.desc().size;
-    const TextureId place = import(graph, body.place), frame = import(graph, body.frame);
+    const ivec2 size = body.baked->place.desc().size;
+    const TextureId place = import(graph, body.baked->place), frame = import(graph, body.baked->frame);
     TextureId surface, places;
     const gl::Program* placing = context_.program("throughput/place");
     graph.addPass("throughput.place", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -270,7 +318,7 @@ Status Throughput::addTo(graph::FrameGraph& graph, const Arriving& in, const vie
                               .size = size,
                               .surface = surface,
                               .places = places,
-                              .extent = body.bake->surface.texels.size};
+                              .extent = body.baked->bake->surface.texels.size};
     const Result<TextureId> flux = in.first == 0 && in.fluxOn ? in.fluxOn(view) : TextureId{};
     if (!flux) return flux.error();
     const int most =
@@ -401,37 +449,42 @@ TextureId Throughput::multiply(graph::FrameGraph& graph, const Matrix& matrix, T
     return product;
 }
 
-TextureId Throughput::spread(graph::FrameGraph& graph, Body& body, const Settings& settings) {
+// What leaves at the vertices of light that entered far away.
+TextureId Throughput::carried(graph::FrameGraph& graph, const Body& body) {
     const TextureId entered = import(graph, body.entered[body.now]);
-    const TextureId lit = multiply(graph, body.duals, entered, {}, "irradiance of the vertices");
-    TextureId vertices = multiply(graph, body.close, lit, {}, "what vertices leave at each other");
-    if (body.inner.rows > 0) {
-        const TextureId moments = multiply(graph, body.inner, lit, {}, "sums over vertices for far ones");
-        vertices = multiply(graph, body.outer, moments, vertices, "what they leave there");
+    const TextureId lit = multiply(graph, body.baked->duals, entered, {}, "irradiance of the vertices");
+    TextureId vertices = multiply(graph, body.baked->close, lit, {}, "what vertices leave at each other");
+    if (body.baked->inner.rows > 0) {
+        const TextureId moments =
+            multiply(graph, body.baked->inner, lit, {}, "sums over vertices for far ones");
+        vertices = multiply(graph, body.baked->outer, moments, vertices, "what they leave there");
     }
-    if (body.direct.rows > 0)
-        vertices = multiply(graph, body.direct, entered, vertices, "what texels leave at their vertices");
-    const bool isLive = body.bake->options.local == Local::Live;
+    if (body.baked->direct.rows > 0)
+        vertices =
+            multiply(graph, body.baked->direct, entered, vertices, "what texels leave at their vertices");
+    return vertices;
+}
+
+TextureId Throughput::spread(graph::FrameGraph& graph, const Body& body, const Settings& settings) {
+    const TextureId vertices = carried(graph, body), entered = import(graph, body.entered[body.now]);
+    const bool isLive = body.baked->bake->options.local == Local::Live;
     const gl::Program* program = context_.program("throughput/spread", {isLive ? "LIVE" : "STORED"});
-    const TextureId place = import(graph, body.place), frame = import(graph, body.frame),
-                    corners = import(graph, body.corners);
-    TextureId near, evened, filters, leaving;
+    const TextureId place = import(graph, body.baked->place), frame = import(graph, body.baked->frame),
+                    corners = import(graph, body.baked->corners);
+    TextureId near, reach, filters, leaving;
     if (isLive) {
-        near = import(graph, body.near);
-        evened = import(graph, body.evened);
+        near = import(graph, body.baked->near);
+        reach = import(graph, body.baked->reach);
     } else {
-        filters = import(graph, body.filters);
+        filters = import(graph, body.baked->filters);
     }
-    const SpreadBlock block{.radius = body.bake->radius,
-                            .cut = body.bake->cut,
-                            .local = settings.part == Part::Global ? 0.0f : 1.0f,
-                            .global = settings.part == Part::Local ? 0.0f : 1.0f};
+    const SpreadBlock block = spreadBlock(*body.baked->bake, settings);
     graph.addPass("throughput.spread", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("what leaves at the texels: of close light and of far");
-        for (const TextureId id : {entered, vertices, place, frame, corners, near, evened, filters})
+        for (const TextureId id : {entered, vertices, place, frame, corners, near, reach, filters})
             if (id) pass.sample(id);
         leaving = pass.createColor("throughput.leaving",
-                                   {.size = body.place.desc().size, .format = Format::RGBA32F});
+                                   {.size = body.baked->place.desc().size, .format = Format::RGBA32F});
         pass.clear(leaving, vec4(0));
         return [=](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uEntered", resources[entered]},
@@ -439,9 +492,9 @@ TextureId Throughput::spread(graph::FrameGraph& graph, Body& body, const Setting
                                                  {"uCorners", resources[corners]},
                                                  {"uVertices", resources[vertices]}};
             if (near)
-                textures.insert(textures.end(), {{"uPlace", resources[place]},
-                                                 {"uNear", resources[near]},
-                                                 {"uEvened", resources[evened]}});
+                textures.insert(
+                    textures.end(),
+                    {{"uPlace", resources[place]}, {"uNear", resources[near]}, {"uReach", resources[reach]}});
             if (filters) textures.push_back({"uFilters", resources[filters]});
             commands.draw({.program = program, .block = block, .textures = textures});
         };
@@ -449,8 +502,61 @@ TextureId Throughput::spread(graph::FrameGraph& graph, Body& body, const Setting
     return leaving;
 }
 
+// What leaves only where a view shows the body: kernels of few pixels in place of those of all texels.
+TextureId Throughput::spreadSeen(graph::FrameGraph& graph, const Shown& in, const views::DrawnMesh& mesh,
+                                 const Body& body, const Settings& settings) {
+    const BakeTextures& baked = *body.baked;
+    const TextureId vertices = carried(graph, body), entered = import(graph, body.entered[body.now]);
+    const TextureId triangles = import(graph, baked.triangles), charts = import(graph, baked.charts);
+    const TextureId place = import(graph, baked.place), near = import(graph, baked.near),
+                    reach = import(graph, baked.reach);
+    const gl::Program *seeing = context_.program("throughput/seen", {"PLACES"}),
+                      *spreading = context_.program("throughput/spread_seen");
+    TextureId position, far, at, leaving;
+    graph.addPass("throughput.seen", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("the places of object \"" + mesh.object->name + "\" that the camera sees");
+        for (const TextureId id : {vertices, triangles, charts})
+            pass.sample(id);
+        for (TextureId* color : {&position, &far, &at}) {
+            *color = pass.createColor("throughput.seen", {.size = in.size, .format = Format::RGBA32F});
+            pass.clear(*color, vec4(0));
+        }
+        pass.clear(pass.createDepth("throughput.depth", in.size), 1.0f);
+        return [=, block = seenBlock(in, mesh), corners = cornersOf(baked)](const graph::Resources& resources,
+                                                                            graph::Commands& commands) {
+            commands.draw({.program = seeing,
+                           .vertices = corners,
+                           .depthTest = graph::DepthTest::Less,
+                           .block = block,
+                           .textures = {{"uTriangles", resources[triangles]},
+                                        {"uCharts", resources[charts]},
+                                        {"uVertices", resources[vertices]}}});
+        };
+    });
+    graph.addPass("throughput.spread", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what leaves there: of close light and of far");
+        for (const TextureId id : {entered, place, near, reach, position, far, at})
+            pass.sample(id);
+        leaving = pass.createColor("throughput.leaving", {.size = in.size, .format = Format::RGBA32F});
+        pass.clear(leaving, vec4(0));
+        return [=, block = spreadBlock(*baked.bake, settings)](const graph::Resources& resources,
+                                                               graph::Commands& commands) {
+            commands.draw({.program = spreading,
+                           .block = block,
+                           .textures = {{"uEntered", resources[entered]},
+                                        {"uPlace", resources[place]},
+                                        {"uNear", resources[near]},
+                                        {"uReach", resources[reach]},
+                                        {"uPosition", resources[position]},
+                                        {"uFar", resources[far]},
+                                        {"uAt", resources[at]}}});
+        };
+    });
+    return leaving;
+}
+
 // What is shown of a body's light, in its atlas.
-TextureId Throughput::lightOf(graph::FrameGraph& graph, Body& body, bool isIrradiance,
+TextureId Throughput::lightOf(graph::FrameGraph& graph, const Body& body, bool isIrradiance,
                               const Settings& settings) {
     if (isIrradiance || settings.part == Part::Illumination) return import(graph, body.entered[body.now]);
     return spread(graph, body, settings);
@@ -484,11 +590,38 @@ void Throughput::recordAtlases(graph::FrameGraph& graph, ivec2 size, TextureId t
     });
 }
 
+// An image of the atlas as a view shows it.
+TextureId Throughput::seen(graph::FrameGraph& graph, const Shown& in, const views::DrawnMesh& mesh,
+                           const Body& body, TextureId image) {
+    const gl::Program* program = context_.program("throughput/seen");
+    const TextureId triangles = import(graph, body.baked->triangles),
+                    charts = import(graph, body.baked->charts);
+    TextureId seen;
+    graph.addPass("throughput.seen", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("the atlas of object \"" + mesh.object->name + "\" as the camera sees it");
+        for (const TextureId id : {image, triangles, charts})
+            pass.sample(id);
+        seen = pass.createColor("throughput.seen", {.size = in.size, .format = Format::RGBA32F});
+        pass.clear(seen, vec4(0));
+        pass.clear(pass.createDepth("throughput.depth", in.size), 1.0f);
+        return [=, block = seenBlock(in, mesh), corners = cornersOf(*body.baked)](
+                   const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program,
+                           .vertices = corners,
+                           .depthTest = graph::DepthTest::Less,
+                           .block = block,
+                           .textures = {{"uTriangles", resources[triangles]},
+                                        {"uCharts", resources[charts]},
+                                        {"uLeaving", resources[image]}}});
+        };
+    });
+    return seen;
+}
+
 Status Throughput::record(graph::FrameGraph& graph, const Shown& in,
                           const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
     const bool isIrradiance = in.scene.view.show == scene::Aov::Irradiance;
     const bool isColor = in.scene.view.show == scene::Aov::Color;
-    const gl::Program* seeing = context_.program("throughput/seen");
     const TextureId mirrored = isColor && mirrors_ ? import(graph, mirrored_[mirroredNow_]) : TextureId{};
     const bool hasSky = isColor && in.environment != graph::TextureHandle::None;
     std::vector<std::string> defines;
@@ -505,29 +638,11 @@ Status Throughput::record(graph::FrameGraph& graph, const Shown& in,
     for (const views::DrawnMesh& mesh : meshes) {
         const auto found = bodies_.find(mesh.index);
         if (found == bodies_.end()) continue;
-        Body& body = found->second;
-        const TextureId leaving = lightOf(graph, body, isIrradiance, settings);
-        const TextureId triangles = import(graph, body.triangles), charts = import(graph, body.charts);
-        const int corners = 3 * int(body.bake->surface.hats.triangles.size());
-        TextureId seen;
-        graph.addPass("throughput.seen", [&](graph::PassBuilder& pass) -> graph::Execute {
-            pass.reason("the atlas of object \"" + mesh.object->name + "\" as the camera sees it");
-            for (const TextureId id : {leaving, triangles, charts})
-                pass.sample(id);
-            seen = pass.createColor("throughput.seen", {.size = in.size, .format = Format::RGBA32F});
-            pass.clear(seen, vec4(0));
-            pass.clear(pass.createDepth("throughput.depth", in.size), 1.0f);
-            const SeenBlock block{.clipFromBody = in.eye.clipFromWorld * worldFromBody(*mesh.object)};
-            return [=](const graph::Resources& resources, graph::Commands& commands) {
-                commands.draw({.program = seeing,
-                               .vertices = corners,
-                               .depthTest = graph::DepthTest::Less,
-                               .block = block,
-                               .textures = {{"uTriangles", resources[triangles]},
-                                            {"uCharts", resources[charts]},
-                                            {"uLeaving", resources[leaving]}}});
-            };
-        });
+        const Body& body = found->second;
+        const TextureId shown =
+            !isEntering && seesFew(*body.baked->bake, in.size)
+                ? spreadSeen(graph, in, mesh, body, settings)
+                : seen(graph, in, mesh, body, lightOf(graph, body, isIrradiance, settings));
         const float ior = mesh.object->material.translucent().surfaceIor();
         ThroughputShadeBlock block{.view = views::viewBlock(in.eye, in.size),
                                    .ior = ior,
@@ -546,14 +661,14 @@ Status Throughput::record(graph::FrameGraph& graph, const Shown& in,
             pass.reason("what object \"" + mesh.object->name + "\" sends to the eye" +
                         (hasSky ? "; it mirrors the environment past everything" : ""));
             pass.sample(in.surface);
-            pass.sample(seen);
+            pass.sample(shown);
             if (mirrored) pass.sample(mirrored);
             if (isPainted) pass.sample(*paint);
             pass.write(in.target);
             return [=, surface = in.surface, environment = in.environment,
                     paint = *paint](const graph::Resources& resources, graph::Commands& commands) {
                 std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
-                                                     {"uSeen", resources[seen]}};
+                                                     {"uSeen", resources[shown]}};
                 if (isPainted) textures.push_back({"uPaint", resources[paint]});
                 if (mirrored) textures.push_back({"uMirrored", resources[mirrored]});
                 if (hasSky) textures.push_back({"uEnvironment", environment});
@@ -571,12 +686,19 @@ std::map<std::string, std::size_t> Throughput::bytes() const {
     };
     for (const graph::Texture& texture : mirrored_)
         add(texture);
+    std::set<const BakeTextures*> bakes;
     for (const auto& [index, body] : bodies_) {
+        add(body.entered[0]);
+        add(body.entered[1]);
+        bakes.insert(body.baked.get());
+    }
+    for (const BakeTextures* baked : bakes) {
         for (const graph::Texture* texture :
-             {&body.place, &body.frame, &body.corners, &body.triangles, &body.charts, &body.near,
-              &body.evened, &body.filters, &body.entered[0], &body.entered[1]})
+             {&baked->place, &baked->frame, &baked->corners, &baked->triangles, &baked->charts, &baked->near,
+              &baked->reach, &baked->filters})
             add(*texture);
-        for (const Matrix* matrix : {&body.duals, &body.close, &body.inner, &body.outer, &body.direct}) {
+        for (const Matrix* matrix :
+             {&baked->duals, &baked->close, &baked->inner, &baked->outer, &baked->direct}) {
             add(matrix->starts);
             add(matrix->entries);
         }

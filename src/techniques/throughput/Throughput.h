@@ -50,7 +50,7 @@ Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const Ba
 /// Whether bakeOf() has nothing to work out.
 bool isBaked(const scene::Object& object, const BakeOptions& options);
 /// Keeps a bake with an object and its copies, as bakeOf() finds it.
-void keepBake(const scene::Object& object, const BakeOptions& options, Bake made);
+void keepBake(const scene::Object& object, const BakeOptions& options, std::shared_ptr<const Bake> made);
 
 /// A sparse matrix on the GPU.
 struct Matrix {
@@ -58,13 +58,18 @@ struct Matrix {
     int rows = 0;
 };
 
-/// A bake on the GPU, and the light of its object.
-struct Body {
+/// A bake on the GPU.
+struct BakeTextures {
     std::shared_ptr<const Bake> bake;
     graph::Texture place, frame, corners; ///< of the atlas: shaders/throughput
     graph::Texture triangles, charts;
-    graph::Texture near, evened, filters;
+    graph::Texture near, reach, filters;
     Matrix duals, close, inner, outer, direct;
+};
+
+/// The light of an object, whose bake others may have too.
+struct Body {
+    std::shared_ptr<const BakeTextures> baked;
     graph::Texture entered[2]; ///< sum of light samples, and the one before it, in turns
     int now = 0;
 };
@@ -119,16 +124,25 @@ public:
     }
 
 private:
-    Result<Body> upload(std::shared_ptr<const Bake> bake);
-    Result<Matrix> matrixOf(const Rows<vec3>& rows, const char* label);
+    /// Those of a body that there was, or new ones.
+    Result<std::shared_ptr<const BakeTextures>> texturesOf(const std::shared_ptr<const Bake>& bake,
+                                                           const std::map<int, Body>& before);
+    Result<BakeTextures> upload(std::shared_ptr<const Bake> bake);
+    /// @param width  texels a row of the vector that it is multiplied with
+    Result<Matrix> matrixOf(const Rows<vec3>& rows, int width, const char* label);
     graph::Texture textureOf(const std::vector<vec4>& texels, ivec2 size, const char* label);
     Status addTo(graph::FrameGraph& graph, const Arriving& in, const views::DrawnMesh& mesh, Body& body,
                  const Settings& settings);
     void mirror(graph::FrameGraph& graph, const Arriving& in, const std::vector<views::DrawnMesh>& meshes);
     graph::TextureId multiply(graph::FrameGraph& graph, const Matrix& matrix, graph::TextureId vector,
                               graph::TextureId sum, const char* reason);
-    graph::TextureId spread(graph::FrameGraph& graph, Body& body, const Settings& settings);
-    graph::TextureId lightOf(graph::FrameGraph& graph, Body& body, bool isIrradiance,
+    graph::TextureId carried(graph::FrameGraph& graph, const Body& body);
+    graph::TextureId spread(graph::FrameGraph& graph, const Body& body, const Settings& settings);
+    graph::TextureId spreadSeen(graph::FrameGraph& graph, const Shown& in, const views::DrawnMesh& mesh,
+                                const Body& body, const Settings& settings);
+    graph::TextureId seen(graph::FrameGraph& graph, const Shown& in, const views::DrawnMesh& mesh,
+                          const Body& body, graph::TextureId image);
+    graph::TextureId lightOf(graph::FrameGraph& graph, const Body& body, bool isIrradiance,
                              const Settings& settings);
 
     gl::Context& context_;
