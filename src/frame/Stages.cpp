@@ -267,7 +267,7 @@ Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
             const Result<views::Drawable::Ptr> one = views::drawableOf(scene, taken++, images, &waters);
             if (!one) return one.error();
         }
-        if (now() - begins > kSliceMs) return false;
+        if (now() - begins > 0.25 * kSliceMs) return false; // a part of the next may take longer than a slice
     }
     return true;
 }

@@ -256,12 +256,20 @@ public:
     // Works until every triangle has a place; Error when there is no room. @return whether all have one
     Result<bool> advance() {
         if (!grows()) return false;
-        if (Status packed = pack(); !packed) return packed.error();
-        const std::vector<std::size_t> hidden = hiddenTriangles();
-        for (const std::size_t t : hidden)
+        if (!isPacked_) {
+            if (Status packed = pack(); !packed) return packed.error();
+            covered_.assign(std::size_t(side_) * std::size_t(side_), false);
+            hidden_.clear();
+            covering_ = 0;
+            isPacked_ = true;
+            return false;
+        }
+        if (!covers()) return false;
+        for (const std::size_t t : hidden_)
             chartOf_[t] = kNone;
         seed_ = 0; // more charts each time: it ends when every triangle is one, at the latest
-        return hidden.empty();
+        isPacked_ = false;
+        return hidden_.empty();
     }
 
     double scale() const { return scale_; }
@@ -327,7 +335,6 @@ private:
 
     // Puts triangles that are in no chart into new ones. @return whether all are in one
     bool grows() {
-        constexpr std::size_t kPieces = 8;
         for (std::size_t taken = 0; seed_ < count_ && taken <= count_ / kPieces; ++seed_)
             if (chartOf_[seed_] == kNone && normals_[seed_] != dvec3(0)) taken += growFrom(seed_);
         if (seed_ < count_) return false;
@@ -473,25 +480,28 @@ private:
         return true;
     }
 
-    // Those that cover the middle of a texel whose middle another one covers.
-    std::vector<std::size_t> hiddenTriangles() const {
-        std::vector<bool> covered(std::size_t(side_) * std::size_t(side_));
-        std::vector<std::size_t> hidden;
-        for (std::size_t t = 0; t < count_; ++t) {
+    // Finds some of those that cover the middle of a texel whose middle another one covers. @return whether
+    // all are found
+    bool covers() {
+        const std::size_t end = std::min(count_, covering_ + count_ / kPieces + 1);
+        for (std::size_t t = covering_; t < end; ++t) {
             Corners corners;
             for (std::size_t i = 0; i < 3; ++i)
                 corners[i] = dvec2(placeOf(corner(t, i), chartOf_[t]));
             const auto index = [&](std::int64_t x, std::int64_t y) { return std::size_t(y * side_ + x); };
-            const bool free =
-                forEachMiddle(corners, [&](std::int64_t x, std::int64_t y) { return !covered[index(x, y)]; });
+            const bool free = forEachMiddle(
+                corners, [&](std::int64_t x, std::int64_t y) { return !covered_[index(x, y)]; });
             if (!free)
-                hidden.push_back(t);
+                hidden_.push_back(t);
             else
                 forEachMiddle(corners,
-                              [&](std::int64_t x, std::int64_t y) { return covered[index(x, y)] = true; });
+                              [&](std::int64_t x, std::int64_t y) { return covered_[index(x, y)] = true; });
         }
-        return hidden;
+        covering_ = end;
+        return covering_ == count_;
     }
+
+    static constexpr std::size_t kPieces = 8; // of what is done triangle by triangle
 
     const Mesh& mesh_;
     Charting charting_;
@@ -506,6 +516,10 @@ private:
     std::vector<Chart> charts_;
     std::vector<ivec2> offsets_; // of the boxes with their borders
     double scale_ = 0;           // texels a metre
+    bool isPacked_ = false;      // these are there, for the charts that there are
+    std::vector<bool> covered_;  // texels whose middle a triangle covers
+    std::size_t covering_ = 0;   // the next triangle
+    std::vector<std::size_t> hidden_;
 };
 
 // Grows the lists of a mesh by copies of vertices.

@@ -166,19 +166,22 @@ PaintSurfaceMaking::PaintSurfaceMaking(std::shared_ptr<const Atlas> atlas)
 }
 
 std::optional<PaintSurfaceMaking::Made> PaintSurfaceMaking::advance() {
-    constexpr std::size_t kPieces = 8; // of either part
+    constexpr std::size_t kPieces = 16; // of either part
     const std::size_t count = atlas_->mesh->indices.size() / 3;
     if (triangle_ < count) {
         for (std::size_t end = std::min(count, triangle_ + count / kPieces + 1); triangle_ < end; ++triangle_)
             takeNearer(*atlas_, std::uint32_t(triangle_), triangles_, distances_);
         return {};
     }
-    if (texel_ == triangles_.size()) return surface_;
+    if (texel_ == triangles_.size()) {
+        if (!surface_->starts_.empty()) return surface_;
+        surface_->sort();
+        return {};
+    }
     const std::size_t end = std::min(triangles_.size(), texel_ + triangles_.size() / kPieces + 1);
     for (; texel_ < end; ++texel_)
         if (triangles_[texel_] != kNone)
             surface_->texels_.push_back(texelOf(*atlas_, triangles_[texel_], std::uint32_t(texel_)));
-    if (texel_ == triangles_.size()) surface_->sort();
     return {};
 }
 

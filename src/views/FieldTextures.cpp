@@ -219,6 +219,9 @@ bool ImageCache::takePart(const scene::Object& object) {
     const bool isMesh = !object.isField() && !object.isDisplaced() && !isPainted(object); // of its own
     if (isMesh && !meshes_.contains(scene::meshOf(object).get()))
         return mesh(scene::meshOf(object), false).ok();
+    if (isPainted(object))
+        for (const auto& map : {object.painting->entering, object.painting->leaving})
+            if (!paints_.contains(map.get())) return paintMap(map).ok();
     const scene::Textures* textures = scene::texturesOf(object);
     if (!textures) return false;
     for (const scene::TextureUse* use :
