@@ -29,6 +29,8 @@ const int kLost = 3;    // it takes too many steps
 const int kMostSteps = 4096;
 const int kCoarsest = 3;
 const float kBeside = 0.7; // pixels from a plane, within which its surface may be met
+const float kSolidDepth = 8.0; // widths of a pixel that an opaque surface goes deeper in it: the plane of an outline's
+                               // pixel would reach as far back as anybody looks
 const int kMostEmpty = 3;  // pixels that show nothing, after which a ray inside of something must have left it
 
 struct Ray {
@@ -199,7 +201,9 @@ float meetSolid(View view, Ray ray, ivec2 pixel) {
     vec3 n = fromOctahedral(solid.yz);
     float slope = dot(ray.direction, n);
     if (solid.a == 0.0 || slope >= 0.0) return -1.0;
-    return dot(placeFrom(view, vec2(pixel) + 0.5, solid.x) - ray.origin, n) / slope;
+    float t = dot(placeFrom(view, vec2(pixel) + 0.5, solid.x) - ray.origin, n) / slope;
+    float width = length(view.right.xyz) * (view.eye.w > 0.5 ? solid.x : 1.0);
+    return abs(ray.from.z + t * ray.along.z - solid.x) > kSolidDepth * width ? -1.0 : t;
 }
 #endif
 

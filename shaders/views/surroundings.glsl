@@ -220,12 +220,15 @@ Met meetAround(int cube, vec3 origin, vec3 direction) {
         }
         if (met >= 0.0) break;
         if (!isBefore) {
-            float t = planeAlong(beside, origin, direction);
             bool isKnown = isBeforeHidden && hidden.solid.w > 0.0;
-            if (!isKnown && t >= max(from, least) && t <= to) {
+            bool isPassed = isKnown && next.solid.w == 0.0; // what hides it is narrower than a look
+            Glance plane = beside;
+            if (isPassed) plane = hidden;
+            float t = planeAlong(plane, origin, direction);
+            if ((!isKnown || isPassed) && t >= max(from, least) && t <= to) {
                 met = t;
-                found = beside;
-                isBeside = true;
+                found = plane;
+                isBeside = !isPassed;
             }
             hidden = next;
         }
