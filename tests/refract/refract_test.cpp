@@ -73,6 +73,35 @@ TEST_F(Refraction, ASlabShiftsWhatLiesBehindIt) {
         }
 }
 
+TEST_F(Refraction, WhatStandsInGlassEndsAtItsOutline) {
+    // Below a face at 40 degrees rays go on at an angle to the view, past a ball and what it hides of the
+    // wall.
+    scene::Scene scene = seenStraight(1.0f, {glass(scene::Box{{2, 2, 2}}, 1.5f, {2, 2, 3}),
+                                             matt(scene::Plane{{3, 3}}, {2, 2, 2}),
+                                             matt(scene::Sphere{0.12f}, {1.7f, 2, 2.4f})});
+    scene.camera.eye = {2, 2, 5};
+    scene.camera.target = {2, 2, 0};
+    scene.objects[0].material.clear().fresnel = false;
+    scene.objects[0].transform.rotate = {0, 40, 0};
+    scene.objects[1].transform.rotate = {90, 0, 0};
+    const Image found = trace(scene, kSize, scene::Aov::Color);
+    const dvec3 normal(std::sin(glm::radians(40.0)), 0, std::cos(glm::radians(40.0)));
+    const dvec3 inside = glm::refract(dvec3(0, 0, -1), normal, 1 / 1.5);
+    const double pixel = 1.0 / kSize.y;
+    int balls = 0;
+    for (int y = 20; y < 108; ++y)
+        for (int x = 20; x < 108; ++x) {
+            dvec3 enters(1.5 + (x + 0.5) * pixel, 2.5 - (y + 0.5) * pixel, 0);
+            enters.z = 3 + (1 - normal.x * (enters.x - 2)) / normal.z;
+            const double beside = glm::length(glm::cross(dvec3(1.7, 2, 2.4) - enters, inside)) - 0.12;
+            if (std::abs(beside) < 1.5 * pixel) continue; // its outline, to the pixel in which it is seen
+            const bool isBall = rgb(found, {x, y}).z > 2.1f;
+            EXPECT_EQ(isBall, beside < 0) << x << " " << y;
+            balls += int(isBall);
+        }
+    EXPECT_GT(balls, 500);
+}
+
 TEST_F(Refraction, ASlabAbsorbsByTheWayThroughIt) {
     scene::Scene scene = seenStraight(1.5f, {glass(scene::Box{{1, 1, 0.3f}}, 1.5f)});
     scene.objects[0].transform.rotate = {0, 40, 0};
