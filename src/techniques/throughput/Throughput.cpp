@@ -5,8 +5,6 @@
 #include "techniques/throughput/BakeFile.h"
 #include "views/Paint.h"
 
-#include <glm/gtc/packing.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -19,25 +17,8 @@ using graph::TextureId;
 
 namespace {
 
-constexpr int kVectorWidth = 256;    // these: shaders/throughput/vector.glsl
-constexpr int kTexelsInRow = 2048;   // of lists
 constexpr int kTexelsOfPixel = 4;    // are interpolated where a view shows an atlas
 constexpr int kMostTexels = 1 << 22; // of occlusion at once: 64 MiB
-
-vec2 octahedral(vec3 n) {
-    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    const vec2 xy(n);
-    if (n.z >= 0) return xy;
-    return {(1 - std::abs(xy.y)) * (xy.x >= 0 ? 1.0f : -1.0f),
-            (1 - std::abs(xy.x)) * (xy.y >= 0 ? 1.0f : -1.0f)};
-}
-
-ivec2 listSize(std::size_t count) {
-    return {kTexelsInRow, std::max(1, int((count + kTexelsInRow - 1) / kTexelsInRow))};
-}
-ivec2 vectorSize(std::size_t count) {
-    return {kVectorWidth, std::max(1, int((count + kVectorWidth - 1) / kVectorWidth))};
-}
 
 TextureId import(graph::FrameGraph& graph, const graph::Texture& texture) {
     return graph.import(texture.handle(), texture.desc(), texture.label());
@@ -48,19 +29,6 @@ mat4 worldFromBody(const scene::Object& object) {
     scene::Transform transform = object.transform;
     transform.scale = 1;
     return transform.worldFromObject();
-}
-
-// Columns as places in the atlas, and a value for all colours.
-template <class Value>
-Rows<vec3> overAtlas(const Rows<Value>& rows, const Texels& texels) {
-    Rows<vec3> over;
-    over.starts = rows.starts;
-    for (std::size_t k = 0; k < rows.columns.size(); ++k) {
-        const ivec2 at = texels.list[rows.columns[k]].at;
-        over.columns.push_back(std::uint32_t(at.y * texels.side + at.x));
-        over.values.push_back(vec3(rows.values[k]));
-    }
-    return over;
 }
 
 // Whether a picture asks for less of an atlas than all of it.
@@ -79,19 +47,6 @@ SpreadBlock spreadBlock(const Bake& bake, const Settings& settings) {
 SeenBlock seenBlock(const Shown& in, const views::DrawnMesh& mesh) {
     return {.clipFromBody = in.eye.clipFromWorld * worldFromBody(*mesh.object)};
 }
-int cornersOf(const BakeTextures& baked) { return 3 * int(baked.bake->surface.hats.triangles.size()); }
-
-Rows<vec3> rowsOfDense(const Factors& factors) {
-    Rows<vec3> rows;
-    for (std::size_t j = 0; j < factors.count; ++j) {
-        for (std::size_t i = 0; i < factors.count; ++i)
-            rows.columns.push_back(std::uint32_t(i));
-        rows.starts.push_back(std::uint32_t(rows.columns.size()));
-    }
-    rows.values = factors.dense;
-    return rows;
-}
-
 } // namespace
 
 bool bakes(const scene::Object& object) {
@@ -136,115 +91,7 @@ Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const Ba
 
 // --- onto the GPU
 
-graph::Texture Throughput::textureOf(const std::vector<vec4>& texels, ivec2 size, const char* label) {
-    std::vector<vec4> rows = texels;
-    rows.resize(std::size_t(size.x) * std::size_t(size.y), vec4(0));
-    graph::Texture texture(context_.device(), {.size = size, .format = Format::RGBA32F}, label);
-    context_.device().upload(texture.handle(), 0, rows);
-    return texture;
-}
-
-Result<Matrix> Throughput::matrixOf(const Rows<vec3>& rows, int width, const char* label) {
-    const ivec2 size = listSize(rows.columns.size());
-    if (size.y > context_.caps().maxTextureSize)
-        return Error{std::string(label) + ": has " + std::to_string(rows.columns.size()) +
-                         " factors, more than a texture of this GPU holds; must be hierarchical, or of fewer "
-                         "vertices",
-                     Fault::Machine};
-    using Entry = glm::uvec4;
-    std::vector<Entry> entries(std::size_t(size.x) * std::size_t(size.y), Entry(0));
-    for (std::size_t k = 0; k < rows.columns.size(); ++k) {
-        const vec3& value = rows.values[k];
-        const std::uint32_t x = rows.columns[k] % std::uint32_t(width),
-                            y = rows.columns[k] / std::uint32_t(width);
-        entries[k] = {x | y << 16, glm::floatBitsToUint(value.r), glm::floatBitsToUint(value.g),
-                      glm::floatBitsToUint(value.b)};
-    }
-    std::vector<std::uint32_t> starts = rows.starts;
-    const ivec2 startsSize = listSize(starts.size());
-    starts.resize(std::size_t(startsSize.x) * std::size_t(startsSize.y), 0);
-    Matrix matrix{{context_.device(), {.size = startsSize, .format = Format::R32UI}, label},
-                  {context_.device(), {.size = size, .format = Format::RGBA32UI}, label},
-                  int(rows.count())};
-    context_.device().upload(matrix.starts.handle(), 0, starts);
-    context_.device().upload(matrix.entries.handle(), 0, entries);
-    return matrix;
-}
-
-Result<BakeTextures> Throughput::upload(std::shared_ptr<const Bake> bake) {
-    BakeTextures gpu;
-    gpu.bake = bake;
-    const Surface& surface = bake->surface;
-    const Hats& hats = surface.hats;
-    const int side = surface.texels.side;
-    const std::size_t count = std::size_t(side) * std::size_t(side);
-    std::vector<vec4> place(count, vec4(0)), frame(count, vec4(0)), corners(count, vec4(0)), reach;
-    if (!bake->reach.empty()) reach.assign(count, vec4(0));
-    for (std::size_t t = 0; t < surface.texels.list.size(); ++t) {
-        const Texel& texel = surface.texels.list[t];
-        const std::size_t at = std::size_t(texel.at.y) * std::size_t(side) + std::size_t(texel.at.x);
-        place[at] = vec4(positionAt(hats, texel.place), texel.area);
-        frame[at] =
-            vec4(octahedral(normalAt(hats, texel.place)), texel.place.weights.y, texel.place.weights.z);
-        const auto& vertices = hats.triangles[texel.place.triangle];
-        corners[at] = vec4(float(vertices[0]), float(vertices[1]), float(vertices[2]), float(texel.isShown));
-        if (!reach.empty()) reach[at] = vec4(bake->reach[t], float(texel.isShown));
-    }
-    gpu.place = textureOf(place, ivec2(side), "throughput.place");
-    gpu.frame = textureOf(frame, ivec2(side), "throughput.frame");
-    gpu.corners = textureOf(corners, ivec2(side), "throughput.corners");
-    std::vector<vec4> triangles, charts;
-    for (std::size_t t = 0; t < hats.triangles.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i) {
-            triangles.emplace_back(hats.positions[hats.triangles[t][i]], float(hats.triangles[t][i]));
-            charts.emplace_back(surface.places[t][i], 0, 0);
-        }
-    gpu.triangles = textureOf(triangles, listSize(triangles.size()), "throughput.triangles");
-    gpu.charts = textureOf(charts, listSize(charts.size()), "throughput.charts");
-    if (bake->options.local == Local::Live) {
-        constexpr int kNearEntries = 1024; // read at the nearest: off by 1e-3 where R_d is steepest
-        const Response response(bake->medium, 2.0 * double(bake->cut), double(bake->cut));
-        std::vector<vec4> near;
-        for (int i = 0; i < kNearEntries; ++i) {
-            const float u = float(i) / float(kNearEntries - 1);
-            near.emplace_back(response.near(vec3(0), vec3(0, 0, 1), vec3(bake->cut * u * u, 0, 0)), 0);
-        }
-        gpu.near = textureOf(near, {kNearEntries, 1}, "throughput.near");
-        gpu.reach = textureOf(reach, ivec2(side), "throughput.reach");
-    } else {
-        constexpr int kLayers = Filters::kWidth * Filters::kWidth;
-        gpu.filters = graph::Texture(context_.device(),
-                                     {.size = ivec2(side), .format = Format::RGBA16F, .layers = kLayers},
-                                     "throughput.filters");
-        for (int layer = 0; layer < kLayers; ++layer) {
-            std::vector<std::uint64_t> halves(count, 0);
-            for (std::size_t t = 0; t < surface.texels.list.size(); ++t) {
-                const ivec2 at = surface.texels.list[t].at;
-                halves[std::size_t(at.y) * std::size_t(side) + std::size_t(at.x)] = glm::packHalf4x16(
-                    vec4(bake->filters.factors[t * std::size_t(kLayers) + std::size_t(layer)], 0));
-            }
-            context_.device().upload(gpu.filters.handle(), 0, layer, halves);
-        }
-    }
-    const Factors& factors = bake->factors;
-    Rows<vec3> direct;
-    if (bake->options.local == Local::Stored) direct = overAtlas(bake->filters.direct, surface.texels);
-    const std::tuple<Matrix*, Rows<vec3>, int, const char*> matrices[] = {
-        {&gpu.duals, overAtlas(surface.duals, surface.texels), side, "throughput.duals"},
-        {&gpu.close, factors.method == Global::Dense ? rowsOfDense(factors) : factors.close, kVectorWidth,
-         "throughput.close"},
-        {&gpu.inner, factors.inner, kVectorWidth, "throughput.inner"},
-        {&gpu.outer, factors.outer, kVectorWidth, "throughput.outer"},
-        {&gpu.direct, direct, side, "throughput.direct"}};
-    for (const auto& [matrix, rows, width, label] : matrices) {
-        if (rows.count() == 0) continue;
-        Result<Matrix> made = matrixOf(rows, width, label);
-        if (!made) return made.error();
-        *matrix = std::move(*made);
-    }
-    return gpu;
-}
-
+namespace {
 // Of objects that are made of the same, one is worked out.
 Result<Made> bakeOnce(const scene::Object& object, const BakeOptions& options,
                       std::vector<std::pair<MadeOf, Made>>& known) {
@@ -259,6 +106,7 @@ Result<Made> bakeOnce(const scene::Object& object, const BakeOptions& options,
     if (made) known.emplace_back(key, *made);
     return made;
 }
+} // namespace
 
 Status Throughput::prepare(const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
     std::map<int, Body> before = std::exchange(bodies_, {});
@@ -266,17 +114,19 @@ Status Throughput::prepare(const std::vector<views::DrawnMesh>& meshes, const Se
     for (const views::DrawnMesh& mesh : meshes) {
         const Result<Made> bake = bakeOnce(*mesh.object, optionsOf(settings), known);
         if (!bake) return bake.error();
-        Body& body = bodies_[mesh.index];
+        Body body;
         if (const auto own = before.find(mesh.index); own != before.end()) body = std::move(own->second);
-        if (body.baked && body.baked->bake == *bake) continue;
-        Result<std::shared_ptr<const BakeTextures>> baked = texturesOf(*bake, before);
-        if (!baked)
-            return Error{"objects." + mesh.object->name + ": " + baked.error().message, baked.error().fault};
-        body.baked = std::move(*baked);
-        for (graph::Texture& entered : body.entered)
-            entered = graph::Texture(context_.device(),
-                                     {.size = ivec2((*bake)->surface.texels.side), .format = Format::RGBA32F},
-                                     "throughput.entered");
+        if (!body.baked || body.baked->bake != *bake) {
+            Result<std::shared_ptr<const BakeTextures>> baked = texturesOf(*bake, before);
+            if (!baked)
+                return Error{"objects." + mesh.object->name + ": " + baked.error().message,
+                             baked.error().fault};
+            body.baked = std::move(*baked);
+            const graph::TextureDesc desc{.size = body.baked->place.desc().size, .format = Format::RGBA32F};
+            for (graph::Texture& entered : body.entered)
+                entered = graph::Texture(context_.device(), desc, "throughput.entered");
+        }
+        bodies_.emplace(mesh.index, std::move(body));
     }
     return Done{};
 }
@@ -286,9 +136,7 @@ Result<std::shared_ptr<const BakeTextures>> Throughput::texturesOf(const std::sh
     for (const std::map<int, Body>* bodies : {&before, &std::as_const(bodies_)})
         for (const auto& [index, body] : *bodies)
             if (body.baked && body.baked->bake == bake) return body.baked;
-    Result<BakeTextures> made = upload(bake);
-    if (!made) return made.error();
-    return std::make_shared<const BakeTextures>(std::move(*made));
+    return upload(context_, bake);
 }
 
 // --- light
@@ -434,8 +282,9 @@ TextureId Throughput::multiply(graph::FrameGraph& graph, const Matrix& matrix, T
         pass.reason(reason);
         for (const TextureId id : {starts, entries, vector, sum})
             if (id) pass.sample(id);
-        product = pass.createColor("throughput.vector",
-                                   {.size = vectorSize(std::size_t(matrix.rows)), .format = Format::RGBA32F});
+        product =
+            pass.createColor("throughput.vector", {.size = listSize(std::size_t(matrix.rows), kVectorWidth),
+                                                   .format = Format::RGBA32F});
         pass.clear(product, vec4(0));
         return [=, block = ProductBlock{.rows = matrix.rows}](const graph::Resources& resources,
                                                               graph::Commands& commands) {
@@ -522,8 +371,8 @@ TextureId Throughput::spreadSeen(graph::FrameGraph& graph, const Shown& in, cons
             pass.clear(*color, vec4(0));
         }
         pass.clear(pass.createDepth("throughput.depth", in.size), 1.0f);
-        return [=, block = seenBlock(in, mesh), corners = cornersOf(baked)](const graph::Resources& resources,
-                                                                            graph::Commands& commands) {
+        return [=, block = seenBlock(in, mesh),
+                corners = baked.cornerCount()](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = seeing,
                            .vertices = corners,
                            .depthTest = graph::DepthTest::Less,
@@ -604,7 +453,7 @@ TextureId Throughput::seen(graph::FrameGraph& graph, const Shown& in, const view
         seen = pass.createColor("throughput.seen", {.size = in.size, .format = Format::RGBA32F});
         pass.clear(seen, vec4(0));
         pass.clear(pass.createDepth("throughput.depth", in.size), 1.0f);
-        return [=, block = seenBlock(in, mesh), corners = cornersOf(*body.baked)](
+        return [=, block = seenBlock(in, mesh), corners = body.baked->cornerCount()](
                    const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .vertices = corners,
@@ -690,18 +539,7 @@ std::map<std::string, std::size_t> Throughput::bytes() const {
     for (const auto& [index, body] : bodies_) {
         add(body.entered[0]);
         add(body.entered[1]);
-        bakes.insert(body.baked.get());
-    }
-    for (const BakeTextures* baked : bakes) {
-        for (const graph::Texture* texture :
-             {&baked->place, &baked->frame, &baked->corners, &baked->triangles, &baked->charts, &baked->near,
-              &baked->reach, &baked->filters})
-            add(*texture);
-        for (const Matrix* matrix :
-             {&baked->duals, &baked->close, &baked->inner, &baked->outer, &baked->direct}) {
-            add(matrix->starts);
-            add(matrix->entries);
-        }
+        if (bakes.insert(body.baked.get()).second) body.baked->addBytes(bytes);
     }
     return bytes;
 }

@@ -7,7 +7,7 @@
 #include "graph/FrameGraph.h"
 #include "light/Occlusion.h"
 #include "scene/Scene.h"
-#include "techniques/throughput/Bake.h"
+#include "techniques/throughput/BakeTextures.h"
 #include "views/Meshes.h"
 
 #include <functional>
@@ -51,21 +51,6 @@ Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const Ba
 bool isBaked(const scene::Object& object, const BakeOptions& options);
 /// Keeps a bake with an object and its copies, as bakeOf() finds it.
 void keepBake(const scene::Object& object, const BakeOptions& options, std::shared_ptr<const Bake> made);
-
-/// A sparse matrix on the GPU.
-struct Matrix {
-    graph::Texture starts, entries;
-    int rows = 0;
-};
-
-/// A bake on the GPU.
-struct BakeTextures {
-    std::shared_ptr<const Bake> bake;
-    graph::Texture place, frame, corners; ///< of the atlas: shaders/throughput
-    graph::Texture triangles, charts;
-    graph::Texture near, reach, filters;
-    Matrix duals, close, inner, outer, direct;
-};
 
 /// The light of an object, whose bake others may have too.
 struct Body {
@@ -127,10 +112,6 @@ private:
     /// Those of a body that there was, or new ones.
     Result<std::shared_ptr<const BakeTextures>> texturesOf(const std::shared_ptr<const Bake>& bake,
                                                            const std::map<int, Body>& before);
-    Result<BakeTextures> upload(std::shared_ptr<const Bake> bake);
-    /// @param width  texels a row of the vector that it is multiplied with
-    Result<Matrix> matrixOf(const Rows<vec3>& rows, int width, const char* label);
-    graph::Texture textureOf(const std::vector<vec4>& texels, ivec2 size, const char* label);
     Status addTo(graph::FrameGraph& graph, const Arriving& in, const views::DrawnMesh& mesh, Body& body,
                  const Settings& settings);
     void mirror(graph::FrameGraph& graph, const Arriving& in, const std::vector<views::DrawnMesh>& meshes);
