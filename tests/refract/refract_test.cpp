@@ -47,17 +47,22 @@ TEST_F(Refraction, ASlabKeepsTheDirection) {
     }
 }
 
-TEST_F(Refraction, ASlabShiftsWhatLiesBehindIt) {
-    // Seen at 40 degrees through 0.3 m of glass: s = d sin(a - b) / cos b, sin b = sin a / 1.5. The wall
-    // behind shows its place in the world; all coordinates are above 0, as light is.
+// Seen straight on: glass whose face turns by 40 degrees, before a wall or with it inside.
+scene::Scene aslant(float height, vec3 glassSize) {
     scene::Scene scene = seenStraight(
-        1.5f, {glass(scene::Box{{1, 1, 0.3f}}, 1.5f, {2, 2, 3}), matt(scene::Plane{{3, 3}}, {2, 2, 2})});
+        height, {glass(scene::Box{glassSize}, 1.5f, {2, 2, 3}), matt(scene::Plane{{3, 3}}, {2, 2, 2})});
     scene.camera.eye = {2, 2, 5};
     scene.camera.target = {2, 2, 0};
     scene.objects[0].material.clear().fresnel = false;
     scene.objects[0].transform.rotate = {0, 40, 0};
     scene.objects[1].transform.rotate = {90, 0, 0};
-    const Image found = trace(scene, kSize, scene::Aov::Color);
+    return scene;
+}
+
+TEST_F(Refraction, ASlabShiftsWhatLiesBehindIt) {
+    // Seen at 40 degrees through 0.3 m of glass: s = d sin(a - b) / cos b, sin b = sin a / 1.5. The wall
+    // behind shows its place in the world; all coordinates are above 0, as light is.
+    const Image found = trace(aslant(1.5f, {1, 1, 0.3f}), kSize, scene::Aov::Color);
     const double a = glm::radians(40.0), b = std::asin(std::sin(a) / 1.5);
     const double shift = 0.3 * std::sin(a - b) / std::cos(b);
     const double pixel = 1.5 / kSize.y;
@@ -76,14 +81,8 @@ TEST_F(Refraction, ASlabShiftsWhatLiesBehindIt) {
 TEST_F(Refraction, WhatStandsInGlassEndsAtItsOutline) {
     // Below a face at 40 degrees rays go on at an angle to the view, past a ball and what it hides of the
     // wall.
-    scene::Scene scene = seenStraight(1.0f, {glass(scene::Box{{2, 2, 2}}, 1.5f, {2, 2, 3}),
-                                             matt(scene::Plane{{3, 3}}, {2, 2, 2}),
-                                             matt(scene::Sphere{0.12f}, {1.7f, 2, 2.4f})});
-    scene.camera.eye = {2, 2, 5};
-    scene.camera.target = {2, 2, 0};
-    scene.objects[0].material.clear().fresnel = false;
-    scene.objects[0].transform.rotate = {0, 40, 0};
-    scene.objects[1].transform.rotate = {90, 0, 0};
+    scene::Scene scene = aslant(1, {2, 2, 2});
+    scene.objects.push_back(matt(scene::Sphere{0.12f}, {1.7f, 2, 2.4f}));
     const Image found = trace(scene, kSize, scene::Aov::Color);
     const dvec3 normal(std::sin(glm::radians(40.0)), 0, std::cos(glm::radians(40.0)));
     const dvec3 inside = glm::refract(dvec3(0, 0, -1), normal, 1 / 1.5);
