@@ -44,9 +44,6 @@ SpreadBlock spreadBlock(const Bake& bake, const Settings& settings) {
             .global = settings.part == Part::Local ? 0.0f : 1.0f};
 }
 
-SeenBlock seenBlock(const Shown& in, const views::DrawnMesh& mesh) {
-    return {.clipFromBody = in.eye.clipFromWorld * worldFromBody(*mesh.object)};
-}
 } // namespace
 
 bool bakes(const scene::Object& object) {
@@ -78,8 +75,8 @@ void keepBake(const scene::Object& object, const BakeOptions& options, std::shar
     object.kept.keep(keptKey(object, options), Made(std::move(made)));
 }
 
-Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const BakeOptions& options) {
-    const auto key = keptKey(object, options);
+namespace {
+Result<Made> bakeOf(const scene::Object& object, const BakeOptions& options, const MadeOf& key) {
     if (const Made* made = object.kept.find<Made>(key)) return *made;
     Result<Bake> made = object.bake ? decodeBake(*object.bake, object.bakeFile, key.first)
                                     : bake(object, options, DipoleGeometry::Planar);
@@ -87,6 +84,11 @@ Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const Ba
         return Error{"objects." + object.name + (object.bake ? ".bake: " : ": ") + made.error().message,
                      made.error().fault};
     return object.kept.keep(key, Made(std::make_shared<const Bake>(std::move(*made))));
+}
+} // namespace
+
+Result<std::shared_ptr<const Bake>> bakeOf(const scene::Object& object, const BakeOptions& options) {
+    return bakeOf(object, options, keptKey(object, options));
 }
 
 // --- onto the GPU
@@ -102,7 +104,7 @@ Result<Made> bakeOnce(const scene::Object& object, const BakeOptions& options,
         if (!object.kept.find<Made>(key)) object.kept.keep(key, same->second);
         return same->second;
     }
-    Result<Made> made = bakeOf(object, options);
+    Result<Made> made = bakeOf(object, options, key);
     if (made) known.emplace_back(key, *made);
     return made;
 }
@@ -356,49 +358,28 @@ TextureId Throughput::spreadSeen(graph::FrameGraph& graph, const Shown& in, cons
                                  const Body& body, const Settings& settings) {
     const BakeTextures& baked = *body.baked;
     const TextureId vertices = carried(graph, body), entered = import(graph, body.entered[body.now]);
-    const TextureId triangles = import(graph, baked.triangles), charts = import(graph, baked.charts);
+    const std::vector<TextureId> places = seen(graph, in, mesh, baked, {}, vertices);
     const TextureId place = import(graph, baked.place), near = import(graph, baked.near),
                     reach = import(graph, baked.reach);
-    const gl::Program *seeing = context_.program("throughput/seen", {"PLACES"}),
-                      *spreading = context_.program("throughput/spread_seen");
-    TextureId position, far, at, leaving;
-    graph.addPass("throughput.seen", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("the places of object \"" + mesh.object->name + "\" that the camera sees");
-        for (const TextureId id : {vertices, triangles, charts})
-            pass.sample(id);
-        for (TextureId* color : {&position, &far, &at}) {
-            *color = pass.createColor("throughput.seen", {.size = in.size, .format = Format::RGBA32F});
-            pass.clear(*color, vec4(0));
-        }
-        pass.clear(pass.createDepth("throughput.depth", in.size), 1.0f);
-        return [=, block = seenBlock(in, mesh),
-                corners = baked.cornerCount()](const graph::Resources& resources, graph::Commands& commands) {
-            commands.draw({.program = seeing,
-                           .vertices = corners,
-                           .depthTest = graph::DepthTest::Less,
-                           .block = block,
-                           .textures = {{"uTriangles", resources[triangles]},
-                                        {"uCharts", resources[charts]},
-                                        {"uVertices", resources[vertices]}}});
-        };
-    });
+    const gl::Program* program = context_.program("throughput/spread_seen");
+    TextureId leaving;
     graph.addPass("throughput.spread", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("what leaves there: of close light and of far");
-        for (const TextureId id : {entered, place, near, reach, position, far, at})
+        for (const TextureId id : {entered, place, near, reach, places[0], places[1], places[2]})
             pass.sample(id);
         leaving = pass.createColor("throughput.leaving", {.size = in.size, .format = Format::RGBA32F});
         pass.clear(leaving, vec4(0));
         return [=, block = spreadBlock(*baked.bake, settings)](const graph::Resources& resources,
                                                                graph::Commands& commands) {
-            commands.draw({.program = spreading,
+            commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uEntered", resources[entered]},
                                         {"uPlace", resources[place]},
                                         {"uNear", resources[near]},
                                         {"uReach", resources[reach]},
-                                        {"uPosition", resources[position]},
-                                        {"uFar", resources[far]},
-                                        {"uAt", resources[at]}}});
+                                        {"uPosition", resources[places[0]]},
+                                        {"uFar", resources[places[1]]},
+                                        {"uAt", resources[places[2]]}}});
         };
     });
     return leaving;
@@ -439,29 +420,34 @@ void Throughput::recordAtlases(graph::FrameGraph& graph, ivec2 size, TextureId t
     });
 }
 
-// An image of the atlas as a view shows it.
-TextureId Throughput::seen(graph::FrameGraph& graph, const Shown& in, const views::DrawnMesh& mesh,
-                           const Body& body, TextureId image) {
-    const gl::Program* program = context_.program("throughput/seen");
-    const TextureId triangles = import(graph, body.baked->triangles),
-                    charts = import(graph, body.baked->charts);
-    TextureId seen;
+// The triangles of a body in a view.
+std::vector<TextureId> Throughput::seen(graph::FrameGraph& graph, const Shown& in,
+                                        const views::DrawnMesh& mesh, const BakeTextures& baked,
+                                        TextureId image, TextureId vertices) {
+    const TextureId source = image ? image : vertices;
+    const gl::Program* program = context_.program(
+        "throughput/seen", image ? std::vector<std::string>{} : std::vector<std::string>{"PLACES"});
+    const TextureId triangles = import(graph, baked.triangles), charts = import(graph, baked.charts);
+    std::vector<TextureId> seen(image ? 1 : 3);
     graph.addPass("throughput.seen", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("the atlas of object \"" + mesh.object->name + "\" as the camera sees it");
-        for (const TextureId id : {image, triangles, charts})
+        for (const TextureId id : {source, triangles, charts})
             pass.sample(id);
-        seen = pass.createColor("throughput.seen", {.size = in.size, .format = Format::RGBA32F});
-        pass.clear(seen, vec4(0));
+        for (TextureId& color : seen) {
+            color = pass.createColor("throughput.seen", {.size = in.size, .format = Format::RGBA32F});
+            pass.clear(color, vec4(0));
+        }
         pass.clear(pass.createDepth("throughput.depth", in.size), 1.0f);
-        return [=, block = seenBlock(in, mesh), corners = body.baked->cornerCount()](
-                   const graph::Resources& resources, graph::Commands& commands) {
+        const SeenBlock block{.clipFromBody = in.eye.clipFromWorld * worldFromBody(*mesh.object)};
+        return [=, name = image ? "uLeaving" : "uVertices",
+                corners = baked.cornerCount()](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .vertices = corners,
                            .depthTest = graph::DepthTest::Less,
                            .block = block,
                            .textures = {{"uTriangles", resources[triangles]},
                                         {"uCharts", resources[charts]},
-                                        {"uLeaving", resources[image]}}});
+                                        {name, resources[source]}}});
         };
     });
     return seen;
@@ -491,7 +477,7 @@ Status Throughput::record(graph::FrameGraph& graph, const Shown& in,
         const TextureId shown =
             !isEntering && seesFew(*body.baked->bake, in.size)
                 ? spreadSeen(graph, in, mesh, body, settings)
-                : seen(graph, in, mesh, body, lightOf(graph, body, isIrradiance, settings));
+                : seen(graph, in, mesh, *body.baked, lightOf(graph, body, isIrradiance, settings), {})[0];
         const float ior = mesh.object->material.translucent().surfaceIor();
         ThroughputShadeBlock block{.view = views::viewBlock(in.eye, in.size),
                                    .ior = ior,

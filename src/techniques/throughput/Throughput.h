@@ -121,8 +121,12 @@ private:
     graph::TextureId spread(graph::FrameGraph& graph, const Body& body, const Settings& settings);
     graph::TextureId spreadSeen(graph::FrameGraph& graph, const Shown& in, const views::DrawnMesh& mesh,
                                 const Body& body, const Settings& settings);
-    graph::TextureId seen(graph::FrameGraph& graph, const Shown& in, const views::DrawnMesh& mesh,
-                          const Body& body, graph::TextureId image);
+    /// An image of its atlas there; or where that is none, what spread_seen.frag reads.
+    ///
+    /// @param vertices  carried(), for that
+    std::vector<graph::TextureId> seen(graph::FrameGraph& graph, const Shown& in,
+                                       const views::DrawnMesh& mesh, const BakeTextures& baked,
+                                       graph::TextureId image, graph::TextureId vertices);
     graph::TextureId lightOf(graph::FrameGraph& graph, const Body& body, bool isIrradiance,
                              const Settings& settings);
 
