@@ -114,33 +114,64 @@ async function fetchBytes(url, name, reach, fetching = new Fetching(() => {})) {
   return fetching.take(response);
 }
 
+const kReading = new URL('lucent-reading.js', import.meta.url).href;
 /** The second module, fetched when first needed: see reading.js. */
-export const reading = new Service(new URL('lucent-reading.js', import.meta.url).href);
+export const reading = new Service(kReading);
+
+const kPicture = /\.(png|jpe?g)$/i;
+const kLeastApart = 65536; // bytes of a picture: less is decoded in less than a frame's time
+const kMostApart = 255;
+
+/** Pictures of a mesh, decoded side by side apart from it. */
+class Pictures {
+  static #services = [reading, new Service(kReading)];
+  /** By the numbers that stand for them in the mesh. */
+  texels = new Map();
+
+  /** What stands for a picture in the mesh: itself where decoding it apart is not worth it, or not possible. */
+  async take(bytes) {
+    const number = this.texels.size;
+    if (bytes.length < kLeastApart || number > kMostApart) return bytes;
+    this.texels.set(number, undefined);
+    const service = Pictures.#services[number % Pictures.#services.length];
+    const made = await service.ask({ task: 'texels', name: 'picture', bytes, number });
+    if (!made) return bytes; // and the mesh's reader says what is wrong with it
+    this.texels.set(number, made.files.get('texels'));
+    return made.files.get('standIn');
+  }
+  /** The same of one that lies in its mesh's file, written over it there. */
+  async takeInside({ at, size }, file) {
+    file.set(await this.take(file.slice(at, at + size)), at);
+  }
+}
 
 /**
  * A file in a form that the loader reads: glTF, OBJ, EXR and TIFF are converted, everything else stays as it is.
- * @param part  (name) => promise of the bytes of a file beside it that it names, undefined when there is none
+ * @param part      (name) => promise of the bytes of a file beside it that it names, undefined when there is none
+ * @param pictures  where the texels of its pictures go; none: they go into the file itself
  * @return {Promise<{name: string, bytes: Uint8Array}>}  under the name that such files have
  */
-export async function toPlain(name, bytes, part) {
+export async function toPlain(name, bytes, part, pictures) {
   if (!kForeign.test(name)) return { name, bytes };
   const needs = await reading.ask({ task: 'needs', name, bytes });
   if (!needs) return { name, bytes };
   const parts = new Map([[name, bytes]]);
-  await Promise.all(needs.map((need) => collectPart(need, part, parts)));
+  const take = (need) => ('at' in need ? pictures?.takeInside(need, bytes) : collectPart(need, part, parts, pictures));
+  await Promise.all(needs.map(take));
   return reading.ask({ task: 'convert', name, parts });
 }
 
 /** Adds a file that another one needs, and what that file needs itself, to `parts`. */
-async function collectPart({ file, optional }, part, parts) {
+async function collectPart({ file, optional }, part, parts, pictures) {
   const content = await part(file).catch((error) => {
     if (!optional || error.name === 'AbortError') throw error;
   });
   if (!content) return;
-  parts.set(file, content);
+  parts.set(file, pictures && kPicture.test(file) ? await pictures.take(content) : content);
   if (!/\.mtl$/i.test(file)) return;
   const textures = await reading.ask({ task: 'needs', name: file, bytes: content });
-  await Promise.all(textures.map((one) => collectPart({ ...one, file: besideFile(file, one.file) }, part, parts)));
+  const beside = textures.map((one) => ({ ...one, file: besideFile(file, one.file) }));
+  await Promise.all(beside.map((one) => collectPart(one, part, parts, pictures)));
 }
 
 /** Linear values as EXR. @param picture  width, height and bytes of 4 floats a pixel @return {Promise<Blob>} */
@@ -174,7 +205,8 @@ export function needsWhole(bytes) {
 }
 
 /**
- * A file in the plain form, and what was read for it: '' itself, and its parts by the names that it has for them.
+ * A file in the plain form, the texels of its pictures, and what was read for it: '' itself, and its parts by the
+ * names that it has for them.
  * @param read  (name, part) => promise of the bytes of such a part
  */
 async function readSource(name, read) {
@@ -184,8 +216,9 @@ async function readSource(name, read) {
     if (bytes) source.set(part, new Blob([bytes]));
     return bytes;
   };
-  const bytes = await take('');
-  return { source, bytes: (await toPlain(name, bytes, take)).bytes };
+  const pictures = new Pictures();
+  const { bytes } = await toPlain(name, await take(''), take, pictures);
+  return { source, bytes, texels: pictures.texels };
 }
 
 /**
@@ -203,8 +236,9 @@ async function collect(start, path, scene, read) {
   const files = new Map([[path, scene]]);
   const sources = new Map();
   const all = await Promise.all(names.map((name) => readSource(name, read)));
-  all.forEach(({ source, bytes }, at) => {
+  all.forEach(({ source, bytes, texels }, at) => {
     files.set(names[at], bytes);
+    for (const [number, of] of texels) if (of) files.set(`${names[at]}#${number}`, of);
     sources.set(names[at], source);
   });
   return { path, files, whole, sources };

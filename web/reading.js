@@ -22,6 +22,7 @@ const failure = (code, message) => Object.assign(new Error(message), { code });
 const text = (wasm, call, ...values) => wasm.UTF8ToString(callWasm(wasm, call, ...values));
 const put = (wasm, files) => files.forEach((bytes, name) => putFile(wasm, 'reader_file_space', name, bytes));
 const bytesAt = (wasm, at, size) => wasm.HEAPU8.slice(at, at + size);
+const filesAt = (wasm, files) => new Map(files.map(({ name, at, size }) => [name, bytesAt(wasm, at, size)]));
 
 function converted(wasm, code, message) {
   if (message) throw failure(code, message);
@@ -41,6 +42,11 @@ const kTasks = {
     const bytes = converted(wasm, 'scene', text(wasm, 'reader_to_plain', name));
     return { bytes, name: text(wasm, 'reader_plain_name', name, bytes) };
   },
+  /** {files: texels, standIn} of a picture for a mesh, decoded apart from it; null where it cannot be. */
+  texels(wasm, { bytes, number }) {
+    const { files } = JSON.parse(text(wasm, 'reader_to_texels', number, bytes));
+    return files ? { files: filesAt(wasm, files) } : null;
+  },
   /** What each of several pictures is for, by name. @param files  Map */
   uses(wasm, { files }) {
     put(wasm, files);
@@ -51,7 +57,7 @@ const kTasks = {
     put(wasm, files);
     const { files: made, error } = JSON.parse(text(wasm, call, value));
     if (error) throw failure('file', error);
-    return { path: made[0].name, files: new Map(made.map(({ name, at, size }) => [name, bytesAt(wasm, at, size)])) };
+    return { path: made[0].name, files: filesAt(wasm, made) };
   },
   /** Linear values, 4 floats a pixel as bytes, as EXR. */
   exr(wasm, { width, height, bytes }) {

@@ -173,7 +173,8 @@ Mesh partOf(const Mesh& mesh, const Mesh::Part& part);
 bool isMesh(std::span<const std::byte> bytes);
 /// The plain form in which meshes reach the loader: "LUCENTM7" and then everything above, little-endian; of a
 /// material its colours and the numbers of its kind that such files know.
-/// The readers write it from glTF and OBJ, natively and in the page alike.
+/// The readers write it from glTF and OBJ, natively and in the page alike. Of a picture whose texels lie
+/// elsewhere it has their file's number.
 Bytes encodeMesh(const Mesh& mesh);
 /// Error "NAME: what; expected" for truncated files, indices out of range, lists whose lengths do not agree
 /// and values that are not finite or outside their range.
@@ -181,7 +182,7 @@ Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& nam
 /// The same piece by piece, for who must not wait; a mesh without normals gets those of its triangles.
 class MeshMaking {
 public:
-    /// @param read  gives the file
+    /// @param read  gives the file, and as NAME#NUMBER the texels of its pictures that lie elsewhere
     MeshMaking(std::string name, ReadFile read);
     ~MeshMaking();
     /// One piece more; the mesh once it is whole.

@@ -569,10 +569,20 @@ Status decodeVertices(std::span<const std::byte> bytes, const std::string& name,
     return Done{};
 }
 
-void readTexels(const Unread& from) {
-    const auto* texels = reinterpret_cast<const std::uint8_t*>(from.texels.data());
-    from.image->texels.assign(texels, texels + from.texels.size());
-    from.image->findLeast();
+void takeTexels(TextureImage& image, std::span<const std::byte> bytes) {
+    const auto* texels = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    image.texels.assign(texels, texels + bytes.size());
+    if (image.texels.size() % 4 == 0) image.findLeast(); // else it will be refused
+}
+
+// @param mesh  name of the file that `from` stands in
+Status readTexels(const Unread& from, const std::string& mesh, const ReadFile& read) {
+    takeTexels(*from.image, from.texels);
+    if (!from.image->isElsewhere()) return Done{};
+    const Result<Bytes> file = read(mesh + "#" + std::to_string(from.image->texels.front()));
+    if (!file) return file.error();
+    takeTexels(*from.image, *file);
+    return Done{};
 }
 
 Status checkMesh(const Mesh& mesh, const std::string& name) {
@@ -586,7 +596,8 @@ Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& nam
     Mesh mesh;
     std::vector<Unread> unread;
     if (Status s = decodeVertices(bytes, name, mesh, unread); !s) return s.error();
-    std::for_each(unread.begin(), unread.end(), readTexels);
+    for (const Unread& from : unread)
+        takeTexels(*from.image, from.texels);
     if (Status s = checkMesh(mesh, name); !s) return s.error();
     return mesh;
 }
@@ -613,7 +624,7 @@ struct MeshMaking::State {
             if (!unread.empty()) return std::nullopt;
         }
         if (next < unread.size()) {
-            readTexels(unread[next++]);
+            if (Status s = readTexels(unread[next++], name, read); !s) return s.error();
             if (next < unread.size()) return std::nullopt;
         }
         if (Status s = checkMesh(*mesh, name); !s) return s.error();

@@ -42,6 +42,21 @@ TextureImage halved(const TextureImage& fine) {
     return half;
 }
 
+constexpr std::string_view kStandIn = "LUCENTT1"; // two sides and a number follow
+constexpr std::size_t kSideBytes = sizeof(std::int32_t);
+
+constexpr std::size_t kStandInBytes = kStandIn.size() + 2 * kSideBytes + 1;
+
+bool isStandIn(std::span<const std::byte> bytes) {
+    return bytes.size() >= kStandInBytes && std::memcmp(bytes.data(), kStandIn.data(), kStandIn.size()) == 0;
+}
+
+TextureImage pictureElsewhere(std::span<const std::byte> standIn, Encoding encoding) {
+    std::int32_t sides[2];
+    std::memcpy(sides, &standIn[kStandIn.size()], sizeof sides);
+    return {{sides[0], sides[1]}, encoding, {std::uint8_t(standIn[kStandInBytes - 1])}};
+}
+
 std::string sizeText(ivec2 size) { return std::to_string(size.x) + " x " + std::to_string(size.y); }
 
 } // namespace
@@ -63,8 +78,18 @@ void TextureImage::findLeast() {
     leastGreen = lightOf(std::uint8_t(least >> 8), encoding);
 }
 
+Bytes standInFor(ivec2 size, std::uint8_t number) {
+    Bytes bytes(kStandInBytes);
+    std::memcpy(bytes.data(), kStandIn.data(), kStandIn.size());
+    const std::int32_t sides[] = {size.x, size.y};
+    std::memcpy(&bytes[kStandIn.size()], sides, sizeof sides);
+    bytes.back() = std::byte(number);
+    return bytes;
+}
+
 Result<TextureImage> decodeTexture(std::span<const std::byte> bytes, const std::string& name,
                                    Encoding encoding) {
+    if (isStandIn(bytes)) return pictureElsewhere(bytes, encoding);
     Result<ByteImage> decoded = decodeBytes(bytes, name);
     if (!decoded) return decoded.error();
     TextureImage image;

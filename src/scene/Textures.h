@@ -16,10 +16,13 @@ inline constexpr int kMostTextureSide = 2048;
 struct TextureImage {
     ivec2 size{0};
     Encoding encoding = Encoding::Linear; ///< of red, green and blue
-    std::vector<std::uint8_t> texels;     ///< RGBA, row by row, row 0 at v = 0
-    float leastGreen = 1;                 ///< as texel() gives it; findLeast() sets it
+    /// RGBA, row by row, row 0 at v = 0; of a picture whose texels lie elsewhere a single byte, the number of
+    /// their file.
+    std::vector<std::uint8_t> texels;
+    float leastGreen = 1; ///< as texel() gives it; findLeast() sets it
 
     void findLeast();
+    bool isElsewhere() const { return texels.size() == 1; }
     /// In linear light, alpha as it is.
     vec4 texel(ivec2 at) const;
 };
@@ -59,6 +62,10 @@ struct Textures {
     bool any() const { return hasImages() || vertexColors || hasHoles(); }
     bool operator==(const Textures&) const = default;
 };
+
+/// What decodeTexture() takes in place of a picture that was decoded by another: its size, and the number of
+/// the file in which its texels lie. Anything may follow it, as where it was written over that picture.
+Bytes standInFor(ivec2 size, std::uint8_t number);
 
 /// Decodes PNG or JPEG, and averages what is larger than kMostTextureSide, which it says.
 ///

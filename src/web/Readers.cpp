@@ -56,13 +56,59 @@ std::vector<std::string> filesIn(const nlohmann::json& gltf, const char* list) {
     return names;
 }
 
-// [{"file", "optional"}] of what must be there, and of what its file is read without as well.
-std::string needsJson(const std::vector<std::string>& needed, const std::vector<std::string>& optional) {
+// Where a picture lies in the file that uses it, bytes.
+struct Inside {
+    std::size_t at, size;
+};
+
+// The text of a glTF file of either form.
+struct GltfText {
+    std::string_view text;
+    std::size_t data = 0; // bytes before those that the file brings itself; 0: it brings none
+};
+
+GltfText textOf(const Bytes& file) {
+    constexpr std::size_t kHeader = 12, kChunkHeader = 8, kText = kHeader + kChunkHeader;
+    const std::string_view all(reinterpret_cast<const char*>(file.data()), file.size());
+    if (!all.starts_with("glTF") || all.size() < kText) return {all};
+    std::uint32_t length;
+    std::memcpy(&length, &file[kHeader], sizeof length);
+    return {all.substr(kText, length), kText + length + kChunkHeader};
+}
+
+std::size_t wholeIn(const nlohmann::json& object, const char* key, std::size_t otherwise) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number_unsigned() ? found->get<std::size_t>() : otherwise;
+}
+
+// Pictures that lie in the file itself.
+std::vector<Inside> picturesInside(const nlohmann::json& gltf, std::size_t data, std::size_t end) {
+    std::vector<Inside> found;
+    const auto images = gltf.find("images"), views = gltf.find("bufferViews");
+    if (images == gltf.end() || views == gltf.end() || !images->is_array() || !views->is_array())
+        return found;
+    for (const nlohmann::json& image : *images) {
+        const std::size_t number = wholeIn(image, "bufferView", views->size());
+        if (number >= views->size()) continue;
+        const nlohmann::json& view = (*views)[number];
+        const Inside here{data + wholeIn(view, "byteOffset", 0), wholeIn(view, "byteLength", 0)};
+        const bool isHere = data > 0 && wholeIn(view, "buffer", 0) == 0;
+        if (isHere && here.at <= end && here.size <= end - here.at) found.push_back(here);
+    }
+    return found;
+}
+
+// [{"file", "optional"}] of what must be there, and of what its file is read without as well; [{"at",
+// "size"}] of pictures that it brings.
+std::string needsJson(const std::vector<std::string>& needed, const std::vector<std::string>& optional,
+                      const std::vector<Inside>& inside = {}) {
     JsonWriter json;
     json.beginArray();
     for (const auto* names : {&needed, &optional})
         for (const std::string& name : *names)
             json.beginObject().key("file").value(name).key("optional").value(names == &optional).end();
+    for (const Inside& picture : inside)
+        json.beginObject().key("at").value(int(picture.at)).key("size").value(int(picture.size)).end();
     return json.end().text();
 }
 
@@ -124,16 +170,18 @@ int reader_is_foreign(const char* name, const std::uint8_t* bytes, int size) {
     return scene::isForeign(name, std::as_bytes(std::span(bytes, std::size_t(size))));
 }
 
-/// The files that a .gltf which was put keeps its data and pictures in, or those in which an .obj has its
-/// materials and these their textures: JSON array of {"file", "optional"}, relative to it. A text that is no
-/// glTF needs nothing here: reader_to_plain() says what is wrong with it.
+/// The files that a glTF file which was put keeps its data and pictures in, or those in which an .obj has its
+/// materials and these their textures: JSON array of {"file", "optional"}, relative to it, and of pictures
+/// that lie in it {"at", "size"} in bytes. A text that is no glTF needs nothing here: reader_to_plain() says
+/// what is wrong with it.
 const char* reader_needs(const char* name) {
     const Bytes& bytes = converter().files[name];
     if (scene::isObj(name) || scene::isMaterialFile(name))
         return answer(needsJson({}, scene::filesNamedIn(bytes)));
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    const nlohmann::json gltf = nlohmann::json::parse(text, text + bytes.size(), nullptr, false);
-    return answer(needsJson(filesIn(gltf, "buffers"), filesIn(gltf, "images")));
+    const GltfText file = textOf(bytes);
+    const nlohmann::json gltf = nlohmann::json::parse(file.text, nullptr, false);
+    return answer(needsJson(filesIn(gltf, "buffers"), filesIn(gltf, "images"),
+                            picturesInside(gltf, file.data, bytes.size())));
 }
 
 /// Converts a file that was put and forgets all files. "" or the message; the result is at reader_bytes().
@@ -157,6 +205,20 @@ const char* reader_to_exr(int width, int height, int channels, const std::uint8_
     if (!exr) return answer(exr.error().message);
     converter().plain = std::move(*exr);
     return answer(std::string());
+}
+
+/// A picture for a mesh, decoded apart from it: JSON {"files"} as of reader_bring_maps(), what stands in for
+/// it among the parts of the mesh's file, and its texels; {"error"} for what is none, or too large to be
+/// taken as it is.
+/// @param number  of the texels' file, at most 255
+const char* reader_to_texels(int number, const std::uint8_t* bytes, int size) {
+    Result<ByteImage> image = decodeBytes(std::as_bytes(std::span(bytes, std::size_t(size))), "picture");
+    if (!image) return answer(image.error());
+    if (std::max(image->size.x, image->size.y) > scene::kMostTextureSide)
+        return answer(Error{"picture: must be averaged"});
+    const auto texels = std::as_bytes(std::span(image->values));
+    return answer(scene::Brought{{"standIn", scene::standInFor(image->size, std::uint8_t(number))},
+                                 {"texels", Bytes(texels.begin(), texels.end())}});
 }
 
 const std::uint8_t* reader_bytes() { return reinterpret_cast<const std::uint8_t*>(converter().plain.data()); }

@@ -253,6 +253,42 @@ TEST(Textures, APlainFileKeepsThem) {
         "a: texture 0 has 5 x 2 texels in 32 bytes; must have 4 bytes a texel and at most 2048 on a side");
 }
 
+TEST(Textures, TexelsThatLieElsewhereComeFromTheirFile) {
+    const std::string material = R"("pbrMetallicRoughness": { "baseColorTexture": { "index": 1 } })";
+    const TextureImage whole = *squareWith(material).images[0];
+    const Mesh mesh =
+        squareWith(material, nullptr, having("m/my picture.png", standInFor(whole.size, std::uint8_t(200))));
+    ASSERT_EQ(mesh.images.size(), 1u);
+    EXPECT_TRUE(mesh.images[0]->isElsewhere());
+    const Bytes file = encodeMesh(mesh);
+    const auto madeWith = [&](const std::string& name, const Bytes& texels) {
+        MeshMaking making("m/a.mesh", [&](const std::string& path) {
+            return path == "m/a.mesh" ? Result<Bytes>(file) : having(name, texels)(path);
+        });
+        for (;;)
+            if (auto made = making.advance()) return *made;
+    };
+    Bytes texels;
+    for (const std::uint8_t value : whole.texels)
+        texels.push_back(std::byte(value));
+    const auto made = madeWith("m/a.mesh#200", texels);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ((*made)->images[0]->size, whole.size);
+    EXPECT_EQ((*made)->images[0]->encoding, whole.encoding);
+    EXPECT_EQ((*made)->images[0]->texels, whole.texels);
+    EXPECT_EQ((*made)->images[0]->leastGreen, whole.leastGreen);
+
+    EXPECT_EQ(madeWith("m/b", texels).error().message, "m/a.mesh#200: cannot be read (none)");
+    texels.pop_back();
+    EXPECT_EQ(
+        madeWith("m/a.mesh#200", texels).error().message,
+        "m/a.mesh: texture 0 has 4 x 2 texels in 31 bytes; must have 4 bytes a texel and at most 2048 on a "
+        "side");
+    EXPECT_EQ(
+        decodeMesh(file, "a").error().message,
+        "a: texture 0 has 4 x 2 texels in 1 bytes; must have 4 bytes a texel and at most 2048 on a side");
+}
+
 TEST(Textures, MattAndGlossyObjectsShowThem) {
     const auto mesh = std::make_shared<const Mesh>(
         squareWith(R"("pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } })"));

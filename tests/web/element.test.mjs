@@ -319,6 +319,28 @@ test('a saved picture decodes to what toBlob drew', async () => {
   await page.leave();
 });
 
+test('large pictures of a mesh are decoded apart from it, be they beside its file or in it', async () => {
+  const pictures = [];
+  for (const name of ['square.gltf', 'square.glb']) {
+    const page = await open(`<lucent-viewer src="made/${name}.json" alt="A square"></lucent-viewer>`);
+    const reading = page.workers().filter((worker) => worker.url().includes('lucent-reading'));
+    assert.equal(reading.length, 2); // each decodes one of the two
+    pictures.push(await pictureOf(page));
+    assert.deepEqual(page.problems, []);
+    await page.leave();
+  }
+  const [beside, inside] = pictures;
+  assert.equal(difference(beside, inside).max, 0);
+  const { width, pixels } = beside;
+  const sumOf = (onLeft, channel) =>
+    pixels.reduce((sum, value, at) => {
+      const isLeft = (at >> 2) % width < width / 2;
+      return isLeft === onLeft && at % 4 === channel ? sum + value : sum;
+    }, 0);
+  for (const [onLeft, bright, dark] of [[true, 0, 1], [false, 1, 0]])
+    for (const channel of [bright, 2]) assert.ok(sumOf(onLeft, channel) > 4 * sumOf(onLeft, dark), `${onLeft} ${channel}`);
+});
+
 test('a mistyped attribute is named with the one that was meant, attributes of HTML are not', async () => {
   const attributes =
     'material-specularty="0.3" lihgt="0 0 1" zzz="1" class="a" id="b" lang="en" data-x="1" aria-busy="false" ' +

@@ -161,6 +161,80 @@ export function glassTriangle() {
   return { model: Buffer.from(model), data };
 }
 
+/**
+ * A square whose left half is red and whose right half is green, which shines blue likewise, under a grain that keeps its
+ * two pictures large: as "square.glb", which has all in it, as "square.gltf" with its files, and a scene of each by those
+ * names and ".json".
+ */
+function texturedSquares() {
+  const corners = [-1, 1, -1, -1, 1, -1, -1, 1, 1, -1, 1, 1];
+  const at = corners.flatMap((one, i) => (i % 2 ? [one, 0] : one));
+  const coordinates = corners.map((one, i) => (1 + (i % 2 ? -one : one)) / 2);
+  const data = Buffer.from(new Float32Array([...at, ...coordinates]).buffer);
+  let state = 1;
+  const grain = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) >>> 26; // Numerical Recipes, 7.1
+  const halves = (left, right) => (x, y, channel) => grain() + (channel === (x < 96 ? left : right) ? 180 : 0);
+  const colors = colorPng(192, 192, halves(0, 1));
+  const emission = colorPng(192, 192, halves(2, 2));
+  const modelOf = (images, views, length, place = {}) => ({
+    asset: { version: '2.0' },
+    buffers: [{ byteLength: length, ...place }],
+    bufferViews: [{ buffer: 0, byteLength: 72 }, { buffer: 0, byteOffset: 72, byteLength: 48 }, ...views],
+    accessors: [
+      { bufferView: 0, componentType: 5126, count: 6, type: 'VEC3', min: [-1, -1, 0], max: [1, 1, 0] },
+      { bufferView: 1, componentType: 5126, count: 6, type: 'VEC2' },
+    ],
+    images,
+    textures: [{ source: 0 }, { source: 1 }],
+    materials: [
+      {
+        pbrMetallicRoughness: { baseColorTexture: { index: 0 }, metallicFactor: 0 },
+        emissiveTexture: { index: 1 },
+        emissiveFactor: [0, 0, 1],
+      },
+    ],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0, TEXCOORD_0: 1 }, material: 0 }] }],
+    nodes: [{ mesh: 0 }],
+    scenes: [{ nodes: [0] }],
+    scene: 0,
+  });
+  const names = ['square-colors.png', 'square-emission.png'];
+  const beside = modelOf(names.map((uri) => ({ uri })), [], data.length, { uri: 'square.bin' });
+  const views = [
+    { buffer: 0, byteOffset: data.length, byteLength: colors.length },
+    { buffer: 0, byteOffset: data.length + colors.length, byteLength: emission.length },
+  ];
+  const pictures = Buffer.concat([colors, emission]);
+  const all = Buffer.concat([data, pictures, Buffer.alloc(-pictures.length & 3)]);
+  const inside = modelOf([2, 3].map((bufferView) => ({ bufferView, mimeType: 'image/png' })), views, all.length);
+  const files = {
+    'square.bin': data,
+    'square-colors.png': colors,
+    'square-emission.png': emission,
+    'square.gltf': JSON.stringify(beside),
+    'square.glb': glbOf(inside, all),
+  };
+  const sceneOf = (source) => ({
+    lucent: 1,
+    size: [64, 64],
+    camera: { type: 'orthographic', eye: [0, 0, 2], height: 2 },
+    lights: [{ type: 'distant', direction: [0, 0, -1], irradiance: Math.PI }],
+    objects: [{ name: 'square', shape: { type: 'mesh', source } }],
+  });
+  for (const name of ['square.gltf', 'square.glb']) files[`${name}.json`] = ofMiddles(sceneOf(name));
+  return files;
+}
+
+/** A binary glTF file. @param data  of a length that 4 divides */
+function glbOf(model, data) {
+  const text = JSON.stringify(model);
+  const json = Buffer.from(text.padEnd((text.length + 3) & ~3));
+  const numbers = (...all) => Buffer.from(new Uint32Array(all).buffer);
+  const [kGlb, kJson, kBinary] = [0x46546c67, 0x4e4f534a, 0x004e4942];
+  const length = 28 + json.length + data.length;
+  return Buffer.concat([numbers(kGlb, 2, length, json.length, kJson), json, numbers(data.length, kBinary), data]);
+}
+
 /** An 8-bit grey PNG. @param value  of column x and row y, [0, 255] */
 export const greyPng = (width, height, value) => pngOf(width, height, 1, value);
 /** The same of a value (x, y, channel). */
@@ -206,3 +280,4 @@ function crc32(bytes) {
 // A truth of the dome that is wrong everywhere.
 kScenes['black.pfm'] = Buffer.concat([Buffer.from('PF\n48 48\n-1.0\n'), Buffer.alloc(48 * 48 * 12)]);
 kScenes['small.png'] = greyPng(8, 6, () => 128);
+Object.assign(kScenes, texturedSquares());
