@@ -11,8 +11,9 @@
  * more than they mend.
  *
  * The first picture is timed from the file's name to a picture on the page, by three's GLTFLoader and by the element,
- * whose modules have both shown another model before. Frames are timed in turn under a light that moves (draw, then read
- * a pixel back): three at the setting that misplaces the least, Lucent at the quickest that misplaces no more.
+ * whose modules have both shown another model before; once more with files that come from memory, not from a server.
+ * Frames are timed in turn under a light that moves (draw, then read a pixel back): three at the setting that misplaces
+ * the least, Lucent at the quickest that misplaces no more.
  */
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -146,17 +147,19 @@ export async function compare(page, truths, { size, side, around, ...comparison 
 
 const percent = (share) => `${(100 * share).toFixed(2)} %`;
 
-function print(say, { swept, ms, first, best }) {
+function print(say, { swept, ms, first, atHand, best }) {
   for (const [who, list] of Object.entries(swept))
     for (const { knobs, misplaced, ms: time } of list)
       say(`${who}, ${named(knobs)}: ${percent(misplaced)} misplaced, about ${time.toFixed(0)} ms`);
   for (const [who, name] of Object.entries({ three: 'three.js', lucent: 'Lucent' }))
     say(`a frame of ${name} (${named(best[who].knobs)}): ${milliseconds(ms[who])}`);
-  say(`first picture: three.js ${milliseconds(first.three)}, Lucent ${milliseconds(first.lucent)}`);
+  const both = ({ three, lucent }) => `three.js ${milliseconds(three)}, Lucent ${milliseconds(lucent)}`;
+  say(`first picture: ${both(first)}; of files in memory: ${both(atHand)}`);
 }
 
-const ratiosOf = ({ ms, first, best }) => [
+const ratiosOf = ({ ms, first, atHand, best }) => [
   atMost("first picture over three.js's", first.lucent.median / first.three.median, 1.5),
+  atMost("first picture of files in memory over three.js's", atHand.lucent.median / atHand.three.median, 1.5),
   atMost("time of a frame over three.js's at the same error or less", ms.lucent.median / ms.three.median, 1),
   atMost("light misplaced over three.js's", best.lucent.misplaced / best.three.misplaced, 1),
   figure('light misplaced by three.js', best.three.misplaced),
