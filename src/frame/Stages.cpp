@@ -30,6 +30,13 @@ bool bends(const scene::Scene& scene) {
                        [](const scene::Object& object) { return object.material.isRefractive(); });
 }
 
+bool shareShapes(const std::vector<views::ObjectKey>& some, const std::vector<views::ObjectKey>& others) {
+    return std::any_of(some.begin(), some.end(), [&](const views::ObjectKey& one) {
+        return std::any_of(others.begin(), others.end(),
+                           [&](const views::ObjectKey& other) { return one.own.shape == other.own.shape; });
+    });
+}
+
 } // namespace
 
 // --- settings
@@ -86,6 +93,7 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
     size = newSize;
     if (!own) screen = size;
     if (SceneKey key = sceneKey(scene); sceneryFor != key) {
+        if (sceneryFor && !shareShapes(sceneryFor->objects, key.objects)) rested = taken = 0; // another scene
         sceneryFor = std::move(key);
         ++scenery;
     }
