@@ -27,7 +27,7 @@ constexpr float kSoftwareError = 0.03f; // of pictures by default where the proc
 struct Page {
     std::unique_ptr<gl::Context> context;
     std::unique_ptr<gl::ImGuiHost> imgui;
-    std::map<std::string, Bytes> files;
+    PutFiles files;
     std::map<int, std::unique_ptr<Viewer>> viewers;
     int lastViewer = 0;
     struct Load {
@@ -73,13 +73,7 @@ const char* answer(std::vector<std::pair<std::string, Bytes>> files) {
 
 const char* answer(const Status& status) { return answer(status ? std::string() : status.error().message); }
 
-Result<Bytes> readOf(const std::map<std::string, Bytes>& files, const std::string& path) {
-    const auto found = files.find(path);
-    if (found == files.end())
-        return Error{path + ": was not fetched; must be put before the scene is loaded"};
-    return found->second;
-}
-Result<Bytes> readFetched(const std::string& path) { return readOf(page().files, path); }
+Result<Bytes> readFetched(const std::string& path) { return page().files.read(path); }
 
 std::span<const std::byte> bytesOf(const std::uint8_t* bytes, int size) {
     return std::as_bytes(std::span(bytes, std::size_t(size)));
@@ -126,9 +120,9 @@ void lucent_context_lost() { page().context->markLost(); }
 
 // --- files
 
-std::uint8_t* file_space(const char* path, int size) { return spaceFor(page().files, path, size); }
+std::uint8_t* file_space(const char* path, int size) { return page().files.space(path, size); }
 
-void file_forget(const char* path) { page().files.erase(path); }
+void file_forget(const char* path) { page().files.forget(path); }
 
 const char* scene_dependencies(const char* path) {
     JsonWriter json;
@@ -223,9 +217,9 @@ void viewer_destroy(int viewer) {
 }
 
 int viewer_load(int viewer, const char* path) {
-    const auto files = std::make_shared<const std::map<std::string, Bytes>>(std::exchange(page().files, {}));
+    const auto files = std::make_shared<const PutFiles>(std::exchange(page().files, {}));
     const std::string scene = path;
-    viewerOf(viewer).beginLoad(scene, [files](const std::string& name) { return readOf(*files, name); });
+    viewerOf(viewer).beginLoad(scene, [files](const std::string& name) { return files->read(name); });
     Page::Load& load = page().loads[viewer];
     load.error.clear();
     return ++load.number;

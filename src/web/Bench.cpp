@@ -49,7 +49,7 @@ struct Added : measure::BenchAssets {
 struct Bench {
     std::unique_ptr<gl::Context> context;
     std::unique_ptr<frame::Renderer> renderer;
-    std::map<std::string, Bytes> files;
+    PutFiles files;
     scene::Scene scene;
     std::uint64_t revision = 0;
     Image pixels; // linear, 4 channels, row 0 at the top
@@ -71,11 +71,7 @@ const char* answer(std::string text) {
 
 const char* answer(const Status& status) { return answer(status ? std::string() : status.error().message); }
 
-Result<Bytes> readPut(const std::string& path) {
-    const auto found = bench().files.find(path);
-    if (found == bench().files.end()) return Error{path + ": was not put; must be before it is read"};
-    return found->second;
-}
+Result<Bytes> readPut(const std::string& path) { return bench().files.read(path); }
 
 Status load(const std::string& path) {
     Result<scene::Scene> scene = scene::load(path, readPut, technique::tables());
@@ -153,7 +149,7 @@ const char* bench_start() {
 const char* bench_driver() { return answer(bench().context->caps().renderer); }
 
 /// Makes room for a file for later loads. @return  where its bytes are to be written
-std::uint8_t* bench_file_space(const char* path, int size) { return spaceFor(bench().files, path, size); }
+std::uint8_t* bench_file_space(const char* path, int size) { return bench().files.space(path, size); }
 
 // --- single pictures
 

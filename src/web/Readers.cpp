@@ -17,13 +17,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 using namespace lucent;
 
 namespace {
 
 struct Converter {
-    std::map<std::string, Bytes> files;
+    PutFiles files;
     Bytes plain;
     scene::Brought brought;
     std::vector<scene::LitPhoto> photos; // that a light file names
@@ -67,7 +68,7 @@ struct GltfText {
     std::size_t data = 0; // bytes before those that the file brings itself; 0: it brings none
 };
 
-GltfText textOf(const Bytes& file) {
+GltfText textOf(std::span<const std::byte> file) {
     constexpr std::size_t kHeader = 12, kChunkHeader = 8, kText = kHeader + kChunkHeader;
     const std::string_view all(reinterpret_cast<const char*>(file.data()), file.size());
     if (!all.starts_with("glTF") || all.size() < kText) return {all};
@@ -123,17 +124,18 @@ std::string namesJson(const std::vector<std::string>& names) {
 // Files were put under the names that reader_needs() gave, which are relative to the file that needs them.
 ReadFile filesBeside(const std::string& name) {
     return [name](const std::string& path) -> Result<Bytes> {
-        for (const auto& [key, bytes] : converter().files)
-            if (resolvePath(name, key) == path) return bytes;
+        const PutFiles& files = converter().files;
+        for (const std::string& key : files.names())
+            if (resolvePath(name, key) == path) return files.read(key);
         return Error{path + ": was not fetched; must lie beside " + name};
     };
 }
 
 std::vector<Output> takeFiles() {
+    const PutFiles files = std::exchange(converter().files, {});
     std::vector<Output> taken;
-    for (auto& [name, bytes] : converter().files)
-        taken.push_back({name, std::move(bytes)});
-    converter().files.clear();
+    for (const std::string& name : files.names())
+        taken.push_back({name, *files.read(name)});
     return taken;
 }
 
@@ -161,9 +163,7 @@ const char* answer(Result<scene::Brought> brought) {
 extern "C" {
 
 /// Makes room for a file for the next conversion. @return  where its bytes are to be written
-std::uint8_t* reader_file_space(const char* name, int size) {
-    return spaceFor(converter().files, name, size);
-}
+std::uint8_t* reader_file_space(const char* name, int size) { return converter().files.space(name, size); }
 
 /// 1 for bytes that reader_to_plain() would change.
 int reader_is_foreign(const char* name, const std::uint8_t* bytes, int size) {
@@ -175,7 +175,7 @@ int reader_is_foreign(const char* name, const std::uint8_t* bytes, int size) {
 /// that lie in it {"at", "size"} in bytes. A text that is no glTF needs nothing here: reader_to_plain() says
 /// what is wrong with it.
 const char* reader_needs(const char* name) {
-    const Bytes& bytes = converter().files[name];
+    const std::span<const std::byte> bytes = converter().files.find(name);
     if (scene::isObj(name) || scene::isMaterialFile(name))
         return answer(needsJson({}, scene::filesNamedIn(bytes)));
     const GltfText file = textOf(bytes);
@@ -187,7 +187,7 @@ const char* reader_needs(const char* name) {
 /// Converts a file that was put and forgets all files. "" or the message; the result is at reader_bytes().
 const char* reader_to_plain(const char* name) {
     Converter& c = converter();
-    Result<Bytes> plain = scene::toPlain(name, std::move(c.files[name]), filesBeside(name));
+    Result<Bytes> plain = scene::toPlain(name, *c.files.read(name), filesBeside(name));
     c.files.clear();
     if (!plain) return answer(plain.error().message);
     c.plain = std::move(*plain);
@@ -259,23 +259,20 @@ const char* reader_bring_maps(const char* uses) {
 
 /// The same of a mesh that was put in plain form.
 const char* reader_bring_mesh(const char* name) {
-    const Bytes mesh = std::move(converter().files[name]);
-    converter().files.clear();
-    return answer(scene::sceneOfMesh(name, mesh));
+    const PutFiles files = std::exchange(converter().files, {});
+    return answer(scene::sceneOfMesh(name, files.find(name)));
 }
 
 /// The same of a table of a BRDF that was put.
 const char* reader_bring_table(const char* name) {
-    const Bytes table = std::move(converter().files[name]);
-    converter().files.clear();
-    return answer(scene::sceneOfTable(name, table));
+    const PutFiles files = std::exchange(converter().files, {});
+    return answer(scene::sceneOfTable(name, files.find(name)));
 }
 
 /// The same of a PTM file that was put.
 const char* reader_bring_ptm(const char* name) {
-    const Bytes file = std::move(converter().files[name]);
-    converter().files.clear();
-    const Result<scene::SurfaceMaps> maps = scene::decodePtm(file, name);
+    const PutFiles files = std::exchange(converter().files, {});
+    const Result<scene::SurfaceMaps> maps = scene::decodePtm(files.find(name), name);
     if (!maps) return answer(maps.error());
     return answer(scene::sceneOfSurface(scene::titleOf(name), *maps));
 }

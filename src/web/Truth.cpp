@@ -24,7 +24,7 @@ namespace {
 
 /// One picture at a time, pixel by pixel from the top.
 struct Job {
-    std::map<std::string, Bytes> files;
+    PutFiles files;
     scene::Scene scene;
     std::unique_ptr<truth::Estimator> estimator;
     Image image;
@@ -43,11 +43,7 @@ const char* answer(std::string text) {
     return job().answer.c_str();
 }
 
-Result<Bytes> readPut(const std::string& path) {
-    const auto found = job().files.find(path);
-    if (found == job().files.end()) return Error{path + ": was not put; must be there before truth_start()"};
-    return found->second;
-}
+Result<Bytes> readPut(const std::string& path) { return job().files.read(path); }
 
 /// What takes too long for a page, by name.
 Error leftToProgram(const std::string& what) {
@@ -115,7 +111,7 @@ void solveNext() {
 extern "C" {
 
 /// Makes room for a file of the scene. @return  where its bytes are to be written
-std::uint8_t* truth_file_space(const char* name, int size) { return spaceFor(job().files, name, size); }
+std::uint8_t* truth_file_space(const char* name, int size) { return job().files.space(name, size); }
 
 /// Begins the picture of "scene.json" and forgets the files. "" or the message.
 ///
