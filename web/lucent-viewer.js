@@ -373,9 +373,10 @@ export class LucentViewer extends HTMLElement {
   /**
    * Milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its pixels), shown (there
    * is a picture), downscale (pixels that one which was drawn stands for, along a side), progress (share and secondsLeft,
-   * of work that takes long), bake (technique, object and work: what is precomputed before the picture has it), frames, modes that the scene has something for, where the panel's controls lie, and
-   * notDrawn: lines that say what the scene asks for, the picture lacks, and why; while the caustic map is shown, energy:
-   * W of each colour that met glass and mirrors, and what became of them.
+   * of work that takes long), bake (technique, object and work: what is precomputed before the picture has it), frames,
+   * modes that the scene has something for, where the panel's controls lie, and notDrawn: lines that say what the scene
+   * asks for, the picture lacks, and why; while the caustic map is shown, energy: W of each colour that met glass and
+   * mirrors, and what became of them.
    */
   stats() {
     return JSON.parse(this.#ask('viewer_stats') || '{}');
@@ -502,7 +503,8 @@ export class LucentViewer extends HTMLElement {
   }
 
   /**
-   * Shows a scene file with all that it names or a saved scene, makes a scene of files that a person chose, or takes a picture as the environment of the one that is shown.
+   * Shows a scene file with all that it names or a saved scene, makes a scene of files that a person chose, or takes a
+   * picture as the environment of the one that is shown.
    * @param files  File, or Blob with a name, or several: pictures that belong together, a model with its parts
    * @param kind   'scene' or 'environment'
    * @return {Promise<boolean>}  whether it is shown
