@@ -177,9 +177,9 @@ bool isMesh(std::span<const std::byte> bytes);
 /// elsewhere it has their file's number.
 Bytes encodeMesh(const Mesh& mesh);
 /// Error "NAME: what; expected" for truncated files, indices out of range, lists whose lengths do not agree
-/// and values that are not finite or outside their range.
+/// and values that are not finite or outside their range. Texels that lie elsewhere are left there.
 Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& name);
-/// The same piece by piece, for who must not wait; a mesh without normals gets those of its triangles.
+/// The same piece by piece, with all texels; a mesh without normals gets those of its triangles.
 class MeshMaking {
 public:
     /// @param read  gives the file, and as NAME#NUMBER the texels of its pictures that lie elsewhere

@@ -319,7 +319,8 @@ bool isUnit(const vec3& v) { return std::abs(glm::length(v) - 1) <= kUnitToleran
 /// What keeps a mesh from being used; the first thing that is wrong stays.
 class Checker {
 public:
-    explicit Checker(const Mesh& mesh) : mesh_(mesh), rig_(mesh.rig) {}
+    /// @param isWhole  no texels may lie elsewhere
+    Checker(const Mesh& mesh, bool isWhole) : mesh_(mesh), rig_(mesh.rig), isWhole_(isWhole) {}
 
     /// Empty for a sound mesh, else "what was found; what was expected".
     std::string check() {
@@ -405,10 +406,12 @@ private:
     }
 
     void image(const TextureImage& image, const std::string& name) {
+        const bool isElsewhere = image.isElsewhere() && !isWhole_;
         const auto legal = [](int side) { return side >= 1 && side <= kMostTextureSide; };
         const std::size_t texels =
             std::size_t(std::max(image.size.x, 0)) * std::size_t(std::max(image.size.y, 0));
-        if (!legal(image.size.x) || !legal(image.size.y) || image.texels.size() != 4 * texels)
+        if (!legal(image.size.x) || !legal(image.size.y) ||
+            (image.texels.size() != 4 * texels && !isElsewhere))
             wrong(name + " has " + std::to_string(image.size.x) + " x " + std::to_string(image.size.y) +
                   " texels in " + std::to_string(image.texels.size()) +
                   " bytes; must have 4 bytes a texel and at most " + std::to_string(kMostTextureSide) +
@@ -534,6 +537,7 @@ private:
 
     const Mesh& mesh_;
     const Rig& rig_;
+    bool isWhole_;
     std::string wrong_;
 };
 
@@ -585,8 +589,9 @@ Status readTexels(const Unread& from, const std::string& mesh, const ReadFile& r
     return Done{};
 }
 
-Status checkMesh(const Mesh& mesh, const std::string& name) {
-    if (const std::string wrong = Checker(mesh).check(); !wrong.empty()) return Error{name + ": " + wrong};
+Status checkMesh(const Mesh& mesh, const std::string& name, bool isWhole) {
+    if (const std::string wrong = Checker(mesh, isWhole).check(); !wrong.empty())
+        return Error{name + ": " + wrong};
     return Done{};
 }
 
@@ -598,7 +603,7 @@ Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& nam
     if (Status s = decodeVertices(bytes, name, mesh, unread); !s) return s.error();
     for (const Unread& from : unread)
         takeTexels(*from.image, from.texels);
-    if (Status s = checkMesh(mesh, name); !s) return s.error();
+    if (Status s = checkMesh(mesh, name, false); !s) return s.error();
     return mesh;
 }
 
@@ -627,7 +632,7 @@ struct MeshMaking::State {
             if (Status s = readTexels(unread[next++], name, read); !s) return s.error();
             if (next < unread.size()) return std::nullopt;
         }
-        if (Status s = checkMesh(*mesh, name); !s) return s.error();
+        if (Status s = checkMesh(*mesh, name, true); !s) return s.error();
         if (mesh->normals.empty()) mesh->normals = areaWeightedNormals(mesh->positions, mesh->indices);
         return std::shared_ptr<const Mesh>(std::make_shared<Mesh>(std::move(*mesh)));
     }

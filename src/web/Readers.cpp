@@ -187,7 +187,8 @@ const char* reader_needs(const char* name) {
 /// Converts a file that was put and forgets all files. "" or the message; the result is at reader_bytes().
 const char* reader_to_plain(const char* name) {
     Converter& c = converter();
-    Result<Bytes> plain = scene::toPlain(name, *c.files.read(name), filesBeside(name));
+    Result<Bytes> file = c.files.read(name);
+    Result<Bytes> plain = file ? scene::toPlain(name, std::move(*file), filesBeside(name)) : file;
     c.files.clear();
     if (!plain) return answer(plain.error().message);
     c.plain = std::move(*plain);

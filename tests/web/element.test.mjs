@@ -339,6 +339,10 @@ test('large pictures of a mesh are decoded apart from it, be they beside its fil
     }, 0);
   for (const [onLeft, bright, dark] of [[true, 0, 1], [false, 1, 0]])
     for (const channel of [bright, 2]) assert.ok(sumOf(onLeft, channel) > 4 * sumOf(onLeft, dark), `${onLeft} ${channel}`);
+  // Of such a mesh a relief takes the shape alone.
+  const relief = await open('<lucent-viewer src="made/square-relief.json" alt="A square"></lucent-viewer>');
+  assert.deepEqual(relief.problems, []);
+  await relief.leave();
 });
 
 test('a mistyped attribute is named with the one that was meant, attributes of HTML are not', async () => {

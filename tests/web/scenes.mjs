@@ -163,8 +163,8 @@ export function glassTriangle() {
 
 /**
  * A square whose left half is red and whose right half is green, which shines blue likewise, under a grain that keeps its
- * two pictures large: as "square.glb", which has all in it, as "square.gltf" with its files, and a scene of each by those
- * names and ".json".
+ * two pictures large: as "square.glb", which has all in it, as "square.gltf" with its files, a scene of each by those
+ * names and ".json", and a relief of it.
  */
 function texturedSquares() {
   const corners = [-1, 1, -1, -1, 1, -1, -1, 1, 1, -1, 1, 1];
@@ -222,6 +222,7 @@ function texturedSquares() {
     objects: [{ name: 'square', shape: { type: 'mesh', source } }],
   });
   for (const name of ['square.gltf', 'square.glb']) files[`${name}.json`] = ofMiddles(sceneOf(name));
+  files['square-relief.json'] = ofMiddles(scene('A square', 'square.glb'));
   return files;
 }
 
