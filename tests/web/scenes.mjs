@@ -222,7 +222,8 @@ function texturedSquares() {
     objects: [{ name: 'square', shape: { type: 'mesh', source } }],
   });
   for (const name of ['square.gltf', 'square.glb']) files[`${name}.json`] = ofMiddles(sceneOf(name));
-  files['square-relief.json'] = ofMiddles(scene('A square', 'square.glb'));
+  const relief = { name: 'relief', shape: { type: 'heightfield', mesh: 'square.glb' } };
+  files['square-relief.json'] = ofMiddles(scene('A square', '', { objects: [relief] }));
   return files;
 }
 
