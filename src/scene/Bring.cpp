@@ -396,7 +396,7 @@ Result<Brought> sceneOfMaps(std::span<const MapFile> maps) {
 }
 
 Result<Brought> sceneOfMesh(const std::string& name, std::span<const std::byte> bytes) {
-    const Result<Mesh> mesh = decodeMesh(bytes, name);
+    const Result<Mesh> mesh = decodeShape(bytes, name);
     if (!mesh) return mesh.error();
     const Bounds bounds = boundsOf(posed(*mesh, poseAt(mesh->rig, 0)));
     if (!(bounds.radius() > 0)) return Error{name + ": is a single point; must have some extent"};

@@ -45,7 +45,7 @@ struct HeightsMaking::State {
         return std::nullopt;
     }
     std::optional<Result<SourcedHeights>> beginDepth(std::span<const std::byte> bytes) {
-        const Result<Mesh> mesh = decodeMesh(bytes, name);
+        const Result<Mesh> mesh = decodeShape(bytes, name);
         if (!mesh) return mesh.error();
         depth.emplace(*mesh, source.meshRotate, source.resolution, source.margin, source.floorGap);
         return std::nullopt;

@@ -177,9 +177,12 @@ bool isMesh(std::span<const std::byte> bytes);
 /// elsewhere it has their file's number.
 Bytes encodeMesh(const Mesh& mesh);
 /// Error "NAME: what; expected" for truncated files, indices out of range, lists whose lengths do not agree
-/// and values that are not finite or outside their range. Texels that lie elsewhere are left there.
+/// and values that are not finite or outside their range.
 Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& name);
-/// The same piece by piece, with all texels; a mesh without normals gets those of its triangles.
+/// The same without the texels of its pictures, wherever they lie: for who wants its shape and materials.
+Result<Mesh> decodeShape(std::span<const std::byte> bytes, const std::string& name);
+/// As decodeMesh(), piece by piece, for who must not wait; a mesh without normals gets those of its
+/// triangles.
 class MeshMaking {
 public:
     /// @param read  gives the file, and as NAME#NUMBER the texels of its pictures that lie elsewhere

@@ -319,8 +319,8 @@ bool isUnit(const vec3& v) { return std::abs(glm::length(v) - 1) <= kUnitToleran
 /// What keeps a mesh from being used; the first thing that is wrong stays.
 class Checker {
 public:
-    /// @param isWhole  no texels may lie elsewhere
-    Checker(const Mesh& mesh, bool isWhole) : mesh_(mesh), rig_(mesh.rig), isWhole_(isWhole) {}
+    /// @param hasTexels  false: those of its pictures were not read
+    Checker(const Mesh& mesh, bool hasTexels) : mesh_(mesh), rig_(mesh.rig), hasTexels_(hasTexels) {}
 
     /// Empty for a sound mesh, else "what was found; what was expected".
     std::string check() {
@@ -406,12 +406,10 @@ private:
     }
 
     void image(const TextureImage& image, const std::string& name) {
-        const bool isElsewhere = image.isElsewhere() && !isWhole_;
         const auto legal = [](int side) { return side >= 1 && side <= kMostTextureSide; };
         const std::size_t texels =
             std::size_t(std::max(image.size.x, 0)) * std::size_t(std::max(image.size.y, 0));
-        if (!legal(image.size.x) || !legal(image.size.y) ||
-            (image.texels.size() != 4 * texels && !isElsewhere))
+        if (!legal(image.size.x) || !legal(image.size.y) || (hasTexels_ && image.texels.size() != 4 * texels))
             wrong(name + " has " + std::to_string(image.size.x) + " x " + std::to_string(image.size.y) +
                   " texels in " + std::to_string(image.texels.size()) +
                   " bytes; must have 4 bytes a texel and at most " + std::to_string(kMostTextureSide) +
@@ -537,7 +535,7 @@ private:
 
     const Mesh& mesh_;
     const Rig& rig_;
-    bool isWhole_;
+    bool hasTexels_;
     std::string wrong_;
 };
 
@@ -589,13 +587,21 @@ Status readTexels(const Unread& from, const std::string& mesh, const ReadFile& r
     return Done{};
 }
 
-Status checkMesh(const Mesh& mesh, const std::string& name, bool isWhole) {
-    if (const std::string wrong = Checker(mesh, isWhole).check(); !wrong.empty())
+Status checkMesh(const Mesh& mesh, const std::string& name, bool hasTexels) {
+    if (const std::string wrong = Checker(mesh, hasTexels).check(); !wrong.empty())
         return Error{name + ": " + wrong};
     return Done{};
 }
 
 } // namespace
+
+Result<Mesh> decodeShape(std::span<const std::byte> bytes, const std::string& name) {
+    Mesh mesh;
+    std::vector<Unread> unread;
+    if (Status s = decodeVertices(bytes, name, mesh, unread); !s) return s.error();
+    if (Status s = checkMesh(mesh, name, false); !s) return s.error();
+    return mesh;
+}
 
 Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& name) {
     Mesh mesh;
@@ -603,7 +609,7 @@ Result<Mesh> decodeMesh(std::span<const std::byte> bytes, const std::string& nam
     if (Status s = decodeVertices(bytes, name, mesh, unread); !s) return s.error();
     for (const Unread& from : unread)
         takeTexels(*from.image, from.texels);
-    if (Status s = checkMesh(mesh, name, false); !s) return s.error();
+    if (Status s = checkMesh(mesh, name, true); !s) return s.error();
     return mesh;
 }
 

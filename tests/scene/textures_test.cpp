@@ -254,12 +254,13 @@ TEST(Textures, APlainFileKeepsThem) {
 }
 
 TEST(Textures, TexelsThatLieElsewhereComeFromTheirFile) {
-    const std::string material = R"("pbrMetallicRoughness": { "baseColorTexture": { "index": 1 } })";
-    const TextureImage whole = *squareWith(material).images[0];
-    const Mesh mesh =
-        squareWith(material, nullptr, having("m/my picture.png", standInFor(whole.size, std::uint8_t(200))));
-    ASSERT_EQ(mesh.images.size(), 1u);
-    EXPECT_TRUE(mesh.images[0]->isElsewhere());
+    Mesh mesh = squareWith(R"("pbrMetallicRoughness": { "baseColorTexture": { "index": 1 } })");
+    const TextureImage whole = *mesh.images[0];
+    const Result<TextureImage> elsewhere =
+        decodeTexture(standInFor(whole.size, std::uint8_t(200)), "a.png", whole.encoding);
+    ASSERT_TRUE(elsewhere) << elsewhere.error().message;
+    EXPECT_TRUE(elsewhere->isElsewhere());
+    mesh.images[0] = std::make_shared<const TextureImage>(*elsewhere);
     const Bytes file = encodeMesh(mesh);
     const auto madeWith = [&](const std::string& name, const Bytes& texels) {
         MeshMaking making("m/a.mesh", [&](const std::string& path) {
@@ -288,10 +289,13 @@ TEST(Textures, TexelsThatLieElsewhereComeFromTheirFile) {
         madeWith("m/a.mesh#200", Bytes(1)).error().message,
         "m/a.mesh: texture 0 has 4 x 2 texels in 1 bytes; must have 4 bytes a texel and at most 2048 on a "
         "side");
-    const Result<Mesh> shape = decodeMesh(file, "a"); // for who wants no colours: heights come of meshes too
+    EXPECT_EQ(
+        decodeMesh(file, "a").error().message,
+        "a: texture 0 has 4 x 2 texels in 1 bytes; must have 4 bytes a texel and at most 2048 on a side");
+    const Result<Mesh> shape = decodeShape(file, "a"); // heights come of meshes too
     ASSERT_TRUE(shape) << shape.error().message;
     EXPECT_EQ(shape->positions, mesh.positions);
-    EXPECT_TRUE(shape->images[0]->isElsewhere());
+    EXPECT_TRUE(shape->images[0]->texels.empty());
 }
 
 TEST(Textures, MattAndGlossyObjectsShowThem) {
