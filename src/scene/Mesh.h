@@ -150,6 +150,9 @@ ivec2 waterCells(const Water& water);
 /// with flat normals no two triangles share a vertex. Water lies still. What is displaced is
 /// displacedMesh().
 std::shared_ptr<const Mesh> meshOf(const Object& object);
+/// What stands in the light's way in place of meshOf(): coarser for round shapes that are not refractive,
+/// whose outline it leaves by at most 0.03 % of the radius, to the inside. Else the same.
+std::shared_ptr<const Mesh> shadowMeshOf(const Object& object);
 
 /// Whether a material's textures are shown: it is matt or glossy.
 bool showsTextures(const Material& material);

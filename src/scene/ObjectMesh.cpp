@@ -17,6 +17,9 @@ constexpr int kWavedCells = 128; // along an edge that a wave bends
 // needs those.
 constexpr int kClearSphere = 160, kClearTorus = 240;
 
+// Once around what only casts a shadow: each of hundreds of light samples draws it.
+constexpr int kShadowSphere = 128, kShadowTorus = 192;
+
 // Where what light does inside is worked out once, the work grows with the square of the vertices, and
 // between them light from far inside is linear: once around, and along an edge.
 constexpr int kBakedSphere = 120, kBakedTorus = 160, kBakedCells = 24;
@@ -104,6 +107,11 @@ struct Source {
     bool operator==(const Source&) const = default;
 };
 
+struct ShadowSource {
+    Shape shape;
+    bool operator==(const ShadowSource&) const = default;
+};
+
 } // namespace
 
 std::shared_ptr<const Mesh> meshOf(const Object& object) {
@@ -115,6 +123,18 @@ std::shared_ptr<const Mesh> meshOf(const Object& object) {
             if (object.displacement) return std::make_shared<const Mesh>(displacedMesh(object));
             return std::make_shared<const Mesh>(file ? flattened(*file->mesh) : generated(object));
         });
+}
+
+std::shared_ptr<const Mesh> shadowMeshOf(const Object& object) {
+    if (object.material.isRefractive() || isWaved(object) || object.displacement) return meshOf(object);
+    const auto made = [&](auto shape, int segments) {
+        const auto make = [&] { return std::make_shared<const Mesh>(meshOf(shape, segments)); };
+        return object.kept.of<std::shared_ptr<const Mesh>>(ShadowSource{object.shape}, make);
+    };
+    if (const auto* sphere = std::get_if<Sphere>(&object.shape)) return made(*sphere, kShadowSphere);
+    if (const auto* torus = std::get_if<Torus>(&object.shape)) return made(*torus, kShadowTorus);
+    if (const auto* cylinder = std::get_if<Cylinder>(&object.shape)) return made(*cylinder, kShadowSphere);
+    return meshOf(object);
 }
 
 bool showsTextures(const Material& material) {

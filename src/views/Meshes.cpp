@@ -84,6 +84,11 @@ Result<Drawable::Ptr> DrawnMesh::create(const scene::Object& object, int index, 
         if (!maps) return maps.error();
         drawn->paint = *maps;
         source = (*atlas)->mesh;
+    } else if (const std::shared_ptr<const scene::Mesh> coarse = scene::shadowMeshOf(object);
+               coarse != source) {
+        Result<const MeshTextures*> caster = images.mesh(coarse, false);
+        if (!caster) return caster.error();
+        drawn->caster = *caster;
     }
     Result<const MeshTextures*> textures = images.mesh(source, object.material.isRefractive());
     if (!textures) return textures.error();
@@ -159,6 +164,17 @@ void drawMesh(graph::Commands& commands, const gl::Program& program, const graph
     commands.draw(draw);
 }
 
+// Of what neither moves nor has holes.
+static Drawing casterDrawing(const gl::Program* program, const DrawnMesh& drawn, int number) {
+    return [=](const graph::Resources&, graph::Commands& commands, const Eye& eye, ivec2 size,
+               graph::Draw draw) {
+        setMesh(draw, *program, drawn.caster->indices(), drawn, eye, size, number);
+        draw.textures.push_back({"uPositions", drawn.caster->positions().handle()});
+        draw.textures.push_back({"uNormals", drawn.caster->normals().handle()});
+        commands.draw(draw);
+    };
+}
+
 Drawing DrawnMesh::drawing(gl::Context& context, graph::PassBuilder& pass, ViewKind kind, int number,
                            std::vector<std::string> defines) const {
     constexpr const char* kStems[] = {"views/solid",         "views/shadow",     "views/textured",
@@ -170,6 +186,7 @@ Drawing DrawnMesh::drawing(gl::Context& context, graph::PassBuilder& pass, ViewK
     else if (hasHoles)
         defines.push_back("HOLES");
     const gl::Program* program = context.program(kStems[int(kind)], defines);
+    if (kind == ViewKind::Shadow && caster) return casterDrawing(program, *this, number);
     const auto draws = kind == ViewKind::Peel ? drawTriangles : drawMesh;
     if (kind == ViewKind::Peel)
         pass.sample(triangles.corners);

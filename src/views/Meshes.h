@@ -53,8 +53,9 @@ struct DrawnMesh final : Drawable {
                               const Waters* waters);
 
     const MeshTextures* textures = nullptr;
-    const WaterSheet* water = nullptr; ///< of water that moves
-    std::optional<Paint> paint{};      ///< of painted objects, whose mesh is their atlas'
+    const MeshTextures* caster = nullptr; ///< what stands in the light's way; null: the same
+    const WaterSheet* water = nullptr;    ///< of water that moves
+    std::optional<Paint> paint{};         ///< of painted objects, whose mesh is their atlas'
 
     // as it stands in this frame; see posed()
     graph::TextureId positions, normals; ///< object space
