@@ -24,7 +24,7 @@
 
 namespace lucent::frame {
 
-/// Turns every knob down to what a first look has.
+/// Turns every knob down to what a preview has.
 void turnDown(scene::Scene& scene);
 
 class Budget {
@@ -40,7 +40,7 @@ public:
     bool matters(const scene::Scene& scene) const;
     /// Begins anew for a scene with quality.maxError > 0 in which something matters().
     ///
-    /// @param dragged  a quick look: there is no time, the last choice serves again
+    /// @param dragged  a preview: there is no time, the last choice serves again
     void start(const scene::Scene& scene, bool dragged);
     /// Whether nothing may become dearer than the scene's own settings, nor the choice dearer than what it
     /// saves: only light samples are chosen, where the scene has more of them than are drawn to choose.

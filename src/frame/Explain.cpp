@@ -100,7 +100,7 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     for (const State::Member& member : s.members)
         if (const auto reason = member.technique->need(scene))
             text += "  " + std::string(member.technique->name) + ": " + *reason + "\n";
-    text += "views from elsewhere\n" + linesOf(s.aroundLines(), "no ray leaves what the camera shows");
+    text += "reflection probes\n" + linesOf(s.aroundLines(), "no ray leaves what the camera shows");
     text += "passes, in the order they run\n" + graph.dump();
     text += "textures that stay\n";
     const auto line = [&](const std::string& label, std::size_t bytes) {

@@ -89,7 +89,7 @@ bool Renderer::State::replaces(const Picture& picture) const {
 
 // @return  whether guests have what they need: else again, when the GPU has answered
 Result<bool> Renderer::State::prepare(const Picture& picture) {
-    readings.restart(atOnce ? nullptr : std::function<bool()>([this] { return canLook(); }));
+    readings.restart(atOnce ? nullptr : std::function<bool()>([this] { return canPreview(); }));
     for (const Member& member : members) {
         if (!member.technique->need(picture.scene)) {
             member.guest->clear();

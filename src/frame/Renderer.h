@@ -24,7 +24,7 @@ class Budget;
 /// one after the other.
 struct Progress {
     bool complete = false;
-    int samples = 0;    ///< of the pixels, whose mean is shown; 0: no more than a look
+    int samples = 0;    ///< of the pixels, whose mean is shown; 0: no more than a preview
     int stage = 0;      ///< grows whenever what is shown becomes better
     float fraction = 0; ///< of the light that the picture will have, [0,1]
 };
@@ -69,7 +69,7 @@ public:
     ///
     /// @param revision  changes whenever the scene changed; the picture then starts again
     /// @param size      of the picture in pixels, > 0
-    /// @param coarse    a first look while something is dragged: few environment samples
+    /// @param coarse    a preview while something is dragged: few environment samples
     /// @param downscale    of a coarse one: how many pixels of the picture share one that is drawn, along
     /// each
     ///                  side; >= 1

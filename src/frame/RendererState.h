@@ -23,7 +23,7 @@
 
 namespace lucent::frame {
 
-// A picture is made in stages: a first look, more directions of the environment, all that its settings ask
+// A picture is made in stages: a preview, more directions of the environment, all that its settings ask
 // for, and then the same once for each further sample of the pixels. A stage is summed in slices that take
 // about kSliceMs each; what is shown is the last complete stage, or the mean of the samples that are there.
 struct Renderer::State {
@@ -38,7 +38,7 @@ struct Renderer::State {
         int sample = 0; // of the pixels; 0: their middles
     };
 
-    // One first look; looks, then all; all in slices; all at once.
+    // One preview; previews, then all; all in slices; all at once.
     enum class Effort { Coarse, Progressive, Unseen, Final };
 
     struct Member {
@@ -143,7 +143,7 @@ struct Renderer::State {
     bool second = false;                        // Eye::second
     const views::Surroundings* given = nullptr; // of such a one: what its pictures know of their surroundings
     bool allAround = false;                     // of such a one: technique::Picture::allAround
-    std::size_t outlooksLeft = 0;               // cubes that were asked for and are too many
+    std::size_t probesLeft = 0;                 // cubes that were asked for and are too many
 
     // the picture being made
     std::unique_ptr<const scene::Scene> pictured; // passes that run later point to its objects
@@ -155,7 +155,7 @@ struct Renderer::State {
     bool dragged = false;
     int taken = 0;                    // objects that are on the GPU: see takeObjects()
     int rested = 0;                   // places of slice() up to which it has rested: see rests()
-    bool atOnce = false;              // nobody waits for a look before the picture is complete
+    bool atOnce = false;              // nobody waits for a preview before the picture is complete
     float defaultError = 0;           // of scenes that ask for none
     bool planning = false;            // the settings are still to be chosen
     bool composed = false;            // the picture stands in `through`
@@ -184,7 +184,7 @@ struct Renderer::State {
     // Stages.cpp
     void start(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize, Effort effort);
     void startChoosing(const scene::Scene& scene);
-    void addStages(const scene::Scene& scene, Effort effort, bool looked);
+    void addStages(const scene::Scene& scene, Effort effort, bool previewed);
     void addSamples(const scene::Scene& scene);
     Status plan(const scene::Scene& scene);
     Result<Progress> advance(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize,
@@ -212,13 +212,13 @@ struct Renderer::State {
     float work(const Stage& of) const;
     float shareOfStage(const scene::Scene& scene) const;
     bool complete() const { return started && !planning && stage >= stages.size(); }
-    // A quick look is not drawn again: the picture after it is.
+    // A preview is not drawn again: the picture after it is.
     bool settled(Effort effort) const;
     int sliceEnd() const;
 
     // Surroundings.cpp
     Status survey(const Moment& moment);
-    void surveyCubes(const Moment& moment, std::vector<views::Outlook> asked);
+    void surveyCubes(const Moment& moment, std::vector<views::Probe> asked);
     void makeCubes();
     void surveyFlat(const Moment& moment, std::vector<views::FlatMirror> asked);
     Result<bool> lookAround(const Moment& moment);
@@ -253,7 +253,7 @@ struct Renderer::State {
         return allAround || (!isCoarse() && pixelSamples(scene) > 1);
     }
     bool rests(int place, double since);
-    bool canLook();
+    bool canPreview();
     Result<bool> takeObjects(const scene::Scene& scene);
     std::vector<technique::Guest*> needed(const scene::Scene& scene) const;
     technique::Guest* replacing(const technique::Picture& picture) const;

@@ -41,7 +41,7 @@ bool shareShapes(const std::vector<views::ObjectKey>& some, const std::vector<vi
 
 // --- settings
 
-// The scene with what its error chose, and with all knobs turned down for a first look.
+// The scene with what its error chose, and with all knobs turned down for a preview.
 scene::Scene Renderer::State::chosen(const scene::Scene& scene) const {
     scene::Scene used = scene;
     budget.apply(used);
@@ -76,7 +76,7 @@ Status Renderer::State::plan(const scene::Scene& scene) {
 
 void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision, ivec2 newSize,
                             Effort effort) {
-    const bool looked = started && coarse && complete() && revision == newRevision;
+    const bool previewed = started && coarse && complete() && revision == newRevision;
     if (started && complete())
         rested = taken = 0; // else changes that follow each other fast would let nothing be drawn
     if (started && !complete() && !earlier) earlier.emplace();
@@ -111,8 +111,8 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
     atOnce = effort == Effort::Final;
     startChoosing(scene);
     if (!planning)
-        addStages(scene, effort, looked);
-    else if (effort == Effort::Progressive && !looked)
+        addStages(scene, effort, previewed);
+    else if (effort == Effort::Progressive && !previewed)
         stages.push_back({kFirstStage, false, true});
     startStage(scene);
 }
@@ -124,8 +124,8 @@ Guest* Renderer::State::baker(const scene::Scene& scene) const {
     return nullptr;
 }
 
-// @param looked  there is a first look already
-void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool looked) {
+// @param previewed  there is a preview already
+void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool previewed) {
     const bool isLit = !views::isGeometric(scene.view.show);
     const scene::Scene used = chosen(scene);
     const std::vector<Guest*> guests = needed(scene);
@@ -138,13 +138,13 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool l
     const bool coarsens = directions > 2 * kFirstStage || bakes || turns;
     const bool limited = scene.quality.maxError > 0 && dragged; // not as exact as is asked for
     const bool isShown = effort == Effort::Coarse || effort == Effort::Progressive;
-    const bool hasLook = isLit && !isThere && isShown && (coarsens || limited);
-    if (hasLook && !looked) stages.push_back({std::min(directions, kFirstStage), false, true});
-    coarse = dragged && hasLook;
+    const bool hasPreview = isLit && !isThere && isShown && (coarsens || limited);
+    if (hasPreview && !previewed) stages.push_back({std::min(directions, kFirstStage), false, true});
+    coarse = dragged && hasPreview;
     if (coarse) return;
     // While something is baked its light is summed.
     const int summed = bakes ? kFirstStage * kStageFactor : directions;
-    const bool grows = hasLook && effort == Effort::Progressive;
+    const bool grows = hasPreview && effort == Effort::Progressive;
     for (int count = kFirstStage * kStageFactor; grows && count * 2 < summed; count *= kStageFactor)
         stages.push_back({count, false, true});
     stages.push_back({bakes ? bakes->directionsBesideBake(used) : directions, bakes != nullptr, false});
@@ -220,7 +220,7 @@ int Renderer::State::sliceEnd() const {
     if (atOnce) return std::min(count, next + most);
     const double affordable = msPerLight > 0 ? std::max(1.0, kSliceMs / msPerLight) : 1;
     const int end = std::min(count, next + int(std::min(affordable, double(most))));
-    // Every point and distant light belongs to the first look: they are few.
+    // Every point and distant light belongs to the preview: they are few.
     return next == 0 ? std::min(count, std::max(end, std::min(4, most))) : end;
 }
 
@@ -250,14 +250,14 @@ Result<bool> Renderer::State::ready(const Moment& moment) {
 // Whether what was made ready by now took so long that whoever looks on is answered first; once for each
 // place where it may rest, or what takes that long each time would never end.
 bool Renderer::State::rests(int place, double since) {
-    const double longest = dragged ? 1.5 * kSliceMs : kSliceMs; // a quick look hurries
+    const double longest = dragged ? 1.5 * kSliceMs : kSliceMs; // a preview hurries
     if (atOnce || place < rested || now() - since < longest) return false;
     rested = place + 1;
     return true;
 }
 
 // Whether what guests ask can be drawn without waiting for programs, or for what the GPU still draws.
-bool Renderer::State::canLook() {
+bool Renderer::State::canPreview() {
     if (earlier && !earlier->passed(0)) return false;
     earlier.reset();
     if (!context.hasUnready()) return true;
@@ -550,7 +550,7 @@ Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64
         start(asked, newRevision, newSize, effort);
     const bool isLate = !atOnce && now() - begins > 0.5 * kSliceMs; // the scene's shapes were made
     const scene::Scene& scene = *pictured;
-    if (dragged && effort != Effort::Coarse) { // the look was the picture already
+    if (dragged && effort != Effort::Coarse) { // the preview was the picture already
         const bool over = complete();
         dragged = false;
         addSamples(scene);

@@ -55,7 +55,7 @@ void hideBehind(scene::Scene& scene, const views::FlatMirror& mirror) {
 
 // Bits of the faces of a cube view in which anything may be seen, and in which an object may hide another one
 // (views::Surroundings::faces). Through refractive objects what is behind them is seen.
-int facesWithAnything(scene::Scene scene, const views::Outlook& cube) {
+int facesWithAnything(scene::Scene scene, const views::Probe& cube) {
     hide(scene, cube.hidden);
     int faces = 0;
     for (int face = 0; face < kFaces; ++face) {
@@ -98,13 +98,13 @@ Renderer::State::SceneKey Renderer::State::sceneKey(const scene::Scene& scene) c
     return key;
 }
 
-// What is to be drawn before the picture of a stage. A first look keeps the cubes that there are.
+// What is to be drawn before the picture of a stage. A preview keeps the cubes that there are.
 Status Renderer::State::survey(const Moment& moment) {
     surveyed = true;
     asides.clear();
     asideScene.reset();
     if (given) return Done{};
-    views::Outlooks asked;
+    views::Probes asked;
     const technique::Picture picture = pictureOf(moment);
     if (moment.scene.view.show == scene::Aov::Color)
         for (const technique::Guest* guest : needed(moment.scene))
@@ -123,16 +123,16 @@ Status Renderer::State::survey(const Moment& moment) {
     return Done{};
 }
 
-void Renderer::State::surveyCubes(const Moment& moment, std::vector<views::Outlook> asked) {
-    outlooksLeft = asked.size() - std::min(asked.size(), std::size_t(views::kMostCubes));
-    asked.resize(asked.size() - outlooksLeft);
+void Renderer::State::surveyCubes(const Moment& moment, std::vector<views::Probe> asked) {
+    probesLeft = asked.size() - std::min(asked.size(), std::size_t(views::kMostCubes));
+    asked.resize(asked.size() - probesLeft);
     if (asked != surroundings.cubes) {
         surroundings.cubes = asked;
         surroundings.faces.assign(asked.size(), 0);
         facesShown.assign(asked.size(), 0);
         cubesFor.reset();
     }
-    const bool draws = !asked.empty() && !isCoarse(); // a look has the picture's cubes
+    const bool draws = !asked.empty() && !isCoarse(); // a preview has the picture's cubes
     if (draws) {
         SceneKey key = sceneKey(moment.scene);
         if (cubesFor != key) {
@@ -215,7 +215,7 @@ scene::Scene Renderer::State::sceneFor(const Moment& moment, const Aside& aside)
         hideBehind(scene, mirror);
         scene.camera = views::mirrored(scene.camera, mirror);
     } else {
-        const views::Outlook& cube = surroundings.cubes[std::size_t(aside.cube)];
+        const views::Probe& cube = surroundings.cubes[std::size_t(aside.cube)];
         hide(scene, cube.hidden);
         scene.camera = views::cameraOf(cube, aside.face);
         views::Sampling& sampling = views::samplingOf(scene);
@@ -296,7 +296,7 @@ Status Renderer::State::keepAside(const scene::Scene& scene, const Aside& aside)
         const int cube = aside.cube + (aside.second ? int(surroundings.cubes.size()) : 0);
         const int layer = isCube ? kFaces * cube + aside.face : aside.flat;
         graph.addPass("views.around", [&](graph::PassBuilder& pass) -> graph::Execute {
-            pass.reason("what is seen from elsewhere");
+            pass.reason("what reflection probes see");
             pass.sample(picture);
             pass.write(radiances, layer);
             if (isCube) {
@@ -344,8 +344,8 @@ std::vector<std::string> Renderer::State::aroundLines() const {
     for (const views::FlatMirror& mirror : surroundings.flat)
         lines.push_back("the camera's view mirrored by \"" + mirror.name + "\", " + std::to_string(size.x) +
                         "x" + std::to_string(size.y) + ": a flat mirror shows it exactly");
-    if (outlooksLeft > 0)
-        lines.push_back(std::to_string(outlooksLeft) + " more object(s): no more than " +
+    if (probesLeft > 0)
+        lines.push_back(std::to_string(probesLeft) + " more object(s): no more than " +
                         std::to_string(views::kMostCubes) +
                         " look around themselves; these show the environment");
     return lines;

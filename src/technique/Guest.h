@@ -75,7 +75,7 @@ public:
     // --- before the passes of a stage
 
     /// Asks for views from elsewhere, where rays leave what the camera shows.
-    virtual void lookAround(const Picture&, views::Outlooks&) const {}
+    virtual void lookAround(const Picture&, views::Probes&) const {}
 
     /// Makes what record functions need: tables, counts, plans. Only where the scene needs the technique.
     /// Again for the same picture until Picture::readings are all there.

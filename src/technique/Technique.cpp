@@ -20,7 +20,7 @@ constexpr Knob kLamps{.id = "lampSamples",
                       .most = 1024,
                       .showsOnFew = true,
                       .words = "samples a lamp"};
-// First looks grow by directions, whatever the scene's number is.
+// Previews grow by directions, whatever the scene's number is.
 constexpr Knob kDirections{.id = "directions",
                            .coarse = 65536,
                            .steps = std::span(kCounts).subspan(7),

@@ -46,12 +46,12 @@ struct Baker {
     void (*leaveOut)(scene::Object&);
 };
 
-/// A parameter that trades error for time: first looks turn it down, and quality.maxError chooses its value.
+/// A parameter that trades error for time: previews turn it down, and quality.maxError chooses its value.
 struct Knob {
     std::string_view id;                ///< in the technique's table
-    double coarse;                      ///< of a first look, unless the scene's own is cheaper
+    double coarse;                      ///< of a preview, unless the scene's own is cheaper
     bool costsLess = false;             ///< greater values cost less
-    std::span<const double> steps = {}; ///< cheapest first; empty: only first looks turn it
+    std::span<const double> steps = {}; ///< cheapest first; empty: only previews turn it
     double most = 0;         ///< each step is held against finer ones up to this, and the last may be chosen;
                              ///< 0: each against the next, and the last is only drawn for that
     bool showsOnFew = false; ///< its error is the same on a few hundred pixels of the picture

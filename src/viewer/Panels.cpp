@@ -77,7 +77,7 @@ void Viewer::State::frame() {
     fonts().select(scale);
     panel.setCanvas(canvas());
 
-    const bool isSeen = scene && shownScene == sceneNumber; // the first look comes first
+    const bool isSeen = scene && shownScene == sceneNumber; // the preview comes first
     if (isSeen && !figuresWait && (figuresAt != revision || figuresPend)) {
         figures = allFigures();
         figuresAt = revision;

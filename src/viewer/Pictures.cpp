@@ -8,9 +8,9 @@ namespace lucent::viewer {
 
 namespace {
 
-constexpr double kSlowLook = 0.15, kFastLook = 0.04; // s
-constexpr int kMostDownscale = 8, kLeastSide = 96;   // pixels that a look has along its shorter side
-constexpr double kLong = 1, kLongLeft = 2;           // s: that are past, and left, before time left is told
+constexpr double kSlowPreview = 0.15, kFastPreview = 0.04; // s
+constexpr int kMostDownscale = 8, kLeastSide = 96; // pixels that a preview has along its shorter side
+constexpr double kLong = 1, kLongLeft = 2;         // s: that are past, and left, before time left is told
 
 } // namespace
 
@@ -27,7 +27,7 @@ void Viewer::State::begin() {
     failure.clear();
     stale = stopping = false;
     drawingProgress.reset();
-    phase = Phase::Look;
+    phase = Phase::Preview;
     downscale = std::min(downscale, mostDownscale());
     phaseBegan = secondsNow();
 }
@@ -36,12 +36,12 @@ int Viewer::State::mostDownscale() const {
     return std::clamp(std::min(picturePixels.x, picturePixels.y) / kLeastSide, 1, kMostDownscale);
 }
 
-// Looks have fewer pixels until several fit into a second.
+// Previews have fewer pixels until several fit into a second.
 void Viewer::State::learnDownscale(double took) {
     const int before = downscale;
-    if (took > kSlowLook)
+    if (took > kSlowPreview)
         downscale *= 2;
-    else if (took < kFastLook)
+    else if (took < kFastPreview)
         downscale /= 2;
     downscale = std::clamp(downscale, 1, mostDownscale());
     if (downscale != before) settled = false; // it is told
@@ -56,7 +56,7 @@ void Viewer::State::estimate(float share) {
     if (left + past > kLongLeft) drawingProgress = {share, left};
 }
 
-// Works on the picture. A quick look is always finished before the next begins, so that a slow machine shows
+// Works on the picture. A preview is always finished before the next begins, so that a slow machine shows
 // something while a hand moves. @return true when there is something new to present
 bool Viewer::State::advance() {
     if (!scene) return false;
@@ -67,27 +67,27 @@ bool Viewer::State::advance() {
         stale = true;
         phase = Phase::Done;
     }
-    if (stale && phase != Phase::Look) begin();
+    if (stale && phase != Phase::Preview) begin();
     if (stopping && canPresent()) phase = Phase::Done;
     if (phase == Phase::Done || rests()) return false;
     if (!renderer) renderer = std::make_unique<frame::Renderer>(*context);
     renderer->setDefaultError(defaultError());
-    const bool looks = phase == Phase::Look;
+    const bool isPreview = phase == Phase::Preview;
     const Result<frame::Progress> progress =
-        renderer->advance(picture, pictureNumber, size, looks, looks ? downscale : 1);
+        renderer->advance(picture, pictureNumber, size, isPreview, isPreview ? downscale : 1);
     if (!progress) {
         phase = Phase::Done;
         message = failure = progress.error().message;
         settled = false;
         return false;
     }
-    if (!looks) estimate(progress->fraction);
+    if (!isPreview) estimate(progress->fraction);
     const bool better = phase != Phase::Smooth || progress->samples > samples;
     samples = progress->samples;
-    if (!progress->complete && (looks || !better)) return false;
+    if (!progress->complete && (isPreview || !better)) return false;
     if (!progress->complete && samples == 0) // light grows
         return std::exchange(stage, progress->stage) != progress->stage;
-    if (looks) {
+    if (isPreview) {
         const bool whole = samples > 0 && downscale == 1; // nothing was coarse
         phase = whole ? Phase::Smooth : Phase::Refine;
         learnDownscale(secondsNow() - phaseBegan);

@@ -32,7 +32,7 @@ void Viewer::State::tick(double now) {
     lastDraw = now;
     if (!scene || !play.playing) return;
     due += passed;
-    if (stale || phase == Phase::Look || due == 0) return;
+    if (stale || phase == Phase::Preview || due == 0) return;
     scene->view.time += float(due);
     due = 0;
     changed();

@@ -42,9 +42,9 @@ struct Viewer::State {
 
     // What the pointer has gripped, and how things were then: drags add up without drift.
     enum class Grip { None, Light, Map, Roll, Orbit, Divider, Water, Paint };
-    // The picture: a quick look first, so that something is seen while a hand moves; then the fine one, and
+    // The picture: a preview first, so that something is seen while a hand moves; then the fine one, and
     // that by more samples of each pixel.
-    enum class Phase { Look, Refine, Smooth, Done };
+    enum class Phase { Preview, Refine, Smooth, Done };
 
     gl::Context* context;
     gl::ImGuiHost* imguiHost;
@@ -79,8 +79,8 @@ struct Viewer::State {
     Phase phase = Phase::Done;
     int samples = 0;                                // of each pixel of what is shown
     int stage = 0;                                  // frame::Progress::stage of what is shown
-    int downscale = 1;                              // of looks, see frame::Renderer::advance()
-    double phaseBegan = 0;                          // s: of a look, and then of what follows it
+    int downscale = 1;                              // of previews, see frame::Renderer::advance()
+    double phaseBegan = 0;                          // s: of a preview, and then of what follows it
     bool stopping = false;                          // no more work on this picture
     std::optional<DrawingProgress> drawingProgress; // of work that takes long
     bool stale = false, shown = false;              // the scene changed since; there is a picture to present
@@ -294,7 +294,7 @@ struct Viewer::State {
     }
     float defaultError() const { return mode.accuracy == Accuracy::Automatic ? automaticError : 0; }
     bool canPresent() const { return !renderer || renderer->canPresent(); }
-    // A hand is on a picture that a look shows.
+    // A hand is on a picture that a preview shows.
     bool rests() const { return (phase == Phase::Refine || phase == Phase::Smooth) && held && canPresent(); }
     bool working() { return scene && (stale || (phase != Phase::Done && !rests()) || nextSide()); }
 };

@@ -49,7 +49,7 @@ bool isFlat(const scene::Object& object) {
     return !sidesOf(object.shape).empty() && object.wave.amplitude == vec3(0) && !object.displacement;
 }
 
-Outlook outlookFrom(const scene::Scene& scene, int object) {
+Probe probeFrom(const scene::Scene& scene, int object) {
     const scene::Object& one = scene.objects[std::size_t(object)];
     return {.name = one.name,
             .place = boundsOf(one).center(),
@@ -58,16 +58,16 @@ Outlook outlookFrom(const scene::Scene& scene, int object) {
             .hidden = {object}};
 }
 
-std::vector<Outlook> outlooksFromMirror(const scene::Scene& scene, int object) {
+std::vector<Probe> probesFromMirror(const scene::Scene& scene, int object) {
     const scene::Object& mirror = scene.objects[std::size_t(object)];
-    std::vector<Outlook> outlooks{outlookFrom(scene, object)};
+    std::vector<Probe> probes{probeFrom(scene, object)};
     const bool isBall = std::holds_alternative<scene::Sphere>(mirror.shape) && !mirror.displacement;
-    if (isFlat(mirror) || isBall) return outlooks; // shows nothing of itself
-    Outlook itself{.name = mirror.name, .place = outlooks[0].place, .object = -2, .hidden = {}};
+    if (isFlat(mirror) || isBall) return probes; // shows nothing of itself
+    Probe itself{.name = mirror.name, .place = probes[0].place, .object = -2, .hidden = {}};
     for (int i = 0; i < int(scene.objects.size()); ++i)
         if (i != object) itself.hidden.push_back(i);
-    outlooks.push_back(std::move(itself));
-    return outlooks;
+    probes.push_back(std::move(itself));
+    return probes;
 }
 
 std::vector<FlatMirror> flatSides(const scene::Scene& scene, int object, const Eye& eye) {
@@ -91,12 +91,12 @@ std::vector<FlatMirror> flatSides(const scene::Scene& scene, int object, const E
     return flat;
 }
 
-scene::Camera cameraOf(const Outlook& outlook, int face) {
+scene::Camera cameraOf(const Probe& probe, int face) {
     vec3 forward(0);
     forward[face / 2] = face % 2 == 0 ? 1.0f : -1.0f;
     return {.type = scene::Camera::Type::Perspective,
-            .eye = outlook.place,
-            .target = outlook.place + forward,
+            .eye = probe.place,
+            .target = probe.place + forward,
             .up = face / 2 == 1 ? vec3(0, 0, -1) : vec3(0, 1, 0),
             .fov = 90};
 }
@@ -117,7 +117,7 @@ AroundBlock aroundBlock(const Surroundings* surroundings) {
     block.count = int(surroundings->cubes.size());
     block.further = surroundings->further;
     for (std::size_t i = 0; i < surroundings->cubes.size(); ++i) {
-        const Outlook& cube = surroundings->cubes[i];
+        const Probe& cube = surroundings->cubes[i];
         block.cubes[i] = {vec4(cube.place, cube.object), vec4(cube.reflectance, surroundings->faces[i])};
     }
     return block;

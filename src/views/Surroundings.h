@@ -21,14 +21,14 @@ enum class Around : int { Environment, View, Surroundings };
 ParamText aroundText();
 
 /// A place from which all around is seen.
-struct Outlook {
+struct Probe {
     std::string name;    ///< whose, for people
     vec3 place{0};       ///< world
     int object = -1;     ///< of the scene: the mirror where rays begin; -1: refractive objects; -2: only the
-                         ///< mirror of the outlook before is seen, in itself
+                         ///< mirror of the probe before is seen, in itself
     vec3 reflectance{0}; ///< of that mirror
     std::vector<int> hidden; ///< objects of the scene that are not seen from there: the own one
-    bool operator==(const Outlook&) const = default;
+    bool operator==(const Probe&) const = default;
 };
 
 /// A flat side of a mirror that faces the camera.
@@ -42,28 +42,28 @@ struct FlatMirror {
 };
 
 /// What the techniques of a picture ask for.
-struct Outlooks {
-    std::vector<Outlook> cubes;
+struct Probes {
+    std::vector<Probe> cubes;
     std::vector<FlatMirror> flat;
 };
 
-/// An outlook from the middle of an object.
-Outlook outlookFrom(const scene::Scene& scene, int object);
+/// A probe from the middle of an object.
+Probe probeFrom(const scene::Scene& scene, int object);
 /// The same for a mirror, and a second one where it may be seen in itself.
-std::vector<Outlook> outlooksFromMirror(const scene::Scene& scene, int object);
+std::vector<Probe> probesFromMirror(const scene::Scene& scene, int object);
 /// Sides of a mirror that are plane and may be seen, none where it is no plane or box, or where a wave bends
 /// it.
 std::vector<FlatMirror> flatSides(const scene::Scene& scene, int object, const Eye& eye);
 bool isFlat(const scene::Object& object);
 
 /// Faces of a cube view: +x, -x, +y, -y, +z, -z of the world (shaders/views/surroundings.glsl).
-scene::Camera cameraOf(const Outlook& outlook, int face);
+scene::Camera cameraOf(const Probe& probe, int face);
 /// The camera as a mirror shows it. Its picture is the mirror's with left and right exchanged.
 scene::Camera mirrored(const scene::Camera& camera, const FlatMirror& mirror);
 
 /// All of it as drawn. Who shades reads it by shaders/views/surroundings.glsl.
 struct Surroundings {
-    std::vector<Outlook> cubes;
+    std::vector<Probe> cubes;
     std::vector<int> faces; ///< of each cube: bits of those that show anything, and six higher of those that
                             ///< also show what the first objects in their pixels hide
     std::vector<FlatMirror> flat;

@@ -265,7 +265,7 @@ TEST_F(Surroundings, AreNotDrawnWhereNoRayLooksForThem) {
     add(scene::Box{}, {0, 0, 0});
     addGlowing(scene::Plane{{5, 5}}, {0, -0.7f, 0}, vec3(1));
     scene.lights = {scene::PointLight{.position = {1, 2, 1}}};
-    const char* none = "views from elsewhere\n  no ray leaves what the camera shows";
+    const char* none = "reflection probes\n  no ray leaves what the camera shows";
     EXPECT_NE(explained().find(none), std::string::npos);
     addMirror(scene::Sphere{0.3f}, {1, 0, 0});
     EXPECT_NE(explained().find("from \"object 2\": "), std::string::npos);

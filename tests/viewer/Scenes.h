@@ -21,7 +21,7 @@ inline constexpr const char* kLampScene =
  "technique": {"sampling": {"directions": 8, "pixelSamples": 1}},
  "objects": [{"name": "field", "shape": {"type": "heightfield", "heights": "wave.pfm"}}]})";
 
-/// The same field, seen from farther off, under an environment only: more of its lights than a quick look
+/// The same field, seen from farther off, under an environment only: more of its lights than a preview
 /// takes.
 inline constexpr const char* kMapScene = R"({"lucent": 1, "title": "Map", "size": [512, 512],
  "camera": {"type": "orthographic", "eye": [0, 0, 2], "height": 4},

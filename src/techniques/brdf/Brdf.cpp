@@ -59,7 +59,7 @@ int cubeOf(const views::Surroundings* surroundings, int object) {
     if (!surroundings) return -1;
     const auto& cubes = surroundings->cubes;
     const auto found = std::find_if(cubes.begin(), cubes.end(),
-                                    [&](const views::Outlook& cube) { return cube.object == object; });
+                                    [&](const views::Probe& cube) { return cube.object == object; });
     return found == cubes.end() ? -1 : int(found - cubes.begin());
 }
 

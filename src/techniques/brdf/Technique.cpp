@@ -103,7 +103,7 @@ public:
                                                   .solid = solid,
                                                   .target = shown});
     }
-    void lookAround(const technique::Picture& picture, views::Outlooks& asked) const override {
+    void lookAround(const technique::Picture& picture, views::Probes& asked) const override {
         const scene::Scene& scene = picture.scene;
         if (aroundOf(scene) != views::Around::Surroundings || countVisible(scene, isAnything) < 2) return;
         // A flat mirror has a picture of its own; what others see in it they follow from its middle.
@@ -120,9 +120,9 @@ public:
     }
 
 private:
-    static void addCubes(const scene::Scene& scene, int object, views::Outlooks& asked) {
-        for (views::Outlook& outlook : views::outlooksFromMirror(scene, object))
-            asked.cubes.push_back(std::move(outlook));
+    static void addCubes(const scene::Scene& scene, int object, views::Probes& asked) {
+        for (views::Probe& probe : views::probesFromMirror(scene, object))
+            asked.cubes.push_back(std::move(probe));
     }
     gl::Context& context_;
     views::ImageCache& images_;

@@ -53,8 +53,8 @@ bool overlap(const views::Bounds& a, const views::Bounds& b) {
 
 // One for clear objects that touch or lie in each other: from their common middle, without what is clear, for
 // rays meet that in the layers, and without what stands in the middle, which would hide all else.
-std::vector<views::Outlook> outlooksOf(const scene::Scene& scene) {
-    std::vector<views::Outlook> outlooks;
+std::vector<views::Probe> probesOf(const scene::Scene& scene) {
+    std::vector<views::Probe> probes;
     std::vector<views::Bounds> boxes;
     std::vector<int> clear;
     for (int i = 0; i < int(scene.objects.size()); ++i) {
@@ -63,28 +63,28 @@ std::vector<views::Outlook> outlooksOf(const scene::Scene& scene) {
         clear.push_back(i);
         if (scene::changesNoLight(scene, object)) continue; // what is behind it is seen as without it
         views::Bounds box = views::boundsOf(object);
-        views::Outlook outlook = views::outlookFrom(scene, i);
+        views::Probe probe = views::probeFrom(scene, i);
         for (std::size_t other = boxes.size(); other-- > 0;) {
             if (!overlap(box, boxes[other])) continue;
             box.add(boxes[other]);
-            outlook.name = outlooks[other].name;
+            probe.name = probes[other].name;
             boxes.erase(boxes.begin() + std::ptrdiff_t(other));
-            outlooks.erase(outlooks.begin() + std::ptrdiff_t(other));
+            probes.erase(probes.begin() + std::ptrdiff_t(other));
         }
-        outlook.place = box.center();
+        probe.place = box.center();
         boxes.push_back(box);
-        outlooks.push_back(std::move(outlook));
+        probes.push_back(std::move(probe));
     }
-    for (views::Outlook& outlook : outlooks) {
-        outlook.hidden = clear;
+    for (views::Probe& probe : probes) {
+        probe.hidden = clear;
         for (int i = 0; i < int(scene.objects.size()); ++i) {
             const scene::Object& object = scene.objects[std::size_t(i)];
             const views::Bounds bounds = views::boundsOf(object);
-            if (object.visible && !isClear(object) && overlap(bounds, {outlook.place, outlook.place}))
-                outlook.hidden.push_back(i);
+            if (object.visible && !isClear(object) && overlap(bounds, {probe.place, probe.place}))
+                probe.hidden.push_back(i);
         }
     }
-    return outlooks;
+    return probes;
 }
 
 class RefractGuest : public technique::Guest {
@@ -107,10 +107,10 @@ public:
         if (showsLayer(picture.scene.view.show)) return !visible(picture.drawables).empty();
         return !seenGlass(picture).empty();
     }
-    void lookAround(const Picture& picture, views::Outlooks& asked) const override {
+    void lookAround(const Picture& picture, views::Probes& asked) const override {
         const scene::Scene& scene = picture.scene;
         if (settingsOf(scene).surroundings != views::Around::Surroundings || !showsOpaque(scene)) return;
-        const std::vector<views::Outlook> cubes = outlooksOf(scene);
+        const std::vector<views::Probe> cubes = probesOf(scene);
         asked.cubes.insert(asked.cubes.end(), cubes.begin(), cubes.end());
     }
     Status through(const Passes& passes, TextureId shown, TextureId target) override {
