@@ -188,4 +188,18 @@ std::vector<EnvironmentLight> importanceLights(const scene::Environment& environ
     return lights;
 }
 
+float brightestWhite(const scene::Environment& environment) {
+    constexpr int kDirections = 128;
+    const std::vector<EnvironmentLight> lights = environmentLights(environment, kDirections);
+    float most = 0;
+    for (const EnvironmentLight& faced : lights) {
+        vec3 sent(0); // E / pi
+        for (const EnvironmentLight& light : lights)
+            sent += 4 * light.weight * std::max(glm::dot(faced.direction, light.direction), 0.0f) *
+                    light.radiance;
+        most = std::max({most, sent.r, sent.g, sent.b});
+    }
+    return most;
+}
+
 } // namespace lucent::views

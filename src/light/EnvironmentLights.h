@@ -32,4 +32,8 @@ std::vector<EnvironmentLight> environmentLights(const scene::Environment& enviro
 /// @param count  > 0
 std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count);
 
+/// The most that a white matt surface sends under the environment alone, whichever way it faces, of the
+/// brightest colour: W/(m² sr), to some percent.
+float brightestWhite(const scene::Environment& environment);
+
 } // namespace lucent::views

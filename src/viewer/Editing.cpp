@@ -1,7 +1,11 @@
 // The scene of a viewer: its controls, what is set, what is taken back.
 #include "viewer/State.h"
 
+#include "light/EnvironmentLights.h"
+#include "scene/Bring.h"
+
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace lucent::viewer {
@@ -77,6 +81,26 @@ void Viewer::State::adopt(scene::Scene newScene) {
 }
 
 // The controls of the scene as it is now.
+// A new environment shines as brightly on what faces it as the one before; where there was none as lamps do,
+// and both together are exposed as those were alone.
+void Viewer::State::shineBy(const std::string& source, std::shared_ptr<const Image> map) {
+    std::optional<scene::Environment>& environment = scene->environment;
+    float& exposure = scene->view.exposure;
+    const float before = environment && environment->enabled ? views::brightestWhite(*environment) : 0;
+    const float wanted = before > 0 ? before : scene::kBrightest / std::exp2(exposure);
+    if (before <= 0 && !scene->lights.empty()) exposure -= 1;
+    if (!environment) environment.emplace();
+    environment->source = source;
+    environment->map = std::move(map);
+    environment->enabled = true;
+    environment->intensity = 1;
+    environment->kept = {};
+    const float white = views::brightestWhite(*environment);
+    if (white > 0) environment->intensity = wanted / white;
+    for (const char* path : {"environment.intensity", "view.exposure"})
+        loaded.erase(path); // they begin anew
+}
+
 void Viewer::State::bind() {
     controls.clear();
     std::vector<BoundParam> modes = bindMode(mode, *scene, automaticError);

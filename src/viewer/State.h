@@ -174,6 +174,7 @@ struct Viewer::State {
     // --- scene
     void adopt(scene::Scene newScene);
     void bind();
+    void shineBy(const std::string& source, std::shared_ptr<const Image> map);
     void offer(BoundParam bound, const std::string& before);
     void offerOfView(BoundParam bound);
     std::vector<BoundParam> bindView();

@@ -94,10 +94,7 @@ Status Viewer::openEnvironment(const std::string& name, std::span<const std::byt
     if (!s.scene) return refuse({name + ": there is no scene to light; open a height map or a model first"});
     auto map = scene::loadEnvironmentMap(name, bytes);
     if (!map) return refuse(map.error());
-    if (!s.scene->environment) s.scene->environment.emplace();
-    s.scene->environment->source = name;
-    s.scene->environment->map = std::move(*map);
-    s.scene->environment->enabled = true;
+    s.shineBy(name, std::move(*map));
     s.message.clear();
     s.bind();
     s.changed();

@@ -1,4 +1,5 @@
 // A person's hands on the picture: what they move, what is drawn for it, and what can be taken back.
+#include "scene/Bring.h"
 #include "technique/Technique.h"
 #include "tests/viewer/Page.h"
 
@@ -254,6 +255,31 @@ TEST_F(Picture, APictureBecomesTheEnvironmentAndNothingElseChanges) {
     EXPECT_GT(differences(before, window->read()), 1000);
 }
 
+TEST_F(Picture, AnEnvironmentIsExposedHoweverBrightItIs) {
+    load(kLampScene);
+    const float exposure = std::stof(viewer->get("view.exposure"));
+    const auto open = [&](float radiance) {
+        Image sky(4, 2, 3);
+        for (float& value : sky.pixels)
+            value = radiance;
+        return viewer->openEnvironment("sky.pfm", *encodeImage(sky, "sky.pfm")).ok();
+    };
+    ASSERT_TRUE(open(0.5f));
+    EXPECT_FLOAT_EQ(std::stof(viewer->get("view.exposure")), exposure - 1); // it shines as the lamp does
+    // White that faces even light L from all around sends L.
+    EXPECT_NEAR(std::stof(viewer->get("environment.intensity")) * 0.5f * std::exp2(exposure),
+                scene::kBrightest, 0.02f);
+    settle();
+    const Image dim = window->read();
+    ASSERT_TRUE(open(200));
+    EXPECT_FLOAT_EQ(std::stof(viewer->get("view.exposure")), exposure - 1);
+    settle();
+    EXPECT_LT(differences(dim, window->read()), 4000); // but for the intensity that the panel says
+    ASSERT_TRUE(viewer->set("view.exposure", "3").ok());
+    viewer->reset("view.exposure");
+    EXPECT_FLOAT_EQ(std::stof(viewer->get("view.exposure")), exposure - 1);
+}
+
 TEST_F(Picture, TwoViewersShareAContextAndKeepTheirPictures) {
     load(kLampScene);
     const Image first = window->read();
@@ -293,12 +319,12 @@ TEST_F(Picture, ASlowEnvironmentIsLookedAtQuicklyFirst) {
     move({150, 100});
     int frames = 0;
     while (viewer->draw(time += 0.02))
-        ASSERT_LT(++frames, 3000); // while held, the quick look is enough
+        ASSERT_LT(++frames, 3000); // while held, the preview is enough
     EXPECT_FALSE(stats()["complete"].get<bool>());
     up({150, 100});
     settle();
     EXPECT_TRUE(stats()["complete"].get<bool>());
-    EXPECT_GT(stats()["lights"].get<int>(), 20); // the quick look takes no more
+    EXPECT_GT(stats()["lights"].get<int>(), 20); // the preview takes no more
 }
 
 // --- scenes without a relief
