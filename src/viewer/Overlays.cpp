@@ -152,8 +152,9 @@ void drawLightHandle(const LightHandle& handle, vec3 color, bool isChosen) {
     }
     const vec2 along = *handle.towards, aside(-along.y, along.x);
     const auto triangle = [&](float size, ImU32 color) {
-        const vec2 tip = place + along * size, left = place - along * size * 0.6f + aside * size * 0.8f,
-                   right = place - along * size * 0.6f - aside * size * 0.8f;
+        const vec2 tip = place + along * size * 1.2f,
+                   left = place - along * size * 0.7f + aside * size * 0.6f,
+                   right = place - along * size * 0.7f - aside * size * 0.6f;
         list.AddTriangleFilled({tip.x, tip.y}, {left.x, left.y}, {right.x, right.y}, color);
     };
     triangle(kArrow + 2, shadow);
