@@ -14,7 +14,7 @@ enum class TruthModel {
             ///< environment
     Glass,  ///< what is seen past interfaces and mirrors, and matt things by light that comes straight
     Light,  ///< light of lamps and environment by way of interfaces and mirrors
-    Dipole  ///< light inside of what scatters it
+    Dipole  ///< subsurface scattering
 };
 
 /// What a scene is solved by unless somebody says otherwise: radiosity, and colours of what scatters light

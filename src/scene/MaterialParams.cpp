@@ -145,7 +145,7 @@ Param transmissionParam() {
                     .min = 0,
                     .max = 1,
                     .group = Group::Refraction,
-                    .doc = "Share of the light inside that passes; above 0 the object is "
+                    .doc = "Share of the light that passes through the inside; above 0 the object is "
                            "clear, its surface refracts and does nothing else."});
 }
 template <class Struct>

@@ -155,7 +155,7 @@ struct Mirror {
 
 /// What refracts, and lets light through. As glTF defines the words.
 struct Clear {
-    float transmission = 1; ///< share of the light inside that passes, [0,1]
+    float transmission = 1; ///< share of the light that the inside lets pass, [0,1]
     float ior = 1.5f;       ///< index of refraction of the inside over that of vacuum, > 0
     vec3 absorption{0};     ///< sigma, 1/m: light falls by exp(-sigma l) on a way of l metres
     float dispersion = 0;   ///< 20 / Abbe number

@@ -1,7 +1,7 @@
 #pragma once
-/// Light inside, in other words than the coefficients that a material holds: a measured material, numbers per
-/// millimetre, and the two that an artist turns (image-space dissertation 2007, 7.3.4 and 7.4): blur and
-/// glow.
+/// Subsurface scattering, in other words than the coefficients that a material holds: a measured material,
+/// numbers per millimetre, and the two that an artist turns (image-space dissertation 2007, 7.3.4 and 7.4):
+/// blur and glow.
 
 #include "scene/Scene.h"
 

@@ -155,7 +155,7 @@ scene::Scene withMaterialsOf(const scene::Scene& scene, const scene::Scene& mate
     scene::Scene drawn = scene;
     for (std::size_t i = 0; i < std::min(scene.objects.size(), materials.objects.size()); ++i)
         drawn.objects[i].material = materials.objects[i].material;
-    return withSettingsOf(std::move(drawn), scene); // how light inside is worked out is no material
+    return withSettingsOf(std::move(drawn), scene); // how subsurface scattering is worked out is no material
 }
 
 Image asTruthImage(const Image& picture) {

@@ -74,10 +74,10 @@ std::span<const Param> modeParams() {
              .label = "Mode",
              .group = Group::Mode,
              .doc = "Which sliders stand first, and which views Show offers: those of the light on a relief, "
-                    "of what is seen through glass and water, of the light that these throw, of light "
-                    "inside things, of how surfaces reflect it (brdf), of how rays find displaced heights, "
-                    "or of what is precomputed of light inside (throughput); or the brush that paints on "
-                    "these.",
+                    "of what is seen through glass and water, of the light that these throw, of "
+                    "subsurface scattering, of how surfaces reflect light (brdf), of how rays find displaced "
+                    "heights, or of precomputed subsurface scattering (throughput); or the brush that paints "
+                    "on translucent objects.",
              .choices = modeNames(),
              .attribute = "mode"}),
         declare(&ModeSettings::matt,

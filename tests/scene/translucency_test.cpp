@@ -1,4 +1,5 @@
-// Light inside in other words: each of them says what the coefficients say, and the way back is the same.
+// Subsurface scattering in other words: each of them says what the coefficients say, and the way back is the
+// same.
 #include "scene/MaterialPresets.h"
 #include "scene/Translucency.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What the tests of light inside share: bodies of marble, and the technique with all that it asks for.
+/// What the tests of subsurface scattering share: bodies of marble, and the technique with all that it asks
+/// for.
 
 #include "techniques/subsurface/Subsurface.h"
 #include "tests/support/Seen.h"

@@ -76,7 +76,8 @@ TEST_F(Precomputed, ABallRunsItsOwnPassesAndNoSplats) {
         EXPECT_TRUE(runs(pass)) << pass;
     EXPECT_FALSE(runs("subsurface.shade"));
     EXPECT_FALSE(runs("brdf.light"));
-    EXPECT_NE(explained().find("throughput: light inside object \"ball\" is precomputed"), std::string::npos);
+    EXPECT_NE(explained().find("throughput: subsurface scattering of object \"ball\" is precomputed"),
+              std::string::npos);
     scene.objects[0].material.translucent().precomputed = false;
     EXPECT_FALSE(runs("throughput.shade"));
     EXPECT_TRUE(runs("subsurface.shade"));

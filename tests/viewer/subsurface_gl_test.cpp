@@ -1,4 +1,4 @@
-// Mode subsurface: words for light inside, its curves, and the comparison with a matt surface.
+// Mode subsurface: words for subsurface scattering, its curves, and the comparison with a matt surface.
 #include "tests/viewer/Page.h"
 
 #include "diffusion/Profile.h"

@@ -66,7 +66,7 @@ const marble = {
   lights: [{ type: 'distant', direction: [1, -0.3, 0], irradiance: 2 }],
   objects: [{ name: 'ball', shape: { type: 'sphere', radius: 0.01 }, material: { preset: 'marble' } }],
 };
-/** A block of it whose light inside is precomputed. */
+/** A block of it whose subsurface scattering is precomputed. */
 const baked = {
   ...marble,
   title: 'A baked block',

@@ -1,4 +1,4 @@
-/** Mode subsurface: words for light inside as controls, their numbers for screen readers, the matt comparison. */
+/** Mode subsurface: words for subsurface scattering as controls, their numbers for screen readers, the matt comparison. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { brightness, complete, difference, openStage, openViewers, pictureOf, valueOf } from './support.mjs';

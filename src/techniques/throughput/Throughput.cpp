@@ -52,7 +52,7 @@ bool bakes(const scene::Object& object) {
 
 std::optional<std::string> need(const scene::Scene& scene) {
     for (const scene::Object& object : scene.objects)
-        if (bakes(object)) return "light inside object \"" + object.name + "\" is precomputed";
+        if (bakes(object)) return "subsurface scattering of object \"" + object.name + "\" is precomputed";
     return std::nullopt;
 }
 

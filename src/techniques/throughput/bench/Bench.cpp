@@ -250,7 +250,7 @@ Result<Proof> proveThroughput(const BenchRun& run) {
 }
 
 constexpr BenchPart kParts[] = {{.name = "throughput",
-                                 .help = "what leaves bodies whose light inside is precomputed",
+                                 .help = "what leaves bodies whose subsurface scattering is precomputed",
                                  .plan = addThroughput,
                                  .prove = proveThroughput}};
 

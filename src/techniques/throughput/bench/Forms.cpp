@@ -1,4 +1,4 @@
-// Known answers of objects whose light inside is precomputed.
+// Known answers of objects whose subsurface scattering is precomputed.
 #include "measure/FormScenes.h"
 #include "scene/Mesh.h"
 #include "techniques/throughput/bench/Bench.h"
