@@ -214,7 +214,8 @@ def make_gallery(stamps: Stamps, all_scenes: list[Path], some: list[Path]) -> No
                                  gallery.files_of(scene), TRUTH)
         write_index(stamps, all_scenes)
 
-    at_once([(draw, scene) for scene in some] + [(solve, scene) for scene in some])
+    solved = [scene for scene in some if gallery.has_truth(json.loads(scene.read_text()))]
+    at_once([(draw, scene) for scene in some] + [(solve, scene) for scene in solved])
 
 
 def main() -> int:

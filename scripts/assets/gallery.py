@@ -90,6 +90,11 @@ def pictures_of(program: Path, scene: Path, poster: Path, thumbnail: Path) -> No
     save_small(picture.convert("RGB"), THUMBNAIL, thumbnail)
 
 
+def has_truth(content: dict) -> bool:
+    """Whether light is shown; other quantities have no truth."""
+    return content.get("view", {}).get("show", "color") == "color"
+
+
 def truth_name(scene: Path) -> str:
     return f"{scene.stem}-truth.pfm"
 
@@ -163,7 +168,7 @@ def index_of(scenes: list[Path]) -> str:
             making.append("picture")
         if truth:
             entry["truth"] = truth
-        else:
+        elif has_truth(content):
             making.append("truth")
         entries.append(entry | ({"making": making} if making else {}))
     return json.dumps(entries, indent=2, ensure_ascii=False) + "\n"
