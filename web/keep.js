@@ -108,7 +108,7 @@ export class Keeper {
     const now = stable(viewer.sceneJson);
     if (now === this.#kept) return undefined;
     this.#kept = now;
-    this.#id ??= crypto.randomUUID();
+    if (!this.#id) this.#works.take((this.#id = crypto.randomUUID()));
     if (this.#isHere && history.state?.work !== this.#id) history.replaceState({ work: this.#id }, '');
     const view = Object.entries(viewer.changes).filter(([path]) => kView.test(path));
     const isSaved = now === this.#saved;
@@ -173,19 +173,25 @@ export class Keeper {
     }
   }
 
-  /** Shows a work again. @return {Promise<object>}  the work; undefined where it is not there any more */
+  /**
+   * Shows a work again, or a copy (isCopy) of one that another tab shows.
+   * @return {Promise<object>}  the work; undefined where it is not there any more
+   */
   async restore(id) {
     this.#isActive = false;
     const work = this.failure ? undefined : await this.#works.get(id).catch(() => undefined);
     if (!work || !(await this.#viewer.openFile([...work.files.values()]))) return undefined;
     for (const [path, text] of work.view) this.#viewer.set(path, text);
-    this.#kept = stable(this.#viewer.sceneJson);
-    this.#saved = work.isSaved ? this.#kept : '';
-    this.#id = id;
+    const isCopy = !(await this.#works.take(id));
+    const shown = stable(this.#viewer.sceneJson);
+    this.#kept = isCopy ? '' : shown;
+    this.#saved = work.isSaved ? shown : '';
+    this.#id = isCopy ? undefined : id;
     this.#base = work.base;
     this.#inherited = work.beyond;
     this.#isActive = this.#isHere = true;
-    history.replaceState({ work: id }, '');
-    return work;
+    if (isCopy) this.keep();
+    else history.replaceState({ work: id }, '');
+    return { ...work, isCopy };
   }
 }

@@ -154,7 +154,10 @@ async function restore(id) {
   const { scene, src } = work.base;
   current = scene ? { scene } : src ? { src } : {};
   markCard();
-  tell('Your work is back as you left it.', ['Start from the gallery instead', startFromGallery]);
+  const text = work.isCopy
+    ? 'Another tab shows this work; here you have a copy of it.'
+    : 'Your work is back as you left it.';
+  tell(text, ['Start from the gallery instead', startFromGallery]);
   return true;
 }
 

@@ -6,6 +6,8 @@ const kMostWorks = 3; // the oldest goes
 const kMostBytes = 512 * 2 ** 20; // of the files of one
 const kStores = ['works', 'files'];
 
+const lockOf = (id) => `lucent work ${id}`; // held by the tab that shows it
+
 const resultOf = (request) =>
   new Promise((done, failed) => {
     request.onsuccess = () => done(request.result);
@@ -49,7 +51,7 @@ export class Works {
     stores.works.put({ ...work, files: keys, when: Date.now() }, work.id);
     stores.commit(); // or it would be dropped where the page goes now
     await stores.ended;
-    await this.#tidy(work.id);
+    await this.#tidy(work.id, files);
   }
 
   #put(store, blob) {
@@ -70,11 +72,27 @@ export class Works {
     return { ...work, files: new Map(named) };
   }
 
-  /** The newest work that was not put aside, without its files; undefined where there is none. */
+  /** The newest work that was not put aside and no other tab shows, without its files; undefined where there is none. */
   async newest() {
     const { works } = await this.#stores('readonly');
     const all = await resultOf(works.getAll());
-    return all.filter(({ aside }) => !aside).sort((one, other) => other.when - one.when)[0];
+    const shown = (await navigator.locks?.query())?.held.map(({ name }) => name) ?? [];
+    return all
+      .filter(({ id, aside }) => !aside && !shown.includes(lockOf(id)))
+      .sort((one, other) => other.when - one.when)[0];
+  }
+
+  #release = () => {};
+  /** Makes a work this tab's until the next one is. @return {Promise<boolean>}  false where another tab has it */
+  take(id) {
+    this.#release();
+    if (!navigator.locks) return Promise.resolve(true); // of pages that are not secure
+    return new Promise((done) =>
+      navigator.locks.request(lockOf(id), { ifAvailable: true }, (lock) => {
+        done(lock !== null);
+        return lock && new Promise((release) => (this.#release = release));
+      }),
+    );
   }
 
   /** Changes what is noted of a work. */
@@ -92,14 +110,18 @@ export class Works {
     await this.#tidy();
   }
 
-  // Works beyond the number that is kept go, and files that no work names. @param id  of the work that stays in any case
-  async #tidy(id) {
+  // Works beyond the number that is kept go, and files that no work names.
+  // @param id     of the work that stays in any case
+  // @param mine   its files: what another tab has taken away is put back
+  async #tidy(id, mine = new Map()) {
     const { works, files, ended } = await this.#stores('readwrite');
     const all = (await resultOf(works.getAll())).sort((one, other) => other.when - one.when);
     const kept = all.filter((work, at) => at < kMostWorks || work.id === id);
     for (const work of all) if (!kept.includes(work)) works.delete(work.id);
     const used = new Set(kept.flatMap((work) => work.files.map(([, key]) => key)));
-    for (const key of await resultOf(files.getAllKeys())) if (!used.has(key)) files.delete(key);
+    const there = await resultOf(files.getAllKeys());
+    for (const key of there) if (!used.has(key)) files.delete(key);
+    for (const blob of mine.values()) if (!there.includes(this.#keys.get(blob))) files.put(blob, this.#keys.get(blob));
     await ended;
   }
 }

@@ -110,6 +110,31 @@ test('a reload brings five strokes back, the last one too, and says so with a wa
   await page.leave();
 });
 
+test('what one tab shows no other takes away: it gets a copy', async () => {
+  const page = await open();
+  await paint(page, 1);
+  await quiet(page, 600);
+  const other = await open({ hash: '', beside: page });
+  assert.equal((await strokesOf(other)).length, 0); // it is not brought back where it is shown
+  assert.equal(await told(other), '');
+  const id = await page.evaluate(() => history.state.work);
+  await other.evaluate((work) => history.replaceState({ work }, ''), id); // as a tab that is duplicated
+  await other.reload();
+  await waitTold(other, 'Another tab shows this work');
+  await paint(other, 1, 3);
+  await quiet(other, 600);
+  await call(page, 'set', 'view.exposure', 0.5);
+  await quiet(page, 600);
+  await page.reload();
+  await waitTold(page, 'Your work is back');
+  assert.equal((await strokesOf(page)).length, 1);
+  assert.equal(await valueOf(page, 'view.exposure'), 0.5);
+  await other.reload();
+  await waitTold(other, 'Your work is back');
+  assert.equal((await strokesOf(other)).length, 2);
+  await page.leave();
+});
+
 test('what comes back looks as it did, to the bit, and later strokes are kept as well', async () => {
   const page = await open();
   await paint(page, 1);

@@ -72,10 +72,10 @@ function watch() {
  * Opens a page of the site. `problems` collects console errors and exceptions.
  * @param options  of the browser's context: viewport, deviceScaleFactor, hasTouch, colorScheme; and `init`, a
  *                 function that runs in the page first, `gallery: 'own'` for the site's gallery in place of scenes.mjs,
- *                 `visits: 0` for somebody who has never been there
+ *                 `visits: 0` for somebody who has never been there, `beside` a page in another tab of whose browser it is
  */
-export async function openPage(stage, path = 'index.html', { init, gallery = 'made', markup = '', visits = 1, ...options } = {}) {
-  const context = await stage.browser.newContext({ viewport: { width: 800, height: 600 }, ...options });
+export async function openPage(stage, path = 'index.html', { init, gallery = 'made', markup = '', visits = 1, beside, ...options } = {}) {
+  const context = beside?.context() ?? (await stage.browser.newContext({ viewport: { width: 800, height: 600 }, ...options }));
   const page = await context.newPage();
   const problems = [];
   page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
