@@ -32,6 +32,7 @@ class Offscreen {
   #runtime;
   #handle;
   #size;
+  #picture; // the last that was drawn
   constructor({ runtime, handle, width, height }) {
     const most = runtime.largestSide;
     for (const side of [width, height])
@@ -53,7 +54,7 @@ class Offscreen {
     if (message) throw new Error(message);
   }
 
-  /** Draws until the picture is finished, in slices; it then lies on the runtime's canvas until the task ends. */
+  /** Draws until the picture is finished, in slices. What nothing has changed since the last is not drawn again. */
   async draw(signal) {
     const [runtime, handle] = [this.#runtime, this.#handle];
     for (;;) {
@@ -63,16 +64,17 @@ class Offscreen {
       const failure = runtime.text('viewer_failure', handle);
       if (failure) throw new Error(`picture: ${failure}`);
       const { finished } = runtime.json('viewer_stats', handle);
-      if (finished && drawn) return;
+      if (finished && drawn) this.#picture = runtime.copyPicture(); // lies there until the task ends
+      if (finished && (drawn || (!more && this.#picture))) return;
       if (!more) throw new Error('picture: was not drawn to its end; a smaller one needs less memory');
       await nextTask();
     }
   }
   /** The picture that draw() has just left. @return {HTMLCanvasElement} */
   canvas() {
-    const copy = this.#runtime.copyPicture();
-    if (copy.width === this.#size[0] && copy.height === this.#size[1]) return copy;
-    throw new Error(`picture: is ${copy.width} x ${copy.height}; must be ${this.#size.join(' x ')}`);
+    const { width, height } = this.#picture;
+    if (width === this.#size[0] && height === this.#size[1]) return this.#picture;
+    throw new Error(`picture: is ${width} x ${height}; must be ${this.#size.join(' x ')}`);
   }
   linear() {
     return this.#runtime.linear(this.#handle);

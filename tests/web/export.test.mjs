@@ -131,6 +131,18 @@ test('a turntable is numbered pictures that begin with the one shown, and all di
   await page.leave();
 });
 
+// Its second and third are the same, to the right and back: nothing is to be drawn for the third.
+test('a relief, which swings to and fro, has a turntable of any number of pictures', async () => {
+  const page = await open('dome.json', 60, 60);
+  const files = filesOf(await bytesOf(page, 'toSequence', { path: 'camera', frames: 6, width: 48, height: 48 }));
+  const pictures = [];
+  for (const png of files.values()) pictures.push(await decodePng(page, png));
+  assert.equal(pictures.length, 6);
+  assert.deepEqual(difference(pictures[1], pictures[2], 1).share, 0);
+  assert.ok(difference(pictures[2], pictures[3]).share > 0.02);
+  await page.leave();
+});
+
 // The lamp stands left of the dome, and half way round on its right.
 test('a lamp sweep leads the lamp around', async () => {
   const page = await open('dome.json', 60, 60);
