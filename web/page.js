@@ -14,6 +14,7 @@ const viewer = find('viewer');
 const keeper = new Keeper(viewer, tellNotKept);
 let gallery = [];
 let current = {}; // scene: id of the gallery's that is shown, or src: its address; neither for the person's own
+let shown = current; // what current was when the scene that is shown came
 let isRestoring = false;
 let pending = {}; // parameters that a link sets once its scene is there
 
@@ -152,7 +153,7 @@ async function restore(id) {
   const work = await keeper.restore(id).finally(() => (isRestoring = false));
   if (!work) return false;
   const { scene, src } = work.base;
-  current = scene ? { scene } : src ? { src } : {};
+  shown = current = scene ? { scene } : src ? { src } : {};
   markCard();
   const text = work.isCopy
     ? 'Another tab shows this work; here you have a copy of it.'
@@ -165,9 +166,13 @@ async function restore(id) {
 async function startFromGallery() {
   const { id } = keeper;
   await keeper.putAside();
+  showGallery();
+  offer(id);
+}
+
+function showGallery() {
   history.pushState(null, '', kBare);
   showScene(gallery.find((entry) => !isMaking(entry, 'scene')));
-  offer(id);
 }
 
 /** Says that there is a work to come back to. */
@@ -179,6 +184,16 @@ function offer(id, title = 'Your work') {
     note('It is not there any more');
     keeper.resume();
   }]);
+}
+
+// What should have come did not: the address is that of what is shown again.
+function stayWhereWeAre() {
+  if (shown.scene !== current.scene || shown.src !== current.src) {
+    current = shown;
+    history.replaceState(null, '', shownByLink() ? linkOfPage() : kBare);
+    markCard();
+  }
+  keeper.resume();
 }
 
 // What a person opened has taken the place of the scene that the address names.
@@ -203,6 +218,22 @@ async function saveScene() {
 }
 
 /** For files: of the gallery's scene, else its title without what no file may be called. */
+/** How a saved scene comes into a page. */
+function tellTag(name) {
+  const quoted = (text) => `"${text.replaceAll('&', '&amp;').replaceAll('"', '&quot;')}"`;
+  const tag = `<lucent-viewer src=${quoted(name)} alt=${quoted(viewer.sceneTitle)}></lucent-viewer>`;
+  tell(`Scene saved. Beside your page it is shown by ${tag}`, ['Copy tag', () => copy(tag, 'Tag copied')], ['Close', () => {}]);
+}
+
+async function copy(text, done) {
+  try {
+    await navigator.clipboard.writeText(text);
+    note(done);
+  } catch {
+    note(`This browser keeps pages from copying: ${text}`);
+  }
+}
+
 function nameOfScene() {
   return current.scene ?? (viewer.sceneTitle.replace(/[/\\:*?"<>|]+/g, '-').trim() || 'lucent');
 }
@@ -317,6 +348,7 @@ viewer.addEventListener('load', ({ detail }) => {
   const isNew = !isRestoring && !detail.moved && !detail.into;
   if (isNew && viewer.ownScene) takeOwn();
   if (isNew) keeper.begin(current);
+  shown = current;
   else keeper.keep(); // it has one more file
   const changes = pending;
   pending = {};
@@ -327,8 +359,10 @@ viewer.addEventListener('load', ({ detail }) => {
   writeLinkSoon();
 });
 viewer.addEventListener('error', ({ detail }) => {
-  note(detail.message);
-  if (['fetch', 'scene', 'file'].includes(detail.code)) keeper.resume();
+  if (!['fetch', 'scene', 'file'].includes(detail.code)) return;
+  if (viewer.loaded) return stayWhereWeAre();
+  find('title').textContent = 'Nothing is shown yet';
+  tell(detail.message, ['Start from the gallery', showGallery]);
 });
 viewer.addEventListener('drop-files', (event) => {
   event.preventDefault();

@@ -405,6 +405,13 @@ test('a link that is pasted opens its scene', async () => {
   await waitTitle(page, 'A ridge');
   await page.reload();
   await waitTitle(page, 'A ridge');
+  const address = page.url();
+  const missing = await eventOf(page, 'error', () => paste(new URL('made/gone.json', stage.address).href));
+  assert.equal(missing.code, 'fetch');
+  assert.equal(page.url(), address); // it leads to what is shown
+  await page.goto(new URL('index.html#src=made/gone.json', stage.address).href.replace('#', '?again#'));
+  await page.click('#kept button:text("Start from the gallery")');
+  await waitTitle(page, 'A ball');
   await page.leave();
 });
 
