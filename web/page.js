@@ -207,9 +207,10 @@ function takeOwn() {
 /** @return {Promise<boolean>}  whether the file was handed out */
 async function saveScene() {
   try {
-    download(await viewer.saveScene(), `${nameOfScene()}.lucent.zip`);
+    const name = `${nameOfScene()}.lucent.zip`;
+    download(await viewer.saveScene(), name);
     keeper.saved();
-    note('Scene saved');
+    tellTag(name);
     return true;
   } catch ({ message }) {
     note(message);
@@ -233,6 +234,7 @@ async function copy(text, done) {
     note(`This browser keeps pages from copying: ${text}`);
   }
 }
+/** For files: of the gallery's scene, else its title without what no file may be called. */
 
 function nameOfScene() {
   return current.scene ?? (viewer.sceneTitle.replace(/[/\\:*?"<>|]+/g, '-').trim() || 'lucent');
@@ -407,12 +409,7 @@ async function copyLink() {
   if (beyond.includes('scene'))
     return tell('No link can hold a scene of your own; a saved one is a file that you can send.', save);
   writeLink();
-  try {
-    await navigator.clipboard.writeText(new URL(linkOfPage(), location.href).href);
-    note('Link copied');
-  } catch {
-    note('This browser keeps pages from copying: the link is in the address bar');
-  }
+  await copy(new URL(linkOfPage(), location.href).href, 'Link copied');
   const names = { files: 'the files that you opened', paint: 'what you painted' };
   const lacking = beyond.map((one) => names[one]).join(' and ');
   if (lacking) tell(`The link keeps all but ${lacking}; a saved scene holds everything.`, save);
