@@ -597,6 +597,8 @@ export class LucentViewer extends HTMLElement {
     const isShown = seat !== null && (await this.#load(seat, task, { name: scene.path, own: scene }, load));
     if (scene.residual && this.#brought === scene) await this.#photos.showResidual(scene);
     return isShown;
+    if (isShown && scene.environment) await this.#openEnvironment(task, scene.environment);
+    if (isShown && scene.left?.length) this.#tell(`left out: ${scene.left.join('; ')}`);
   }
 
   async #openEnvironment(task, file) {
@@ -768,14 +770,19 @@ export class LucentViewer extends HTMLElement {
 
   #fail(error) {
     const code = error instanceof LucentError ? error.code : 'internal';
-    if (this.#handle) this.#apply('viewer_message', error.message);
-    const covered = !this.#handle || (this.poster && !this.#poster.hidden);
-    this.#status.textContent = covered ? error.message : '';
-    this.#say(error.message);
+    this.#tell(error.message);
     this.#emit('error', { code, message: error.message });
   }
 
   #destroy() {
+  // In the picture, and for those who do not see it.
+  #tell(message) {
+    if (this.#handle) this.#apply('viewer_message', message);
+    const covered = !this.#handle || (this.poster && !this.#poster.hidden);
+    this.#status.textContent = covered ? message : '';
+    this.#say(message);
+  }
+
     const { runtime, handle } = this.#own();
     this.#forget();
     if (handle) runtime.drop(handle, this);

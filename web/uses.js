@@ -2,6 +2,7 @@
 import { isSet } from './bring.js';
 
 const kSide = 96; // CSS pixels of a thumbnail
+const kGrey = 8; // of 255: what JPEG may part the channels of a grey picture by
 const kUses = {
   height: 'Heights',
   normal: 'Normals',
@@ -30,15 +31,37 @@ async function thumbnailOf({ bytes }) {
   return canvas;
 }
 
-async function rowOf(picture) {
+/** What a picture that nobody knows may be for, by its pixels: grey ones heights, others colours. */
+function guess(canvas, taken) {
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  let spread = 0;
+  for (let at = 0; at < data.length; at += 4) {
+    const [red, green, blue] = data.subarray(at, at + 3);
+    spread = Math.max(spread, Math.max(red, green, blue) - Math.min(red, green, blue));
+  }
+  const use = spread <= kGrey ? 'height' : 'albedo';
+  return taken.includes(use) ? 'none' : use;
+}
+
+async function rowOf(picture, taken) {
   const row = document.createElement('li');
   const label = document.createElement('label');
   const select = document.createElement('select');
   select.append(...Object.entries(kUses).map(([value, text]) => new Option(text, value)));
-  select.value = picture.use || 'none';
+  const thumbnail = await thumbnailOf(picture);
+  const isKnown = picture.use || thumbnail.className === 'unknown';
+  select.value = (isKnown ? picture.use : guess(thumbnail, taken)) || 'none';
+  taken.push(select.value);
   label.append(Object.assign(document.createElement('span'), { textContent: picture.name }), select);
-  row.append(await thumbnailOf(picture), label);
+  row.append(thumbnail, label);
   return row;
+}
+
+async function rowsOf(pictures) {
+  const taken = pictures.map(({ use }) => use);
+  const rows = [];
+  for (const picture of pictures) rows.push(await rowOf(picture, taken));
+  return rows;
 }
 
 /**
@@ -53,7 +76,7 @@ export async function askUses(root, pictures) {
   dialog.setAttribute('aria-labelledby', 'uses-title');
   form.method = 'dialog';
   form.innerHTML = kMarkup;
-  form.querySelector('ul').append(...(await Promise.all(pictures.map(rowOf))));
+  form.querySelector('ul').append(...(await rowsOf(pictures)));
   dialog.append(form);
   root.append(dialog);
   const uses = () => [...form.querySelectorAll('select')].map(({ value }) => value);

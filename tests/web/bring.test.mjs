@@ -212,6 +212,8 @@ test('pictures whose names do not say what they are for are asked about', async 
   assert.equal(await dialog.locator('canvas:not(.unknown)').count(), 2);
   const focused = () => page.evaluate(() => document.querySelector('lucent-viewer').shadowRoot.activeElement?.tagName);
   assert.equal(await focused(), 'SELECT');
+  const proposed = await dialog.locator('select').evaluateAll((list) => list.map(({ value }) => value));
+  assert.deepEqual(proposed, ['height', 'albedo']); // grey, and coloured
   await dialog.getByLabel('a.png').selectOption('albedo');
   await dialog.getByLabel('b.png').selectOption('albedo');
   await dialog.getByRole('button', { name: 'Open' }).click();
@@ -251,6 +253,32 @@ test('a model stands on a ground with its own materials, and a damaged one chang
   assert.match(damaged.message, /^half\.glb: .*;/);
   assert.equal((await stateOf(page)).title, 'pane');
   assert.deepEqual(difference(before, await pictureOf(page)), { max: 0, mean: 0, share: 0 });
+  await page.leave();
+});
+
+test('a model that is dropped with a light probe stands in its light, and what is left out is named', async () => {
+  const page = await open();
+  const { model, data } = glassTriangle();
+  const probe = await page.evaluate(async () => {
+    const head = '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n';
+    return [...new TextEncoder().encode(head), ...Array.from({ length: 32 }, () => [200, 180, 160, 131]).flat()];
+  });
+  await drop(page, { 'pane.gltf': model, 'pane.bin': data, 'room.hdr': Buffer.from(probe), 'other.obj': Buffer.from('v 0 0 0') });
+  await page.waitForFunction(() => document.querySelector('lucent-viewer').get('environment.intensity') !== undefined);
+  await page.waitForFunction(() => document.querySelector('lucent-viewer').sceneJson.includes('room.hdr'));
+  await complete(page);
+  assert.ok(clippedShare(await pictureOf(page)) < 0.01); // a probe of about 6 in units of its own
+  const { title } = await stateOf(page);
+  assert.equal(title, 'pane');
+  assert.match(await page.textContent('lucent-viewer .unseen[role=status]'), /left out: other\.obj, as one model is opened/);
+  await page.leave();
+});
+
+test('a file of a kind that cannot be opened is named with all that can be', async () => {
+  const page = await open();
+  const { code, message } = await eventOf(page, 'error', () => drop(page, { 'notes.txt': Buffer.from('hello') }));
+  assert.equal(code, 'file');
+  assert.match(message, /^notes\.txt: files ending in \.txt cannot be opened; must be .*TIFF.*glTF.*\.lp.*\.zip/);
   await page.leave();
 });
 
