@@ -128,6 +128,16 @@ const wideThings = (page) =>
       .map((one) => `${one.tagName} ${one.id || one.className}`);
   });
 
+test('the whole gallery and its modes fit beside and below each other at any width', async () => {
+  const page = await openPage(stage, 'index.html', { gallery: 'own' });
+  for (const width of [390, 640, 700]) {
+    await page.setViewportSize({ width, height: 700 });
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
+  }
+  assert.ok((await page.locator('.modes button').count()) > 4);
+  await page.leave();
+});
+
 test('no page scrolls sideways on 390 pixels', async () => {
   for (const path of ['index.html', 'example.html', 'bench.html', ...kDocs.map((name) => `docs/${name}`)]) {
     const page = await openPage(stage, path, { viewport: { width: 390, height: 844 }, hasTouch: true });
@@ -150,6 +160,11 @@ test('dialogs fit into a window of 390 x 640 pixels', async () => {
   assert.ok(await page.locator('.tour').evaluate((one) => one.scrollHeight <= one.clientHeight + 1), 'it is one screen');
   await page.click('.tour button');
   await complete(page);
+  await page.click('#save');
+  await page.waitForSelector('dialog.picture[open]');
+  await fits('dialog.picture');
+  assert.ok(await page.locator('dialog.picture').evaluate((one) => one.scrollWidth <= one.clientWidth), 'nothing is cut');
+  await page.keyboard.press('Escape');
   await page.click('#check');
   await page.waitForSelector('dialog.lucent-check');
   await fits('dialog.lucent-check');
