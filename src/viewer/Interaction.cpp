@@ -13,6 +13,7 @@ constexpr float kPole = kPi / 180;     // closest angle between sight line and u
 constexpr float kLowestLight = 0.001f; // m, see liftedLight()
 // Pixels from the border to an arrow; above it stand the page's own buttons.
 constexpr float kArrowInset = 24, kArrowTop = 56;
+constexpr float kWholeDot = 10; // from the border to the middle of a dot, so that none is cut
 constexpr float kDisc =
     1 / kPi; // radius of distant lights' places, of the shorter side: dots follow turnedLight()
 
@@ -97,7 +98,7 @@ LightHandle handleOf(const scene::Light& light, const Lens& lens, vec2 size) {
     const std::optional<vec2> dot = lens.project(*place);
     const bool isSeen =
         dot && glm::all(glm::greaterThanEqual(*dot, vec2(0))) && glm::all(glm::lessThan(*dot, size));
-    if (isSeen) return {*dot, {}};
+    if (isSeen) return {glm::clamp(*dot, vec2(kWholeDot), glm::max(size - kWholeDot, vec2(kWholeDot))), {}};
     const vec2 low(kArrowInset, kArrowTop), high = size - kArrowInset;
     vec2 way = dot ? *dot - (low + high) / 2.0f : lens.across(*place - lens.eye());
     if (glm::length(way) < 1e-6f) way = {0, -1}; // straight behind the camera
