@@ -16,6 +16,10 @@ std::string number(double value) {
     return text;
 }
 
+std::string duration(double milliseconds) {
+    return milliseconds < 1000 ? number(milliseconds) + " ms" : number(milliseconds / 1000) + " s";
+}
+
 std::string general(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", value);
@@ -134,7 +138,8 @@ std::string Viewer::State::numbersText(const measure::Metrics& m) const {
     std::string text = "RMSE " + number(m.rmse);
     if (m.flip) return text + dot + "FLIP " + number(*m.flip);
     if (std::isfinite(m.relRmse)) text += dot + "relative " + number(m.relRmse); // to the truth's mean
-    return text + dot + "max " + number(m.maximum) + dot + "bias " + number(m.bias);
+    return text + dot + "max " + number(m.maximum) + "\nbias " +
+           number(m.bias); // lines would break at its point
 }
 
 std::string Viewer::State::compareText() {
@@ -145,8 +150,9 @@ std::string Viewer::State::compareText() {
         add(name + (isKnown ? ": " + numbersText(*side.numbers) : ""));
     };
     if (drawsRight(compare.mode)) {
-        addSide("left: " + differenceText(false), measured[0]);
-        addSide("right: " + differenceText(true), measured[1]);
+        const std::string left = differenceText(false), right = differenceText(true);
+        addSide("left: " + left, measured[0]);
+        addSide("right: " + right + (left == right ? ", until you choose others" : ""), measured[1]);
     }
     if (!truth) return add("There is no truth of this scene yet."), text;
     if (!truthIsFresh()) return add("The scene has changed since its truth was made."), text;
@@ -161,7 +167,7 @@ std::string Viewer::State::compareText() {
     const frame::Stats cost = renderer->stats();
     const ivec2 size = truth->image.size();
     add("measured at " + std::to_string(size.x) + " × " + std::to_string(size.y) + " pixels · picture " +
-        number(cost.milliseconds) + " ms, " + std::to_string(cost.passes) +
+        duration(cost.milliseconds) + ", " + std::to_string(cost.passes) +
         (cost.passes == 1 ? " pass" : " passes"));
     return text;
 }
