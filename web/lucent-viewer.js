@@ -73,6 +73,7 @@ const kMarkup = `
   <details class="undrawn" part="undrawn" hidden><summary></summary><ul></ul></details>
   <div class="hint"></div>
   <div class="status"></div>
+  <div class="bars"></div>
 </div>
 <div class="unseen" id="keys"></div>
 <div class="unseen" role="status"></div>`;
@@ -177,7 +178,7 @@ export class LucentViewer extends HTMLElement {
       fail: (error) => this.#fail(error),
       say: (text) => this.#say(text),
     });
-    find('.stage').append(this.#truth.element, this.#bake.element, this.#drawing.element, this.#loading.element);
+    find('.bars').append(this.#truth.element, this.#bake.element, this.#drawing.element, this.#loading.element);
     new Gestures(this.#canvas, {
       pointer: (...event) => this.#pointer(...event),
       wheel: (...event) => this.#apply('viewer_wheel', ...event),
@@ -581,7 +582,7 @@ export class LucentViewer extends HTMLElement {
       ask: (pictures) => askUses(this.#root, pictures),
       solve: (light, photos) => {
         this.#status.textContent = '';
-        this.#root.querySelector('.stage').append(this.#photos.element);
+        this.#root.querySelector('.bars').append(this.#photos.element);
         return this.#photos.solve(light, photos);
       },
     });
@@ -596,9 +597,9 @@ export class LucentViewer extends HTMLElement {
     const load = () => loadFiles(seat, scene);
     const isShown = seat !== null && (await this.#load(seat, task, { name: scene.path, own: scene }, load));
     if (scene.residual && this.#brought === scene) await this.#photos.showResidual(scene);
-    return isShown;
     if (isShown && scene.environment) await this.#openEnvironment(task, scene.environment);
     if (isShown && scene.left?.length) this.#tell(`left out: ${scene.left.join('; ')}`);
+    return isShown;
   }
 
   async #openEnvironment(task, file) {
@@ -774,7 +775,6 @@ export class LucentViewer extends HTMLElement {
     this.#emit('error', { code, message: error.message });
   }
 
-  #destroy() {
   // In the picture, and for those who do not see it.
   #tell(message) {
     if (this.#handle) this.#apply('viewer_message', message);
@@ -783,6 +783,7 @@ export class LucentViewer extends HTMLElement {
     this.#say(message);
   }
 
+  #destroy() {
     const { runtime, handle } = this.#own();
     this.#forget();
     if (handle) runtime.drop(handle, this);
@@ -978,8 +979,9 @@ export class LucentViewer extends HTMLElement {
   // ---- drawing ----
 
   #takePicture(drawn) {
-    const { complete, finished, shown, progress, bake } = this.stats();
+    const { complete, finished, shown, progress, bake, open } = this.stats();
     this.#bake.update(bake);
+    if (drawn) this.#placeBars(open);
     if (drawn && (complete || !this.#capturing)) this.#runtime.show(this.#display);
     this.#complete = complete;
     this.#drawing.show(progress);
@@ -994,6 +996,12 @@ export class LucentViewer extends HTMLElement {
     if (finished) this.#settled.splice(0).forEach((resolve) => resolve());
     if (drawn) this.#emit('frame', { complete });
     return shown;
+  }
+
+  // Where neither panel nor numbers are.
+  #placeBars([width, height]) {
+    const bars = this.#root.querySelector('.bars');
+    Object.assign(bars.style, { bottom: `calc(100% - ${height - 12}px)`, maxWidth: `${width - 24}px` });
   }
 
   #whenFinished() {

@@ -218,7 +218,6 @@ async function saveScene() {
   }
 }
 
-/** For files: of the gallery's scene, else its title without what no file may be called. */
 /** How a saved scene comes into a page. */
 function tellTag(name) {
   const quoted = (text) => `"${text.replaceAll('&', '&amp;').replaceAll('"', '&quot;')}"`;
@@ -234,8 +233,8 @@ async function copy(text, done) {
     note(`This browser keeps pages from copying: ${text}`);
   }
 }
-/** For files: of the gallery's scene, else its title without what no file may be called. */
 
+/** For files: of the gallery's scene, else its title without what no file may be called. */
 function nameOfScene() {
   return current.scene ?? (viewer.sceneTitle.replace(/[/\\:*?"<>|]+/g, '-').trim() || 'lucent');
 }
@@ -349,8 +348,8 @@ function showModes() {
 viewer.addEventListener('load', ({ detail }) => {
   const isNew = !isRestoring && !detail.moved && !detail.into;
   if (isNew && viewer.ownScene) takeOwn();
-  if (isNew) keeper.begin(current);
   shown = current;
+  if (isNew) keeper.begin(current);
   else keeper.keep(); // it has one more file
   const changes = pending;
   pending = {};
@@ -376,8 +375,16 @@ viewer.addEventListener('load', showCompare);
 viewer.addEventListener('change', showModes);
 viewer.addEventListener('load', showModes);
 viewer.addEventListener('frame', showCost);
+for (const type of ['change', 'edit', 'load']) viewer.addEventListener(type, showSteps);
 
 // ---- toolbar
+
+/** Which of the buttons have something to take back. They keep the focus: keyboards stand on them. */
+function showSteps() {
+  const { canUndo, canRedo } = viewer.stats();
+  find('undo').ariaDisabled = String(!canUndo);
+  find('redo').ariaDisabled = String(!canRedo);
+}
 
 function showCompare() {
   find('compare').value = viewer.get('compare');

@@ -187,7 +187,7 @@ void Viewer::State::compareOverlay() {
     std::optional<ScaleEnds> scale;
     if (divided() && besideImage() == &error && !isDrawn)
         scale = {"0", general(fullScale(measured[0].numbers->p99))};
-    drawNumbersCard(compareText(), scale, openSize(), theme(dark));
+    cardTop = drawNumbersCard(compareText(), scale, openSize(), theme(dark));
 }
 
 ComparisonReport Viewer::State::comparison() {

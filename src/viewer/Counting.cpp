@@ -62,7 +62,7 @@ std::string Viewer::State::energyText() const {
 
 void Viewer::State::energyOverlay() {
     if (!scene || scene->view.show != scene::Aov::CausticMap || compare.mode != CompareMode::Off) return;
-    drawNumbersCard(energyText(), ScaleEnds{"1/16", "64"}, openSize(), theme(dark));
+    cardTop = drawNumbersCard(energyText(), ScaleEnds{"1/16", "64"}, openSize(), theme(dark));
 }
 
 } // namespace lucent::viewer

@@ -32,6 +32,8 @@ public:
     /// The changes to make again, in order; empty when there are none.
     std::vector<Change> redo();
     void clear();
+    bool canUndo() const { return done_ > 0; }
+    bool canRedo() const { return done_ < steps_.size(); }
 
 private:
     struct Step {

@@ -244,8 +244,8 @@ void drawNotice(std::string_view text, Rect room, const Theme& theme) {
                  inner);
 }
 
-void drawNumbersCard(const std::string& text, const std::optional<ScaleEnds>& scale, vec2 room,
-                     const Theme& theme) {
+float drawNumbersCard(const std::string& text, const std::optional<ScaleEnds>& scale, vec2 room,
+                      const Theme& theme) {
     const float most = room.x - 2 * kMargin - 20;
     const float bar = scale ? kScaleBar + 8 : 0;
     const ImVec2 measured = wrappedSize(text, most);
@@ -256,6 +256,7 @@ void drawNumbersCard(const std::string& text, const std::optional<ScaleEnds>& sc
     list.AddText(nullptr, 0, {low.x + 10, low.y + 8 + bar}, theme.text, text.data(),
                  text.data() + text.size(), most);
     if (scale) drawScale(list, low + vec2(10, 8), std::min(220.0f, size.x - 20), *scale, theme);
+    return low.y;
 }
 
 void drawTooltip(std::string_view text, Rect control, vec2 canvas, const Theme& theme) {

@@ -41,9 +41,10 @@ struct ScaleEnds {
     std::string low, high;
 };
 
-/// Numbers about the picture, at the bottom; over them the false colours where it has them.
-void drawNumbersCard(const std::string& text, const std::optional<ScaleEnds>& scale, vec2 room,
-                     const Theme& theme);
+/// Numbers about the picture, at the bottom; over them the false colours where it has them. @return  the
+/// card's top
+float drawNumbersCard(const std::string& text, const std::optional<ScaleEnds>& scale, vec2 room,
+                      const Theme& theme);
 
 /// A sentence beside the control that it explains, inside the canvas.
 void drawTooltip(std::string_view text, Rect control, vec2 canvas, const Theme& theme);

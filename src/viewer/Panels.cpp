@@ -113,6 +113,7 @@ void Viewer::State::overlays() {
     if (scene && scene->view.lightDot && !bare)
         for (std::size_t i = 0; i < scene->lights.size(); ++i)
             drawLightHandle(handleOf(i), colorOf(scene->lights[i]), i == light && scene->lights.size() > 1);
+    cardTop.reset();
     compareOverlay();
     energyOverlay();
     if (bare) return;

@@ -99,6 +99,8 @@ std::string statsJson(const StatsInput& input) {
     json.key("draws").value(input.cost.draws).key("lights").value(input.cost.lights);
     json.key("bytes").value(double(input.cost.bytes)).key("complete").value(input.complete);
     json.key("finished").value(input.finished).key("shown").value(input.shown);
+    writePlace(json.key("open"), input.open);
+    json.key("canUndo").value(input.canUndo).key("canRedo").value(input.canRedo);
     json.key("downscale").value(input.downscale);
     if (input.progress) {
         json.key("progress").beginObject().key("share").value(input.progress->share);

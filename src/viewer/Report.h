@@ -29,7 +29,9 @@ struct StatsInput {
     frame::Stats cost;
     bool complete = false, finished = false; ///< the picture is, and has all samples of its pixels
     bool shown = false;                      ///< there is a picture, be it a preview
-    int downscale = 1;                       ///< of what is shown: pixels to one that was drawn, along a side
+    vec2 open{0}; ///< CSS pixels from the upper left that neither panel nor numbers cover
+    bool canUndo = false, canRedo = false;
+    int downscale = 1; ///< of what is shown: pixels to one that was drawn, along a side
     std::optional<DrawingProgress> progress;
     std::string bakeTechnique, bakeObject, bakeWork; ///< what is missing; empty: nothing
     int frames = 0;

@@ -261,6 +261,7 @@ struct Viewer::State {
     std::string numbersText(const measure::Metrics& numbers) const;
     std::string compareText();
     void compareOverlay();
+    std::optional<float> cardTop; // CSS pixels: of numbers at the bottom of the picture
     ComparisonReport comparison();
     Side* nextSide();
     scene::Scene sceneOf(const Side& side);

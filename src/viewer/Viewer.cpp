@@ -324,6 +324,9 @@ std::string Viewer::stats() const {
     input.complete = s.complete();
     input.finished = s.complete() && s.phase != State::Phase::Smooth && !s.nextSide();
     input.shown = s.shown;
+    input.open = {s.openSize().x, s.cardTop.value_or(s.openSize().y)};
+    input.canUndo = s.history.canUndo();
+    input.canRedo = s.history.canRedo();
     input.downscale = s.phase == State::Phase::Refine ? s.downscale : 1;
     if (s.phase != State::Phase::Done) input.progress = s.drawingProgress;
     if (s.missingBake) {

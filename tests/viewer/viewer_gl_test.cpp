@@ -117,8 +117,11 @@ TEST_F(Picture, ADragIsOneStepBackAndOneForth) {
     drag({200, 200}, {260, 180});
     const std::string after = viewer->get("lights.0.position");
     EXPECT_NE(before, after);
+    EXPECT_TRUE(stats()["canUndo"].get<bool>());
     EXPECT_TRUE(viewer->undo());
     EXPECT_EQ(viewer->get("lights.0.position"), before);
+    EXPECT_FALSE(stats()["canUndo"].get<bool>());
+    EXPECT_TRUE(stats()["canRedo"].get<bool>());
     EXPECT_FALSE(viewer->undo());
     EXPECT_TRUE(viewer->key("Z", kControlShift));
     EXPECT_EQ(viewer->get("lights.0.position"), after);
