@@ -304,6 +304,7 @@ Crossing march(View view, Ray ray, int inside) {
         while (goesOn && !meets && unseen == 0) {
             uint candidates = 0u;
             bool stops = false;
+            float slack = 0.0; // what is met so far beyond the pixel counts
 #ifdef USE_SOLID
             float there = -1.0;
 #endif
@@ -339,8 +340,15 @@ Crossing march(View view, Ray ray, int inside) {
                     }
                 }
                 if (!goesOn) break;
+                slack = 0.5 * (end - t) + rounding;
+                float until = end;
+#ifdef USE_SOLID
+                // Of glass that all but touches what is opaque the ray meets the glass first, beyond the pixel as well.
+                there = meetSolid(view, ray, pixel);
+                if (there > end && there <= end + slack) until = there;
+#endif
                 // Where it starts it stands on a surface: there the end of its way through the pixel counts.
-                Look look = lookIn(view, ray, pixel, inside, t, end, t > 0.0 ? 0.5 * (z0 + z1) : z1);
+                Look look = lookIn(view, ray, pixel, inside, t, until, t > 0.0 ? 0.5 * (z0 + z1) : z1);
                 candidates = look.candidates;
                 // What stands around the ray without being met was entered unseen between pixels, as at an outline
                 // that the view sees edge-on, or only seems to; what no longer does was left. The mesh knows.
@@ -348,7 +356,6 @@ Crossing march(View view, Ray ray, int inside) {
                 empty = look.any ? 0 : empty + 1;
                 stops = candidates != 0u || unseen != 0;
 #ifdef USE_SOLID
-                there = meetSolid(view, ray, pixel);
                 stops = stops || there >= 0.0;
 #endif
                 if (!stops) {
@@ -358,7 +365,6 @@ Crossing march(View view, Ray ray, int inside) {
             }
             if (!goesOn) break;
             // What is met far beyond the pixel does not count yet: something else may be met before.
-            float slack = 0.5 * (end - t) + rounding;
             nearest = Nearest(end + 2.0 * slack, 0, kNowhere);
             pierceCandidates(view, ray, pixel, candidates, inside, nearest);
             meets = nearest.piercing.triangle != kNoTriangle;

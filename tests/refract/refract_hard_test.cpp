@@ -214,6 +214,20 @@ TEST_F(HardRefraction, SidesWithHundredsOfTrianglesAPixelAreCrossed) {
     EXPECT_LE(errors.wrong, 0.006);
 }
 
+TEST_F(HardRefraction, GlassThatAllButTouchesAFloorIsMetBeforeIt) {
+    // A millimetre, a quarter of a pixel, lies between a cylinder's lower face, which mirrors all that comes
+    // so flat, and the floor.
+    scene::Scene scene = seenFrom(
+        3, {test::matt(scene::Plane{{6, 6}}), glass(scene::Cylinder{0.36f, 0.95f}, 1.5f, {0, 0.476f, 0})},
+        24);
+    scene.camera.eye = {0, 1.25f, 2.9f};
+    scene.camera.target = {0, 0.4f, 0};
+    const Errors errors = against(scene, 2);
+    EXPECT_GT(errors.compared, 2000);
+    EXPECT_LE(errors.median, 0.1);
+    EXPECT_LE(errors.wrong, 0.001);
+}
+
 TEST_F(HardRefraction, ABallHalfOutsideThePictureIsRightWhereItIsShown) {
     // Half of the ball is outside: rays that leave the picture inside the glass are marked, the others are
     // right.
