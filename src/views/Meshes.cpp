@@ -84,8 +84,8 @@ Result<Drawable::Ptr> DrawnMesh::create(const scene::Object& object, int index, 
         if (!maps) return maps.error();
         drawn->paint = *maps;
         source = (*atlas)->mesh;
-    } else if (const std::shared_ptr<const scene::Mesh> coarse = scene::shadowMeshOf(object);
-               coarse != source) {
+    }
+    if (const auto coarse = scene::shadowMeshOf(object); coarse != meshOf(object)) {
         Result<const MeshTextures*> caster = images.mesh(coarse, false);
         if (!caster) return caster.error();
         drawn->caster = *caster;
