@@ -82,15 +82,18 @@ export class Works {
       .sort((one, other) => other.when - one.when)[0];
   }
 
+  #mine; // id of the work whose lock this tab holds
   #release = () => {};
   /** Makes a work this tab's until the next one is. @return {Promise<boolean>}  false where another tab has it */
   take(id) {
+    if (id === this.#mine || !navigator.locks) return Promise.resolve(true); // pages that are not secure have none
     this.#release();
-    if (!navigator.locks) return Promise.resolve(true); // of pages that are not secure
+    this.#mine = id;
     return new Promise((done) =>
       navigator.locks.request(lockOf(id), { ifAvailable: true }, (lock) => {
         done(lock !== null);
-        return lock && new Promise((release) => (this.#release = release));
+        if (lock) return new Promise((release) => (this.#release = release));
+        this.#mine = undefined;
       }),
     );
   }

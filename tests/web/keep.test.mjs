@@ -106,6 +106,7 @@ test('a reload brings five strokes back, the last one too, and says so with a wa
   assert.match(await told(page), /still kept/);
   await page.click('#kept button:text("Open it")');
   await page.waitForFunction(() => document.querySelector('lucent-viewer').strokes.strokes.length === 5);
+  await waitTold(page, 'Your work is back'); // it is this tab's still, and no copy
   assert.deepEqual(page.problems, []);
   await page.leave();
 });
