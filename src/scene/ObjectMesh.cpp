@@ -126,7 +126,9 @@ std::shared_ptr<const Mesh> meshOf(const Object& object) {
 }
 
 std::shared_ptr<const Mesh> shadowMeshOf(const Object& object) {
-    if (object.material.isRefractive() || isWaved(object) || object.displacement) return meshOf(object);
+    const Material& material = object.material;
+    if (material.isRefractive() || isWaved(object) || isPrecomputed(object) || object.displacement)
+        return meshOf(object);
     const auto made = [&](auto shape, int segments) {
         const auto make = [&] { return std::make_shared<const Mesh>(meshOf(shape, segments)); };
         return object.kept.of<std::shared_ptr<const Mesh>>(ShadowSource{object.shape}, make);

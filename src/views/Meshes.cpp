@@ -154,6 +154,17 @@ void drawTriangles(graph::Commands& commands, const gl::Program& program, const 
     draw.textures.push_back({"uCorners", resources[mesh.triangles.corners]});
     commands.draw(draw);
 }
+
+// Draws what stands in the light's way in place of a mesh that neither moves nor has holes.
+Drawing casterDrawing(const gl::Program* program, const DrawnMesh& drawn, int number) {
+    return [=](const graph::Resources&, graph::Commands& commands, const Eye& eye, ivec2 size,
+               graph::Draw draw) {
+        setMesh(draw, *program, drawn.caster->indices(), drawn, eye, size, number);
+        draw.textures.push_back({"uPositions", drawn.caster->positions().handle()});
+        draw.textures.push_back({"uNormals", drawn.caster->normals().handle()});
+        commands.draw(draw);
+    };
+}
 } // namespace
 
 void drawMesh(graph::Commands& commands, const gl::Program& program, const graph::Resources& resources,
@@ -162,17 +173,6 @@ void drawMesh(graph::Commands& commands, const gl::Program& program, const graph
     draw.textures.push_back({"uPositions", resources[mesh.positions]});
     draw.textures.push_back({"uNormals", resources[mesh.normals]});
     commands.draw(draw);
-}
-
-// Of what neither moves nor has holes.
-static Drawing casterDrawing(const gl::Program* program, const DrawnMesh& drawn, int number) {
-    return [=](const graph::Resources&, graph::Commands& commands, const Eye& eye, ivec2 size,
-               graph::Draw draw) {
-        setMesh(draw, *program, drawn.caster->indices(), drawn, eye, size, number);
-        draw.textures.push_back({"uPositions", drawn.caster->positions().handle()});
-        draw.textures.push_back({"uNormals", drawn.caster->normals().handle()});
-        commands.draw(draw);
-    };
 }
 
 Drawing DrawnMesh::drawing(gl::Context& context, graph::PassBuilder& pass, ViewKind kind, int number,
