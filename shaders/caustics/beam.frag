@@ -7,7 +7,7 @@
 #pragma variants - SEVERAL_VIEWS
 #pragma variants - USE_BEHIND
 #include "caustics/deposit_block.glsl"
-in vec3 vFlux;
+in vec4 vFlux;
 flat in int vLayer;
 layout(location = 0) out vec4 oFlux;
 #ifdef USE_BEHIND
@@ -27,5 +27,5 @@ void main() {
 #ifdef USE_BEHIND
     if (vMixed == 1 && layerHere() != vLayer) discard;
 #endif
-    oFlux = vec4(vFlux, 1.0);
+    oFlux = vFlux;
 }

@@ -3,16 +3,17 @@
 // in    gl_VertexID    three a triangle; USE_BEHIND: first all for what the light sees, then all for what lies behind
 //       uBeams, uFlux  caustics/beams.frag, caustics/photon.frag
 //       uDensity       caustics/density.frag
-// out   vFlux          [light.unit] of a texel
+// out   vFlux          [light.unit] of a texel (caustics/blurred.glsl)
 //       vLayer flat    of the map
 //       vDepth         USE_BEHIND: of the light's view [m]
 //       vMixed flat    USE_BEHIND: 1 where not all of the triangle is in one layer
 #include "caustics/deposit_block.glsl"
+#include "caustics/blurred.glsl"
 #include "caustics/grid.glsl"
 uniform sampler2D uFlux;
 uniform sampler2D uBeams;
 uniform sampler2D uDensity;
-out vec3 vFlux;
+out vec4 vFlux;
 flat out int vLayer;
 #ifdef USE_BEHIND
 out float vDepth;
@@ -42,7 +43,7 @@ void main() {
 #endif
     ivec2 square = ivec2((number >> 1) % columns, (number >> 1) / columns);
     int triangle = number & 1;
-    vFlux = vec3(0.0);
+    vFlux = vec4(0.0);
     gl_Position = kAway;
     vec4 both = texelFetch(uBeams, square, 0);
     vec2 spread = triangle == 0 ? both.xy : both.zw;
@@ -57,7 +58,8 @@ void main() {
     vMixed = behind == 0 || behind == 3 ? 0 : 1;
     vDepth = onMap(drawnFace(), landing.xyz).z;
 #endif
-    vFlux = (1.0 - spread.y) * texelFetch(uDensity, ray, 0).rgb;
-    if (spread.x < 0.0) vFlux = triangleFlux(uFlux, square, triangle) / (light.unit * -spread.x);
+    vec3 flux = (1.0 - spread.y) * texelFetch(uDensity, ray, 0).rgb;
+    if (spread.x < 0.0) flux = triangleFlux(uFlux, square, triangle) / (light.unit * -spread.x);
+    vFlux = blurred(flux, ray, landing.xyz);
     gl_Position = clipFromMap(mapCorner(vLayer) + onMap(drawnFace(), landing.xyz).xy);
 }

@@ -10,6 +10,8 @@ layout(std140) uniform DepositBlock {
     float unit; // [W] that the map counts as 1
     float size; // of a splat, texels; of what bends light: width of a ray's cell [m], of a point's light a metre deep
     int first;  // ray that is drawn
+    float spread; // of the directions that the light sample stands for: radians; of a point's light its size, m
+    float within; // [m] of the way through what bends light, from whose middle they part
 } light;
 #include "caustics/map_view.glsl"
 #include "caustics/behind.glsl"

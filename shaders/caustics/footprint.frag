@@ -5,7 +5,7 @@
 #include "caustics/deposit_block.glsl"
 #include "caustics/spread.glsl"
 #include "caustics/tent.glsl"
-flat in vec3 vFlux;
+flat in vec4 vFlux;
 flat in vec2 vMiddle;
 flat in vec4 vInverse;
 flat in int vLayer;
@@ -17,5 +17,5 @@ void main() {
     float weight = 1.0;
     if (vInverse == vec4(0.0)) weight = tentWeight(beside);
     else if (!isOnParallelogram(vInverse, beside)) discard;
-    oFlux = vec4(weight * vFlux, 1.0);
+    oFlux = weight * vFlux;
 }

@@ -3,18 +3,19 @@
 // in    gl_VertexID       one a ray, a square point; AS_QUADS: six, a rectangle that fits long thin ones of all directions
 //       light.first       the first ray
 //       uSides, uShare    caustics/spread.frag
-// out   vFlux flat     [light.unit] of a texel
+// out   vFlux flat     [light.unit] of a texel (caustics/blurred.glsl)
 //       vMiddle flat   [texels] of the whole map
 //       vInverse flat  caustics/spread.glsl; zeros: a point (caustics/tent.glsl)
 //       vLayer flat    of the map
 #include "caustics/deposit_block.glsl"
 #include "caustics/spread.glsl"
+#include "caustics/blurred.glsl"
 #include "caustics/square.glsl"
 #include "caustics/tent.glsl"
 uniform sampler2D uLanding;
 uniform sampler2D uSides;
 uniform sampler2D uShare;
-flat out vec3 vFlux;
+flat out vec4 vFlux;
 flat out vec2 vMiddle;
 flat out vec4 vInverse;
 flat out int vLayer;
@@ -43,11 +44,12 @@ void main() {
     vec4 share = texelFetch(uShare, texel, 0);
     gl_Position = kAway;
     gl_PointSize = 1.0;
-    vFlux = share.rgb;
+    vFlux = vec4(0.0);
     vMiddle = vec2(0.0);
     vInverse = vec4(0.0);
     vLayer = layerOf(landing.w);
     if (share.a == 0.0 || faceOf(landing.xyz) != drawnFace()) return;
+    vFlux = blurred(share.rgb, texel, landing.xyz);
     vMiddle = mapCorner(vLayer) + onMap(drawnFace(), landing.xyz).xy;
     vec2 middle = vMiddle;
     if (share.a == kPoint) middle = tentMiddle(vMiddle);

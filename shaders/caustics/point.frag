@@ -3,12 +3,12 @@
 #pragma variants - ON_ONE_TEXEL
 #include "caustics/deposit_block.glsl"
 #include "caustics/tent.glsl"
-flat in vec3 vFlux;
+flat in vec4 vFlux;
 flat in vec2 vMiddle;
 flat in int vLayer;
 layout(location = 0) out vec4 oFlux;
 
 void main() {
     if (isBesideFace(gl_FragCoord.xy, vLayer)) discard;
-    oFlux = vec4(vFlux * tentWeight(gl_FragCoord.xy - vMiddle), 1.0);
+    oFlux = vFlux * tentWeight(gl_FragCoord.xy - vMiddle);
 }

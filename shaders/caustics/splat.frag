@@ -3,7 +3,7 @@
 // model weights exp(-r²/2) over the disc of radius kRadius, whose integral is 2 pi (1 - exp(-kRadius²/2))
 #pragma variants - PARABOLOIDS ONE_VIEW
 #include "caustics/deposit_block.glsl"
-flat in vec3 vFlux;
+flat in vec4 vFlux;
 flat in int vLayer;
 layout(location = 0) out vec4 oFlux;
 const float kRadius = 2.5; // standard deviations
@@ -16,5 +16,5 @@ void main() {
     if (square > kRadius * kRadius) discard;
     float deviation = 0.5 * light.size / kRadius; // texels
     float whole = 2.0 * kPi * deviation * deviation * (1.0 - exp(-0.5 * kRadius * kRadius));
-    oFlux = vec4(vFlux * exp(-0.5 * square) / whole, 1.0);
+    oFlux = vFlux * exp(-0.5 * square) / whole;
 }

@@ -135,7 +135,9 @@ Status Renderer::State::recordSlice(graph::FrameGraph& graph, const Picture& pic
         if (Status s = views::recordSurface(graph, context, picture.eye, seen, surfaceId, size); !s) return s;
     if (isGeometric)
         return views::recordGeometry(graph, context, picture.eye, seen, surfaceId, targetId, show, size);
-    return recordLight({picture, graph, *posed, surfaceId}, targetId, end);
+    const float all = float(lights.size());
+    const vec2 share = lights.empty() ? vec2(0, 1) : vec2(next, end) / all;
+    return recordLight({picture, graph, *posed, surfaceId, share}, targetId, end);
 }
 
 // Light of one slice of the samples on everything that is lit where it is seen.
@@ -148,9 +150,8 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
         return Done{};
     }
     TextureId flux;
-    Guest* carrier = nullptr;
+    if (next == 0) carrier = nullptr;
     for (Guest* guest : guests) {
-        if (next > 0) break; // all of it joins the first slice
         Result<TextureId> carried = guest->light(passes);
         if (!carried) return carried.error();
         if (!*carried) continue;

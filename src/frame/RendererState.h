@@ -176,6 +176,7 @@ struct Renderer::State {
     std::vector<views::LampPoint> lights; // of this stage
     int placed = 0;                       // so many of them have a place or a direction of their own
     int next = 0;                         // light
+    technique::Guest* carrier = nullptr;  // that carried light in this sum
     double msPerLight = 0;
     double workMs = 0, planMs = 0;
     int drawsBefore = 0, passes = 0;
@@ -245,8 +246,7 @@ struct Renderer::State {
                 .environment = moment.environment,
                 .surroundings = given ? given : &surroundings,
                 .scenery = scenery,
-                .allAround = allAround,
-                .repeats = repeats(moment.scene)};
+                .allAround = allAround};
     }
     // Whether pictures follow in which only the place of a sample in its pixel or the direction differs.
     bool repeats(const scene::Scene& scene) const {

@@ -101,7 +101,8 @@ std::vector<EnvironmentLight> cellsOf(const Image& map, int count, vec2 offset) 
             const int cell = rings.first[row] + column;
             cells.push_back({vec3(glm::normalize(sums.towards[cell])),
                              vec3(sums.radiance[cell] / sums.area[cell]),
-                             float(sums.area[cell] / (4 * std::numbers::pi))});
+                             float(sums.area[cell] / (4 * std::numbers::pi)),
+                             float(std::sqrt(sums.area[cell] / 12))}); // of a square
         }
     }
     return cells;
@@ -147,11 +148,24 @@ std::pair<Part, Part> cut(Part part) {
     return {Part({part.cells.begin(), middle}), Part({middle, part.cells.end()})};
 }
 
+// Roots of distances count, so that little light far from most of it does not: of a round part that is evenly
+// bright, kOfRound times the square of their mean is the standard deviation.
 EnvironmentLight lightOf(const Part& part) {
-    EnvironmentLight light{glm::length(part.center) > 1e-6f ? glm::normalize(part.center) : vec3(0, 1, 0),
-                           vec3(0), part.weight};
-    for (const EnvironmentLight& cell : part.cells)
+    constexpr float kOfRound = 0.78f;
+    EnvironmentLight light{.direction =
+                               glm::length(part.center) > 1e-6f ? glm::normalize(part.center) : vec3(0, 1, 0),
+                           .radiance = vec3(0),
+                           .weight = part.weight,
+                           .spread = 0};
+    float root = 0, within = 0;
+    for (const EnvironmentLight& cell : part.cells) {
+        const float share = Part::lightOf(cell) / part.light;
         light.radiance += cell.weight / part.weight * cell.radiance;
+        root += share * std::sqrt(glm::distance(cell.direction, light.direction));
+        within += share * cell.spread * cell.spread;
+    }
+    const float among = kOfRound * root * root;
+    light.spread = std::sqrt(within + among * among);
     return light;
 }
 

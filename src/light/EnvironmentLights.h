@@ -11,6 +11,7 @@ struct EnvironmentLight {
     vec3 direction; ///< world, unit, towards the light
     vec3 radiance;  ///< mean over its cell, linear Rec. 709
     float weight;   ///< solid angle of its cell over 4 pi; all weights sum to 1
+    float spread;   ///< of its light's directions: standard deviation along each axis across it, radians
 };
 
 /// Divides the sphere of directions into about `count` cells of nearly equal solid angle (rings of latitude,

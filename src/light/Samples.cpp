@@ -260,7 +260,8 @@ std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& s
                            .source = {.place = place},
                            .weight = light.weight,
                            .isEnvironment = true,
-                           .extent = isEven ? std::sqrt(std::max(0.0f, 1 - cosine * cosine)) : 0});
+                           .extent = isEven ? std::sqrt(std::max(0.0f, 1 - cosine * cosine)) : 0,
+                           .spread = light.spread});
     }
     return samples;
 }

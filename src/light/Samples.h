@@ -29,7 +29,8 @@ struct LampPoint {
     bool isEnvironment = false;
     float extent =
         0; ///< sine of the angle by which the directions spread that it stands for; of an environment
-    float part = 0; ///< radius of what it stands for of its lamp: m, or where that is distant a tangent
+    float spread = 0; ///< of the light of an environment that it stands for: EnvironmentLight::spread
+    float part = 0;   ///< radius of what it stands for of its lamp: m, or where that is distant a tangent
     std::shared_ptr<const Image> picture{}; ///< that it projects, around its axis; null: none
     vec3 pictureRight{0}, pictureUp{0};     ///< scene::PictureFrame
     bool operator==(const LampPoint&) const = default;

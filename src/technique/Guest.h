@@ -38,7 +38,6 @@ struct Picture {
     std::uint64_t scenery = 0; ///< another number where anything is as it was not but the camera
     bool allAround = false;    ///< what is fitted to what the camera sees is fitted to all: pictures in other
                                ///< directions follow
-    bool repeats = false;      ///< pictures of the same scenery follow, of other samples of the pixels too
 };
 
 /// The same while a graph of passes is recorded.
@@ -47,6 +46,7 @@ struct Passes {
     graph::FrameGraph& graph;
     const views::Drawables& posed; ///< all objects as they stand, hidden ones too
     graph::TextureId surface;      ///< views.surface: first hits of the camera's rays
+    vec2 share{0, 1}; ///< of the light samples, those that this graph sums: from one part to another
 };
 
 /// Some of the light samples, to be added to what earlier slices summed.
@@ -56,8 +56,9 @@ struct Slice {
     int first, end;                               ///< those of this slice
     int placed;                                   ///< samples [placed, ...) are the environment's
     views::Occlusion occlusion;                   ///< of this slice
-    graph::TextureId flux; ///< W/m² that guests carried to each pixel (Guest::light()); or none
-    /// The same in another view; null where nobody carries any, and after the first slice.
+    graph::TextureId
+        flux; ///< W/m² that guests carried to each pixel with this slice (Guest::light()); or none
+    /// The same in another view; null where nobody carries any.
     std::function<Result<graph::TextureId>(const views::LitView&)> fluxOn;
     graph::TextureId sum;    ///< of earlier slices; not read when first == 0
     graph::TextureId target; ///< the sum with this slice; RGBA32F
@@ -108,7 +109,7 @@ public:
 
     // --- phases
 
-    /// Light: carries lamps' light to what the camera sees by other ways than straight on.
+    /// Light: carries the light of Passes::share to what the camera sees by other ways than straight on.
     ///
     /// @return  RGBA32F, W/m² on each pixel of the surface; none where there is none
     virtual Result<graph::TextureId> light(const Passes&) { return graph::TextureId{}; }

@@ -55,6 +55,7 @@ struct Bounds {
     }
     vec3 center() const { return 0.5f * (low + high); }
     float radius() const { return 0.5f * glm::length(high - low); }
+    bool operator==(const Bounds&) const = default;
 };
 /// Of an object at any time. A moving mesh's are those of its poses at a few times, with a margin.
 Bounds boundsOf(const scene::Object& object);

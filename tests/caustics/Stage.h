@@ -15,6 +15,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -39,6 +40,17 @@ inline scene::Scene floorUnder(scene::Object object, float height) {
     return scene;
 }
 
+/// Puts an environment in the place of its lamps.
+inline void shineFrom(scene::Scene& scene, ivec2 size, const std::function<float(ivec2)>& radiance) {
+    auto map = std::make_shared<Image>(size.x, size.y, 3);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x)
+            std::fill_n(map->at(x, y), 3, radiance({x, y}));
+    scene.lights.clear();
+    scene.environment.emplace();
+    scene.environment->map = std::move(map);
+}
+
 struct Caustics : support::GlTest {
     // A scene with all that the technique asks for.
     struct Stage {
@@ -59,7 +71,8 @@ struct Caustics : support::GlTest {
             drawn = *views::drawablesOf(scene, images, &waters);
             const caustics::Caustics technique(context);
             views::Readings readings;
-            auto planned = technique.plan(readings, pool, scene, &eye, drawn, settings);
+            auto planned = technique.plan(
+                readings, pool, scene, caustics::Caustics::receiving(&eye, drawn, settings), drawn, settings);
             EXPECT_TRUE(planned.ok()) << planned.error().message;
             plan = std::move(*planned);
         }
@@ -73,8 +86,7 @@ struct Caustics : support::GlTest {
     Energy energyOf(const scene::Scene& scene, ivec2 size, const Settings& settings = {}) {
         Stage stage(*context, scene, size, settings);
         context->device().checkTargets(false); // they have passed in lightOf()
-        const auto energy =
-            techniqueOn(stage).measure(stage.pool, scene, stage.eye, stage.drawn, stage.plan, settings);
+        const auto energy = techniqueOn(stage).measure(stage.pool, scene, stage.eye, stage.drawn, stage.plan);
         EXPECT_TRUE(energy.ok()) << energy.error().message;
         return *energy;
     }
@@ -91,7 +103,7 @@ struct Caustics : support::GlTest {
         const views::Drawables solids = opaque(*posed), seen = visible(solids);
         EXPECT_TRUE(views::recordSurface(graph, *context, eye, seen, surface, size).ok());
         const auto light = techniqueOn(stage).record(
-            graph, {scene, eye, refractive(*posed), solids, surface, size}, stage.plan, settings);
+            graph, {scene, eye, refractive(*posed), solids, surface, size}, stage.plan.lights);
         EXPECT_TRUE(light.ok()) << light.error().message;
         const graph::TextureId targetId = graph.import(target.handle(), desc, target.label());
         graph.keep(targetId);

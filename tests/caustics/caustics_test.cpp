@@ -51,16 +51,6 @@ TEST_F(Caustics, PointsOfALampLieOnTheDiscThatFacesTheGlass) {
     EXPECT_NEAR(energyOf(scene, {32, 32}).incident.g / expected, 1, 0.01);
 }
 
-void shineFrom(scene::Scene& scene, ivec2 size, const std::function<float(ivec2)>& radiance) {
-    auto map = std::make_shared<Image>(size.x, size.y, 3);
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x)
-            std::fill_n(map->at(x, y), 3, radiance({x, y}));
-    scene.lights.clear();
-    scene.environment.emplace();
-    scene.environment->map = std::move(map);
-}
-
 // Of radiance 1 all around, a ball above a wide floor meets what comes from above: 2 pi sr of its cross
 // section.
 TEST_F(Caustics, GlassMeetsAllOfTheEnvironmentThatSeesIt) {

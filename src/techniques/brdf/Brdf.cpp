@@ -193,7 +193,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) {
         isGlossy && in.first == 0 ? recordLobes(graph, in, textured) : graph::TextureId{};
     const graph::TextureId surface = in.surface, table = in.lightTable, target = in.target;
     const graph::TextureId occlusion = in.occlusion.texture;
-    const graph::TextureId flux = in.first == 0 ? in.flux : graph::TextureId{};
+    const graph::TextureId flux = in.flux;
     const graph::TextureId sum = in.first > 0 ? in.sum : graph::TextureId{};
     std::vector<std::string> defines;
     if (occlusion) defines.push_back("USE_OCCLUSION");

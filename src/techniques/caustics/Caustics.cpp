@@ -46,13 +46,18 @@ int borderOf(const std::vector<views::Eye>& faces, int size) {
     return int(std::lround(0.5f * float(size) * (1 - 1 / faces.front().halfExtent.x)));
 }
 
-// What the camera shows of a box, all of what scatters light to where it shows it, and a little around them:
-// beams that end beside the map are no beams, and so are frayed where it ends.
-//
-// @param eye  null: it shows all
-// @param ray  m between rays
-views::Bounds seenWithMargin(const views::Eye* eye, const views::Drawables& receivers, float ray) {
+} // namespace
+
+// All of what scatters light to where it is shown, too, and a little around: beams that end beside the map
+// are no beams, and so are frayed where it ends. In steps, so that maps serve while the camera moves a
+// little.
+views::Bounds Caustics::receiving(const views::Eye* eye, const views::Drawables& drawables,
+                                  const Settings& settings) {
     constexpr float kMargin = 1.0f / 16, kRays = 4; // of the longest side; at least
+    const views::Drawables receivers = receiversOf(opaque(drawables));
+    const views::Drawables glass = refractive(drawables);
+    const float ray =
+        glass.empty() ? 0 : 2 * boundsOfAll(glass).radius() / float(settings.grid); // m between two
     views::Bounds seen;
     for (const auto& one : receivers) {
         const bool isWhole = !eye || (one->isVisible() && one->object->material.isScattering());
@@ -63,6 +68,8 @@ views::Bounds seenWithMargin(const views::Eye* eye, const views::Drawables& rece
     const vec3 margin(std::max(kMargin * std::max({size.x, size.y, size.z}), kRays * ray));
     return {glm::max(seen.low - margin, all.low), glm::min(seen.high + margin, all.high)};
 }
+
+namespace {
 
 // All directions from a point as one paraboloid towards what receives, and one away from it if any of that
 // lies there.
@@ -150,6 +157,45 @@ Result<int> surfacesIn(views::Readings& readings, const std::string& question, g
                        float time, int size) {
     if (glass.size() == 1 && isConvex(*glass.front()->object)) return 2;
     return views::countLayers(readings, question, pool, context, face, glass, time, ivec2(size));
+}
+
+// A few pixels for each ray, because surfaces stand in these pixels and because what no beam carries has a
+// ray for each of them. Their number for a ray is odd: it runs through the middle one.
+constexpr int kLeastView = 384;
+int viewSizeOf(int grid, int least = kLeastView) {
+    const int pixels = std::max(3, (least + grid - 1) / grid);
+    return grid * (pixels | 1);
+}
+
+// For samples of an environment, whose size blurs what they throw: coarser by up to four times a side, as
+// long as what is left of a map's texels is finer than the blur.
+//
+// @param reach  m that light goes from where it is bent, about
+constexpr int kMostCoarse = 4;
+int coarsenessOf(const views::LampPoint& lamp, float reach, const views::ShadowViews& map) {
+    if (!lamp.isEnvironment) return 1;
+    const vec2 half = map.faces.front().halfExtent;
+    const float blur = spreadOf(lamp) * reach * float(map.size) / (2 * std::max(half.x, half.y)); // texels
+    int coarseness = 1;
+    while (coarseness < kMostCoarse && blur >= 2 * coarseness)
+        coarseness *= 2;
+    return coarseness;
+}
+Settings coarser(Settings settings, int coarseness) {
+    constexpr int kLeastGrid = 16, kLeastMap = 64;
+    settings.grid = std::max(settings.grid / coarseness, std::min(settings.grid, kLeastGrid));
+    settings.mapSize = std::max(settings.mapSize / coarseness, std::min(settings.mapSize, kLeastMap));
+    return settings;
+}
+
+// How far light goes through refractive objects, about: by the least side of each.
+float thicknessOf(const views::Drawables& glass) {
+    float sum = 0;
+    for (const auto& one : glass) {
+        const vec3 size = one->bounds().high - one->bounds().low;
+        sum += std::min({size.x, size.y, size.z});
+    }
+    return glass.empty() ? 0 : sum / float(glass.size());
 }
 
 // Around all ways from a box to a lamp.
@@ -314,20 +360,19 @@ std::optional<std::string> Caustics::thrown(const scene::Scene& scene) {
 }
 
 Result<Plan> Caustics::plan(views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
-                            const views::Eye* eye, const views::Drawables& drawables,
-                            const Settings& settings) const {
+                            const views::Bounds& receiving, const views::Drawables& drawables,
+                            const Settings& asked) const {
     Plan plan;
     const views::Drawables glass = refractive(drawables), solids = opaque(drawables),
                            mirrors = mirrorsOf(solids), receivers = receiversOf(solids);
+    if (Status legal = checkLimits(glass, mirrors, asked); !legal) return legal.error();
     const views::Bounds glassBox = boundsOfAll(glass), mirrorBox = boundsOfAll(mirrors);
     // what stands before glass and mirrors hides them
     const views::Bounds everything = boundsOfAll(drawables);
-    const float ray = glass.empty() ? 0 : 2 * glassBox.radius() / float(settings.grid);
-    const views::Bounds receiving = seenWithMargin(eye, receivers, ray);
     views::Bounds throwing = glassBox;
     throwing.add(mirrorBox);
     const views::Sampling sampling{.lamp = views::samplingOf(scene).lamp,
-                                   .directions = settings.directions,
+                                   .directions = asked.directions,
                                    .environment = views::EnvironmentSampling::Importance};
     int number = 0;
     for (const views::LampPoint& point : views::lightSamples(scene, sampling)) {
@@ -336,12 +381,16 @@ Result<Plan> Caustics::plan(views::Readings& readings, graph::TexturePool& pool,
         const views::LampPoint lamp = views::facing(point, throwing.center());
         views::ShadowSource around = lamp.source; // light leaves the cone of a spot where it is bent
         around.tangent = views::ShadowSource().tangent;
-        Plan::Light light{.lamp = lamp,
-                          .receivers = views::shadowViews(around, receiving, receiving, settings.mapSize)};
+        const auto mapOf = [&](int size) { return views::shadowViews(around, receiving, receiving, size); };
+        Plan::Light light{.lamp = lamp, .receivers = mapOf(asked.mapSize)};
         if (light.receivers.faces.empty()) continue;
+        const int coarseness = coarsenessOf(lamp, throwing.radius(), light.receivers);
+        const Settings settings = light.settings = coarser(asked, coarseness);
+        if (coarseness > 1) light.receivers = mapOf(settings.mapSize);
+        light.within = 0.5f * thicknessOf(glass);
         if (settings.pointMap == PointMap::Paraboloids && light.receivers.faces.size() > 1)
             light.halves = paraboloidsOf(vec3(lamp.source.place), receiving, settings.mapSize);
-        const int size = viewSizeOf(settings.grid).x;
+        const int size = light.viewSize = viewSizeOf(settings.grid, kLeastView / coarseness);
         const auto viewsOf = [&](const views::Drawables& bending, const views::Bounds& bounds) {
             return views::shadowViews(aimedAt(lamp.source, bending, bounds), everything, bounds, size).faces;
         };
@@ -373,16 +422,17 @@ Result<Plan> Caustics::plan(views::Readings& readings, graph::TexturePool& pool,
     return plan;
 }
 
-Status Caustics::checkLimits(const Inputs& in, const Settings& settings) const {
-    if (in.glass.size() > views::kMostGlass)
-        return Error{"caustics: " + std::to_string(in.glass.size()) +
-                         " refractive objects; must be at most " + std::to_string(views::kMostGlass),
+Status Caustics::checkLimits(const views::Drawables& glass, const views::Drawables& mirrors,
+                             const Settings& settings) const {
+    if (glass.size() > views::kMostGlass)
+        return Error{"caustics: " + std::to_string(glass.size()) + " refractive objects; must be at most " +
+                         std::to_string(views::kMostGlass),
                      Fault::Machine};
-    if (const std::size_t count = mirrorsOf(in.solids).size(); count > kMostMirrors)
-        return Error{"caustics: " + std::to_string(count) + " mirrors; must be at most " +
+    if (mirrors.size() > kMostMirrors)
+        return Error{"caustics: " + std::to_string(mirrors.size()) + " mirrors; must be at most " +
                          std::to_string(kMostMirrors),
                      Fault::Machine};
-    if (const int side = viewSizeOf(settings.grid).x; side > context_.caps().maxTextureSize)
+    if (const int side = viewSizeOf(settings.grid); side > context_.caps().maxTextureSize)
         return Error{"caustics: grid is " + std::to_string(settings.grid) + ", for which a lamp's view has " +
                          std::to_string(side) + " pixels a side; must be at most " +
                          std::to_string(context_.caps().maxTextureSize) + " on this GPU",
@@ -390,49 +440,46 @@ Status Caustics::checkLimits(const Inputs& in, const Settings& settings) const {
     return Done{};
 }
 
-Result<Carried> Caustics::record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
-                                 const Settings& settings, std::vector<Map> known) const {
-    if (Status legal = checkLimits(in, settings); !legal) return legal.error();
+Result<Carried> Caustics::record(graph::FrameGraph& graph, const Inputs& in,
+                                 std::span<const Plan::Light> lights, std::vector<Map> known) const {
     Carried carried{.irradiance = {}, .maps = std::move(known)};
     const std::size_t made = carried.maps.size();
     Targets targets(graph);
     Inputs all = in;
     const bool hasFields = std::any_of(in.solids.begin(), in.solids.end(),
                                        [](const auto& one) { return one->field() != nullptr; });
-    if (hasFields && !plan.lights.empty()) {
+    if (hasFields && !lights.empty()) {
         all.solid = graph.create("caustics.shown", {.size = in.size, .format = graph::Format::RGBA32F});
         if (Status s = views::recordSolid(graph, context_, in.eye, in.solids, in.surface, all.solid, in.size);
             !s)
             return s.error();
     }
-    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
-        LightPasses passes(graph, context_, targets, all, plan.lights[i], settings, pictureOf_);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        LightPasses passes(graph, context_, targets, all, lights[i], pictureOf_);
         Status s =
             i < made ? passes.lookUp(carried.maps[i], carried.irradiance) : passes.record(carried.irradiance);
         if (!s) return s.error();
-        if (i >= made && settings.deposit != Deposit::Lines) carried.maps.push_back(passes.map());
+        if (i >= made && lights[i].settings.deposit != Deposit::Lines) carried.maps.push_back(passes.map());
     }
     return carried;
 }
 
-Result<graph::TextureId> Caustics::lookUp(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
-                                          const std::vector<Map>& maps, const Settings& settings) const {
+Result<graph::TextureId> Caustics::lookUp(graph::FrameGraph& graph, const Inputs& in,
+                                          std::span<const Plan::Light> lights,
+                                          const std::vector<Map>& maps) const {
     graph::TextureId sum;
     Targets targets(graph);
     for (std::size_t i = 0; i < maps.size(); ++i)
-        if (Status s = LightPasses(graph, context_, targets, in, plan.lights[i], settings, pictureOf_)
-                           .lookUp(maps[i], sum);
+        if (Status s = LightPasses(graph, context_, targets, in, lights[i], pictureOf_).lookUp(maps[i], sum);
             !s)
             return s.error();
     return sum;
 }
 
-Result<Map> Caustics::recordMap(graph::FrameGraph& graph, const Inputs& in, const Plan::Light& light,
-                                const Settings& settings) const {
-    if (Status legal = checkLimits(in, settings); !legal) return legal.error();
+Result<Map> Caustics::recordMap(graph::FrameGraph& graph, const Inputs& in, const Plan::Light& light) const {
     graph::TextureId none;
     Targets targets(graph);
-    LightPasses passes(graph, context_, targets, in, light, settings, pictureOf_);
+    LightPasses passes(graph, context_, targets, in, light, pictureOf_);
     if (Status s = passes.record(none); !s) return s.error();
     return passes.map();
 }
@@ -470,8 +517,7 @@ private:
 } // namespace
 
 Result<Energy> Caustics::measure(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
-                                 const views::Drawables& drawables, const Plan& plan,
-                                 const Settings& settings) const {
+                                 const views::Drawables& drawables, const Plan& plan) const {
     Energy energy;
     double rays = 0;
     for (const Plan::Light& light : plan.lights) {
@@ -481,7 +527,7 @@ Result<Energy> Caustics::measure(graph::TexturePool& pool, const scene::Scene& s
         const Inputs in{scene, eye, refractive(*posed), opaque(*posed), {}, {}};
         Targets targets(graph, &context_.device());
         graph::TextureId none;
-        LightPasses passes(graph, context_, targets, in, light, settings, pictureOf_);
+        LightPasses passes(graph, context_, targets, in, light, pictureOf_);
         if (Status s = passes.record(none); !s) return s.error();
         if (Status s = graph.compile(); !s) return s.error();
         graph.execute(pool);

@@ -9,6 +9,7 @@
 #include "views/Layers.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,9 @@ struct Plan {
     };
     struct Light {
         views::LampPoint lamp;
+        Settings settings{};          ///< coarser where the size of the sample blurs what is finer
+        int viewSize = 0;             ///< pixels a side of the views of what bends light
+        float within = 0;             ///< m that light goes through that, about
         std::optional<Water> water{}; ///< instead of `glass`, where that is all that refracts
         std::vector<View> glass{};    ///< that show what refracts
         std::vector<View> mirrors{};  ///< that show what mirrors
@@ -97,7 +101,7 @@ struct Map {
 /// What record() carried, for as long as its graph is recorded.
 struct Carried {
     graph::TextureId irradiance; ///< RGBA32F, W/m² on each pixel of the picture; none where there is none
-    std::vector<Map> maps{};     ///< of the plan's lights; empty where light is gathered in the picture alone
+    std::vector<Map> maps{};     ///< of the lights; empty where light is gathered in the picture alone
 };
 
 /// Not drawn: light that glass or mirrors reflect on (but for total reflection inside), light by way of a
@@ -115,42 +119,48 @@ public:
     explicit Caustics(gl::Context& context, views::PictureOf pictureOf = {})
         : context_(context), pictureOf_(std::move(pictureOf)) {}
 
+    /// Around what receives light of all that may.
+    ///
+    /// @param eye  the camera's: what it does not show receives nothing; null: it shows all
+    static views::Bounds receiving(const views::Eye* eye, const views::Drawables& drawables,
+                                   const Settings& settings);
+
     /// Chooses the views of each light and counts their layers.
     ///
     /// @param readings   not all there: the plan is of no use yet
-    /// @param eye        the camera's: what it does not show receives nothing; null: all receives
+    /// @param receiving  receiving()
     /// @param drawables  all that bends light or receives it
+    /// @return  Error (Fault::Machine) for more than views::kMostGlass refractive objects or images larger
+    ///          than the GPU's textures
     Result<Plan> plan(views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
-                      const views::Eye* eye, const views::Drawables& drawables,
+                      const views::Bounds& receiving, const views::Drawables& drawables,
                       const Settings& settings) const;
 
     /// Adds the passes that give each pixel of opaque objects and height fields the irradiance of caustics.
     ///
-    /// @param known  maps of the same plan, which are looked up; empty: they are made
-    /// @return  Error (Fault::Machine) for more than views::kMostGlass refractive objects or images larger
-    ///          than the GPU's textures
-    Result<Carried> record(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
-                           const Settings& settings, std::vector<Map> known = {}) const;
+    /// @param lights  of a plan: whose light is carried
+    /// @param known   maps of the first of them, which are looked up; others are made
+    Result<Carried> record(graph::FrameGraph& graph, const Inputs& in, std::span<const Plan::Light> lights,
+                           std::vector<Map> known = {}) const;
 
     /// Adds the passes that look the same light up in another view, which shows meshes.
     ///
     /// @param in    of record(), with that view's eye, surface and size
-    /// @param maps  of record() with the same plan
-    Result<graph::TextureId> lookUp(graph::FrameGraph& graph, const Inputs& in, const Plan& plan,
-                                    const std::vector<Map>& maps, const Settings& settings) const;
+    /// @param maps  of record() with the same lights
+    Result<graph::TextureId> lookUp(graph::FrameGraph& graph, const Inputs& in,
+                                    std::span<const Plan::Light> lights, const std::vector<Map>& maps) const;
 
     /// Adds the passes of one light alone, up to its map. `in.surface` must be none.
-    Result<Map> recordMap(graph::FrameGraph& graph, const Inputs& in, const Plan::Light& light,
-                          const Settings& settings) const;
+    Result<Map> recordMap(graph::FrameGraph& graph, const Inputs& in, const Plan::Light& light) const;
 
     /// Runs the same passes and sums what they carry. Reads pictures back.
     Result<Energy> measure(graph::TexturePool& pool, const scene::Scene& scene, const views::Eye& eye,
-                           const views::Drawables& drawables, const Plan& plan,
-                           const Settings& settings) const;
+                           const views::Drawables& drawables, const Plan& plan) const;
 
 private:
     static std::optional<std::string> thrown(const scene::Scene& scene);
-    Status checkLimits(const Inputs& in, const Settings& settings) const;
+    Status checkLimits(const views::Drawables& glass, const views::Drawables& mirrors,
+                       const Settings& settings) const;
     gl::Context& context_;
     views::PictureOf pictureOf_;
 };

@@ -36,7 +36,10 @@ DepositBlock LightPasses::depositBlock(const Photons& photons, float size) const
             .faceCount = int(mapViews().faces.size()),
             .face = 0,
             .unit = unit(),
-            .size = size};
+            .size = size,
+            .first = 0,
+            .spread = spreadOf(light_.lamp),
+            .within = light_.within};
 }
 
 // Over what the light of the rays that carry the rest is spread.
@@ -103,6 +106,7 @@ Status LightPasses::addBeams(std::vector<Kind>& kinds) {
     };
     const auto beams = [this](const Sheet& sheet) -> Samples {
         Samples samples{{"uLanding", sheet.grid.landing},
+                        {"uPlace", sheet.grid.place},
                         {"uFlux", sheet.grid.flux},
                         {"uBeams", sheet.cells.beams},
                         {"uDensity", sheet.density}};
@@ -111,7 +115,7 @@ Status LightPasses::addBeams(std::vector<Kind>& kinds) {
         return samples;
     };
     const auto points = [](const Sheet& sheet) -> Samples {
-        return {{"uLanding", sheet.grid.landing}, {"uPoint", sheet.points}};
+        return {{"uLanding", sheet.grid.landing}, {"uPlace", sheet.grid.place}, {"uPoint", sheet.points}};
     };
     const auto first = [](const Sheet& sheet) { return Range{0, 6 * rectanglesOf(sheet.rest.count)}; };
     const auto others = [](const Sheet& sheet) {
@@ -119,7 +123,10 @@ Status LightPasses::addBeams(std::vector<Kind>& kinds) {
         return Range{drawn, areaOf(sheet.rest.count) - drawn};
     };
     const auto rests = [](const Sheet& sheet) -> Samples {
-        return {{"uLanding", sheet.rest.landing}, {"uSides", sheet.sides}, {"uShare", sheet.shares}};
+        return {{"uLanding", sheet.rest.landing},
+                {"uPlace", sheet.rest.place},
+                {"uSides", sheet.sides},
+                {"uShare", sheet.shares}};
     };
     Status s = addKind("caustics/beam", ofBeams, {graph::Topology::Triangles, squares, beams}, kinds);
     if (s) s = addKind("caustics/point", ofPoints, {graph::Topology::Points, allOf, points}, kinds);
@@ -131,7 +138,7 @@ Status LightPasses::addBeams(std::vector<Kind>& kinds) {
 
 Status LightPasses::addSplats(std::vector<Kind>& kinds) {
     const auto samples = [](const Sheet& sheet) -> Samples {
-        return {{"uLanding", sheet.grid.landing}, {"uFlux", sheet.grid.flux}};
+        return {{"uLanding", sheet.grid.landing}, {"uPlace", sheet.grid.place}, {"uFlux", sheet.grid.flux}};
     };
     return addKind("caustics/splat", {}, {graph::Topology::Points, allOf, samples}, kinds);
 }
@@ -141,7 +148,9 @@ Status LightPasses::deposit() {
     const bool beams = settings_.deposit == Deposit::Beam;
     if (Status s = beams ? addBeams(kinds) : addSplats(kinds); !s) return s;
     const views::ShadowViews& views = mapViews();
-    map_ = targets_.make("caustics.map", {.size = mapSize(), .format = sumFormat()});
+    const TextureDesc desc{.size = mapSize(), .format = sumFormat()};
+    const TextureId sharp =
+        isSpread() ? graph_.create("caustics.sharp", desc) : targets_.make("caustics.map", desc);
     graph_.addPass("caustics.deposit", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("light on the receivers, by " + std::string(nameOf(settings_.deposit)) +
                     (light_.hasBehind ? "; on those behind others too" : ""));
@@ -165,8 +174,8 @@ Status LightPasses::deposit() {
                     pass.sample(texture);
                 steps.push_back(std::move(step));
             }
-        pass.write(map_);
-        pass.clear(map_, vec4(0));
+        pass.write(sharp);
+        pass.clear(sharp, vec4(0));
         return [steps = std::move(steps), views, whole = ivec4(0, 0, mapSize()),
                 hasBehind = light_.hasBehind](const graph::Resources& resources, graph::Commands& commands) {
             for (int face = 0; face < int(views.faces.size()); ++face)
@@ -183,7 +192,28 @@ Status LightPasses::deposit() {
                 }
         };
     });
+    map_ = sharp;
+    if (isSpread()) {
+        blur(graph_.create("caustics.rows", desc), {1, 0});
+        blur(targets_.make("caustics.map", desc), {0, 1});
+    }
     return Done{};
+}
+
+// What the size of the light's sample leaves of the map's edges.
+void LightPasses::blur(TextureId target, ivec2 along) {
+    const gl::Program* blurring = program("caustics/blur");
+    graph_.addPass("caustics.blur", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what the size of the light sample blurs");
+        pass.sample(map_);
+        pass.write(target);
+        return [from = map_, program = blurring,
+                block = BlurBlock{.face = ivec2(mapViews().size), .along = along}](
+                   const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program, .block = block, .textures = {{"uMap", resources[from]}}});
+        };
+    });
+    map_ = target;
 }
 
 Status LightPasses::lookUp(const Map& from, TextureId& sum) {

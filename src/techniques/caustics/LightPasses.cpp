@@ -11,14 +11,6 @@ using graph::Format;
 using graph::TextureDesc;
 using graph::TextureId;
 
-// A few pixels for each ray, because surfaces stand in these pixels and because what no beam carries has a
-// ray for each of them. Their number for a ray is odd: it runs through the middle one.
-ivec2 viewSizeOf(int grid) {
-    constexpr int kLeast = 384;
-    const int pixels = std::max(3, (kLeast + grid - 1) / grid);
-    return ivec2(grid * (pixels | 1));
-}
-
 namespace {
 // How far a box reaches along a direction [m].
 struct Extent {

@@ -24,12 +24,14 @@ inline views::Drawables receiversOf(views::Drawables solids) {
 views::Drawables withoutBlendedBefore(const views::LampPoint& lamp, const views::Bounds& bending,
                                       views::Drawables receivers);
 
+/// Standard deviation of the directions that a light sample stands for [radians], or of a point's place [m].
+inline float spreadOf(const views::LampPoint& lamp) {
+    return lamp.isEnvironment ? lamp.spread : 0.5f * lamp.part; // of a disc
+}
+
 /// Whether all that refracts is water that a lamp looks down on, so that rays may begin on it.
 bool beginsOnWater(const Settings& settings, const views::LampPoint& lamp, const views::Drawables& glass,
                    const views::Drawables& solids);
-
-/// Pixels of a light's view of what bends its light, for a grid of rays.
-ivec2 viewSizeOf(int grid);
 
 /// Where textures of the passes come from: the graph, or from outside where somebody reads them afterwards.
 class Targets {
@@ -55,9 +57,9 @@ private:
 class LightPasses {
 public:
     LightPasses(graph::FrameGraph& graph, gl::Context& context, Targets& targets, const Inputs& in,
-                const Plan::Light& light, const Settings& settings, const views::PictureOf& pictureOf)
-        : graph_(graph), context_(context), targets_(targets), in_(in), light_(light), settings_(settings),
-          pictureOf_(pictureOf),
+                const Plan::Light& light, const views::PictureOf& pictureOf)
+        : graph_(graph), context_(context), targets_(targets), in_(in), light_(light),
+          settings_(light.settings), pictureOf_(pictureOf),
           receivers_(withoutBlendedBefore(light.lamp, bendingIn(in), receiversOf(in.solids))),
           blended_(filtered(in.solids, &views::Drawable::isBlended)),
           solids_(filtered(in.solids, std::not_fn(&views::Drawable::isBlended))) {}
@@ -119,7 +121,7 @@ private:
     const gl::Program* program(const char* stem, std::vector<std::string> defines = {}) {
         return context_.program(stem, defines);
     }
-    ivec2 viewSize() const { return viewSizeOf(settings_.grid); }
+    ivec2 viewSize() const { return ivec2(light_.viewSize); }
     LampBlock lampBlock() const;
     /// @param picture    that the lamp projects, or None
     /// @param otherwise  any texture of two dimensions
@@ -188,6 +190,8 @@ private:
     Status addBeams(std::vector<Kind>& kinds);
     Status addSplats(std::vector<Kind>& kinds);
     Status deposit();
+    bool isSpread() const { return spreadOf(light_.lamp) > 0; }
+    void blur(graph::TextureId from, ivec2 along);
 
     // Lines are drawn in the camera's picture; where that is not asked for, their rays are splats.
     // The points of a lamp with a size blur each other's edges.

@@ -5,6 +5,8 @@
 #include "techniques/caustics/MapView.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace lucent::caustics {
 
@@ -13,6 +15,7 @@ namespace {
 using graph::TextureId;
 using scene::Aov;
 
+constexpr int kLeastAround = 8;                          // directions of an environment in reflection probes
 constexpr std::size_t kMostKept = std::size_t(96) << 20; // bytes of maps
 
 const Settings& settingsOf(const scene::Scene& scene) {
@@ -27,12 +30,12 @@ public:
           }) {}
 
     Status prepare(const technique::Picture& picture) override {
-        Key key = keyOf(picture);
+        const views::Drawables drawables = changingLight(picture.scene, picture.drawables);
+        Key key = keyOf(picture, drawables);
         if (plan_ && key_ == key) return Done{};
         clear();
-        Result<Plan> plan = caustics_.plan(
-            picture.readings, store_.pool, picture.scene, picture.allAround ? nullptr : &picture.eye,
-            changingLight(picture.scene, picture.drawables), settingsOf(picture.scene));
+        Result<Plan> plan = caustics_.plan(picture.readings, store_.pool, picture.scene, key.receiving,
+                                           drawables, key.settings);
         if (!plan) return plan.error();
         if (!picture.readings.areThere()) return Done{};
         plan_ = std::move(*plan);
@@ -42,17 +45,25 @@ public:
 
     Result<TextureId> light(const technique::Passes& passes) override {
         carried_ = {};
+        lights_ = {};
         if (!plan_) return TextureId{};
+        const auto count = float(plan_->lights.size());
+        const auto first = std::size_t(std::ceil(passes.share.x * count)),
+                   end = std::size_t(std::ceil(passes.share.y * count));
+        lights_ = std::span(plan_->lights).subspan(first, end - first);
+        if (lights_.empty()) return TextureId{};
         std::vector<Map> known;
-        for (const KeptMap& map : kept_)
-            if (std::optional<Map> there = map.in(passes.graph)) known.push_back(*there);
-        if (known.size() < plan_->lights.size()) known.clear();
-        const bool isNew = known.empty();
-        Result<Carried> carried = caustics_.record(passes.graph, inputs(passes, passes.surface), *plan_,
-                                                   settingsOf(passes.picture.scene), std::move(known));
+        for (std::size_t i = first; i < std::min(end, kept_.size()); ++i) {
+            const std::optional<Map> there = kept_[i].in(passes.graph);
+            if (!there) break;
+            known.push_back(*there);
+        }
+        const std::size_t next = first + known.size();
+        Result<Carried> carried =
+            caustics_.record(passes.graph, inputs(passes, passes.surface), lights_, std::move(known));
         if (!carried) return carried.error();
         carried_ = std::move(*carried);
-        if (isNew && passes.picture.repeats) keepMaps(passes.graph);
+        if (next < end && next <= kept_.size()) keepMaps(passes.graph, first, next);
         return carried_.irradiance;
     }
     Result<TextureId> lightOn(const technique::Passes& passes, const views::LitView& view) override {
@@ -66,7 +77,7 @@ public:
                                  .size = view.size,
                                  .places = view.places,
                                  .extent = view.extent},
-                                *plan_, carried_.maps, settingsOf(passes.picture.scene));
+                                lights_, carried_.maps);
     }
 
     bool carriesEnvironment(const scene::Scene& scene) const override {
@@ -86,16 +97,14 @@ public:
             return Done{};
         }
         Result<Map> map =
-            caustics_.recordMap(passes.graph, inputs(passes, {}), plan_->lights[std::size_t(number - 1)],
-                                settingsOf(picture.scene));
+            caustics_.recordMap(passes.graph, inputs(passes, {}), plan_->lights[std::size_t(number - 1)]);
         return map ? recordMapView(passes.graph, store_.context, *map, target, picture.size) : map.error();
     }
 
     Result<technique::Balance> balance(const technique::Picture& picture) override {
         if (!plan_) return technique::Balance{};
         Result<Energy> energy = caustics_.measure(store_.pool, picture.scene, picture.eye,
-                                                  changingLight(picture.scene, picture.drawables), *plan_,
-                                                  settingsOf(picture.scene));
+                                                  changingLight(picture.scene, picture.drawables), *plan_);
         if (!energy) return energy.error();
         return technique::Balance{{"incident", energy->incident}, {"received", energy->received},
                                   {"absorbed", energy->absorbed}, {"reflected", energy->reflected},
@@ -103,12 +112,8 @@ public:
     }
 
     std::map<std::string, std::size_t> bytes() const override {
-        std::size_t sum = 0;
-        for (const KeptMap& map : kept_)
-            for (const auto& texture : map.textures)
-                sum += texture->desc().bytes();
         return kept_.empty() ? std::map<std::string, std::size_t>{}
-                             : std::map<std::string, std::size_t>{{"caustic maps", sum}};
+                             : std::map<std::string, std::size_t>{{"caustic maps", keptBytes()}};
     }
     void clear() override {
         plan_.reset();
@@ -119,19 +124,21 @@ private:
     // What a plan and its maps depend on.
     struct Key {
         std::uint64_t scenery;
-        std::optional<views::Eye> eye; // none: it sees all
         Settings settings;
+        views::Bounds receiving;
         int lampSamples;
         bool operator==(const Key&) const = default;
     };
-    static Key keyOf(const technique::Picture& picture) {
-        Key key{picture.scenery, std::nullopt, settingsOf(picture.scene),
+    static Key keyOf(const technique::Picture& picture, const views::Drawables& drawables) {
+        Settings settings = settingsOf(picture.scene);
+        if (picture.allAround) // small pictures
+            settings.directions =
+                std::min(settings.directions, std::max(kLeastAround, settings.directions / 4));
+        views::Eye eye = picture.eye;
+        eye.shift = vec2(0); // the same for all samples of a pixel
+        return {picture.scenery, settings,
+                Caustics::receiving(picture.allAround ? nullptr : &eye, drawables, settings),
                 views::samplingOf(picture.scene).lamp};
-        if (picture.allAround) return key;
-        key.eye = picture.eye; // samples of a pixel differ in what follows
-        key.eye->shift = vec2(0);
-        key.eye->clipFromWorld = mat4(1);
-        return key;
     }
 
     // A map that stays between pictures; its textures are there when its graph has run.
@@ -148,14 +155,18 @@ private:
             return Map{ids[0], ids[1], size, ids.size() > 2 ? ids[2] : TextureId{}};
         }
     };
-    void keepMaps(graph::FrameGraph& graph) {
-        giveMaps();
-        std::size_t bytes = 0;
-        for (const Map& map : carried_.maps)
+    // @param first  light of the first map that was carried
+    // @param next   first light whose map was not kept, in order
+    void keepMaps(graph::FrameGraph& graph, std::size_t first, std::size_t next) {
+        giveMaps(next);
+        std::size_t left = kMostKept - std::min(kMostKept, keptBytes());
+        for (const Map& map :
+             std::span(carried_.maps).subspan(std::min(next - first, carried_.maps.size()))) {
+            std::size_t bytes = 0;
             for (const TextureId id : {map.flux, map.depths, map.behind})
                 if (id) bytes += graph.descOf(id).bytes();
-        if (bytes > kMostKept) return;
-        for (const Map& map : carried_.maps) {
+            if (bytes > left) return;
+            left -= bytes;
             KeptMap& kept = kept_.emplace_back(KeptMap{{}, map.size});
             for (const TextureId id : {map.flux, map.depths, map.behind}) {
                 if (!id) continue;
@@ -164,11 +175,18 @@ private:
             }
         }
     }
-    void giveMaps() {
+    void giveMaps(std::size_t from = 0) {
+        for (std::size_t i = from; i < kept_.size(); ++i)
+            for (const auto& texture : kept_[i].textures)
+                if (*texture) store_.pool.give(std::move(*texture));
+        kept_.resize(std::min(from, kept_.size()));
+    }
+    std::size_t keptBytes() const {
+        std::size_t sum = 0;
         for (const KeptMap& map : kept_)
             for (const auto& texture : map.textures)
-                if (*texture) store_.pool.give(std::move(*texture));
-        kept_.clear();
+                sum += texture->desc().bytes();
+        return sum;
     }
 
     static Inputs inputs(const technique::Passes& passes, TextureId surface) {
@@ -183,9 +201,10 @@ private:
     technique::Store store_;
     Caustics caustics_;
     std::optional<Plan> plan_;
-    Key key_{};                 // of the plan
-    std::vector<KeptMap> kept_; // of the plan's lights, or none
-    Carried carried_;           // in the graph that is recorded
+    Key key_{};                           // of the plan
+    std::vector<KeptMap> kept_;           // of the plan's first lights
+    std::span<const Plan::Light> lights_; // that the graph carries which is recorded
+    Carried carried_;                     // by it
 };
 
 constexpr Aov kAovs[] = {Aov::CausticMap};
@@ -194,7 +213,7 @@ constexpr double kGrids[] = {32, 64, 128, 256, 512};
 constexpr technique::Knob kKnobs[] = {
     {.id = "grid", .coarse = 64, .steps = kGrids, .words = "rays a side", .tied = "mapSize", .factor = 4},
     {.id = "refine", .coarse = 0},
-    {.id = "environmentDirections", .coarse = 4, .acts = carriesEnvironment},
+    {.id = "environmentDirections", .coarse = 0, .acts = carriesEnvironment},
 };
 
 bool throwsLight(const scene::Scene& scene) {

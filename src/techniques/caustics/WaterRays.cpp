@@ -120,6 +120,7 @@ Status LightPasses::leaveAlone(Sheet& sheet) {
     sheet.rest.count = sheet.grid.count;
     const Samples samples{{"uFlux", sheet.grid.flux},
                           {"uLanding", sheet.grid.landing},
+                          {"uPlace", sheet.grid.place},
                           {"uBeams", sheet.cells.beams},
                           {"uIndex", sheet.cells.index}};
     graph_.addPass("caustics.alone", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -129,8 +130,9 @@ Status LightPasses::leaveAlone(Sheet& sheet) {
         const TextureDesc desc{.size = sheet.grid.count, .format = Format::RGBA32F};
         sheet.rest.flux = pass.createColor("caustics.alone", desc);
         sheet.rest.landing = pass.createColor("caustics.aloneLanding", desc);
-        pass.clear(sheet.rest.flux, vec4(0));
-        pass.clear(sheet.rest.landing, vec4(0));
+        sheet.rest.place = pass.createColor("caustics.alonePlace", desc);
+        for (const TextureId id : {sheet.rest.flux, sheet.rest.landing, sheet.rest.place})
+            pass.clear(id, vec4(0));
         return [=, draw = drawOf(Part::Rests), program = leaving](const graph::Resources& resources,
                                                                   graph::Commands& commands) {
             graph::Draw filled = draw;

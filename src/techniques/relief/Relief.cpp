@@ -15,7 +15,7 @@ std::vector<std::string> defines(const views::DrawnField& drawn, const Settings&
     std::vector<std::string> list;
     if (!in.transferred.empty()) list.push_back("USE_TRANSFER");
     const bool shines = !in.transferred.empty() && drawn.object->material.relief().specularity > 0;
-    if (in.first == in.end && !shines) list.push_back("LIGHTLESS");
+    if (in.first == in.end && !shines && !in.flux) list.push_back("LIGHTLESS");
     if (settings.method == Method::March) list.push_back("METHOD_MARCH");
     if (settings.method == Method::Counting) list.push_back("METHOD_COUNTING");
     if (drawn.baseMap != none) list.push_back("USE_BASE_MAP");
@@ -25,7 +25,7 @@ std::vector<std::string> defines(const views::DrawnField& drawn, const Settings&
     if (in.show == scene::Aov::Visibility) list.push_back("SHOW_VISIBILITY");
     if (in.show == scene::Aov::Irradiance) list.push_back("SHOW_IRRADIANCE");
     if (in.occlusion.texture) list.push_back("USE_OCCLUSION");
-    if (in.flux && in.first == 0) list.push_back("USE_FLUX");
+    if (in.flux) list.push_back("USE_FLUX");
     return list;
 }
 
@@ -140,7 +140,7 @@ Status Relief::record(graph::FrameGraph& graph, const Inputs& in, const Settings
     const std::vector<views::DrawnField> objects = in.objects;
     const graph::TextureId surface = in.surface, sum = in.sum, target = in.target, table = in.lightTable;
     const graph::TextureId occlusion = in.occlusion.texture;
-    const graph::TextureId flux = in.first == 0 ? in.flux : graph::TextureId{};
+    const graph::TextureId flux = in.flux;
     const std::vector<Transferred> transferred = in.transferred;
     const bool readsSum = in.first > 0;
     graph.addPass("relief.light", [&](graph::PassBuilder& pass) -> graph::Execute {

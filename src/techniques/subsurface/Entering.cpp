@@ -171,7 +171,8 @@ Status Entering::addTo(graph::FrameGraph& graph, gl::Context& context, const Arr
             .endLight = end,
             .placed = in.placed,
             .columns = occlusion->columns};
-        Result<TextureId> flux = first == 0 && in.fluxOn ? in.fluxOn({eye, size, surface}) : TextureId{};
+        Result<TextureId> flux =
+            first == in.first && in.fluxOn ? in.fluxOn({eye, size, surface}) : TextureId{};
         if (!flux) return flux.error();
         if (Status s = recordEnter(graph, context, layer.entered, surface, in.table, *occlusion, *flux,
                                    {block}, true, "light that enters a layer of an object");
@@ -198,8 +199,7 @@ Status Entering::addSeen(graph::FrameGraph& graph, gl::Context& context, const A
              .columns = in.occlusion.columns});
     }
     if (blocks.empty()) return Done{};
-    return recordEnter(graph, context, *seen_, in.surface, in.table, in.occlusion,
-                       in.first == 0 ? in.flux : TextureId{}, blocks, false,
+    return recordEnter(graph, context, *seen_, in.surface, in.table, in.occlusion, in.flux, blocks, false,
                        "light that scattering objects mirror, or take in where it is seen");
 }
 

@@ -169,7 +169,7 @@ Status Throughput::addTo(graph::FrameGraph& graph, const Arriving& in, const vie
                               .surface = surface,
                               .places = places,
                               .extent = body.baked->bake->surface.texels.size};
-    const Result<TextureId> flux = in.first == 0 && in.fluxOn ? in.fluxOn(view) : TextureId{};
+    const Result<TextureId> flux = in.fluxOn ? in.fluxOn(view) : TextureId{};
     if (!flux) return flux.error();
     const int most =
         std::clamp(4 * (kMostTexels / (size.x * size.y)), 4, views::mostSamplesAtOnce(context_, size));
@@ -183,7 +183,7 @@ Status Throughput::addTo(graph::FrameGraph& graph, const Arriving& in, const vie
         std::vector<std::string> defines;
         if (occlusion->texture) defines.push_back("USE_OCCLUSION");
         if (first > 0) defines.push_back("USE_SUM");
-        const TextureId carried = first == 0 ? *flux : TextureId{};
+        const TextureId carried = first == in.first ? *flux : TextureId{};
         if (carried) defines.push_back("USE_FLUX");
         if (settings.fresnel == Fresnel::Schlick) defines.push_back("SCHLICK");
         const gl::Program* program = context_.program("throughput/enter", defines);
