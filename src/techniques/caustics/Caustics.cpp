@@ -90,13 +90,6 @@ views::ShadowViews paraboloidsOf(const vec3& place, const views::Bounds& receive
     return {.faces = isAllBefore ? std::vector{eye} : std::vector{eye, back}, .size = size};
 }
 
-// Whether what light falls on cannot lie behind itself: one surface that bends nowhere away from any lamp.
-bool isConvex(const scene::Object& object) {
-    return object.wave.amplitude == vec3(0) && (std::holds_alternative<scene::Plane>(object.shape) ||
-                                                std::holds_alternative<scene::Box>(object.shape) ||
-                                                std::holds_alternative<scene::Sphere>(object.shape));
-}
-
 // Depths of the first and the second receivers that a light sees.
 Result<graph::Texture> recordBoth(graph::FrameGraph& graph, gl::Context& context,
                                   const views::ShadowViews& views, const views::Drawables& receivers,
@@ -227,6 +220,12 @@ views::Bounds hidingFrom(const views::LampPoint& lamp, const views::Bounds& box,
 
 } // namespace
 
+bool isConvex(const scene::Object& object) {
+    return object.wave.amplitude == vec3(0) && (std::holds_alternative<scene::Plane>(object.shape) ||
+                                                std::holds_alternative<scene::Box>(object.shape) ||
+                                                std::holds_alternative<scene::Sphere>(object.shape));
+}
+
 std::string_view nameOf(Intersect intersect) { return kIntersects[std::size_t(intersect)]; }
 std::string_view nameOf(Deposit deposit) { return kDeposits[std::size_t(deposit)]; }
 
@@ -328,7 +327,8 @@ const ParamTable& Caustics::params() {
                  .group = Group::Caustics,
                  .doc =
                      "How many directions, more of them where the map is bright, stand for the environment "
-                     "whose light glass, water and mirrors throw; 0: it passes glass straight on."}),
+                     "whose light glass, water and mirrors throw, each blurred by how much of the map it "
+                     "stands for; 0: it passes glass straight on."}),
     };
     static const ParamTable table = tableOf<Settings>("caustics", list, "Caustics");
     return table;

@@ -37,6 +37,10 @@ struct Settings {
 /// Whether the light that glass, water and mirrors throw of a scene's environment is drawn.
 bool carriesEnvironment(const scene::Scene& scene);
 
+/// Whether an object does not lie behind itself and light that leaves it outside does not meet it again: one
+/// surface that bends nowhere away from any lamp.
+bool isConvex(const scene::Object& object);
+
 struct Inputs {
     const scene::Scene& scene;
     const views::Eye& eye;     ///< the camera's

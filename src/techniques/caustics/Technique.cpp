@@ -234,13 +234,23 @@ bool hasGlass(const scene::Scene& scene) {
 bool hasMirror(const scene::Scene& scene) {
     return any(scene, [](const scene::Material& material) { return material.isMirror(); });
 }
+// Whether light may meet one of them twice.
+bool hasHollowMirror(const scene::Scene& scene) {
+    return !scene.lights.empty() &&
+           std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
+               return object.material.isMirror() && !object.isField() && !isConvex(object);
+           });
+}
 bool scatters(const scene::Scene& scene) {
     return any(scene, [](const scene::Material& material) { return material.isScattering(); });
 }
 const technique::NotDrawn kLimits[] = {
     {"caustics by reflection on glass and water", "their light is followed through, not back", hasGlass},
-    {"caustics by way of several mirrors, or of a mirror and glass", "light is followed past one of them",
-     [](const scene::Scene& scene) { return hasMirror(scene) && scene.objects.size() > 2; }},
+    {"caustics by way of several mirrors, of one twice, or of a mirror and glass",
+     "light is followed past the second one",
+     [](const scene::Scene& scene) {
+         return hasMirror(scene) && (scene.objects.size() > 2 || hasHollowMirror(scene));
+     }},
     {"caustics of the environment",
      "environmentDirections is 0: its light passes glass straight on, at most as much as falls beneath it is "
      "misplaced",
@@ -249,7 +259,7 @@ const technique::NotDrawn kLimits[] = {
      },
      {},
      "environmentDirections",
-     "64"},
+     "32"},
     {"caustics beyond blended meshes inside glass or behind it",
      "those inside weaken no light, and a beam ends where any of its rays meets one behind",
      [](const scene::Scene& scene) {
