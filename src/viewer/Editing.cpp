@@ -80,10 +80,10 @@ void Viewer::State::adopt(scene::Scene newScene) {
     changed();
 }
 
-// The controls of the scene as it is now.
 // A new environment shines as brightly on what faces it as the one before; where there was none as lamps do,
 // and both together are exposed as those were alone.
 void Viewer::State::shineBy(const std::string& source, std::shared_ptr<const Image> map) {
+    const Lighting held = lighting();
     std::optional<scene::Environment>& environment = scene->environment;
     float& exposure = scene->view.exposure;
     const float before = environment && environment->enabled ? views::brightestWhite(*environment) : 0;
@@ -97,10 +97,23 @@ void Viewer::State::shineBy(const std::string& source, std::shared_ptr<const Ima
     environment->kept = {};
     const float white = views::brightestWhite(*environment);
     if (white > 0) environment->intensity = wanted / white;
-    for (const char* path : {"environment.intensity", "view.exposure"})
-        loaded.erase(path); // they begin anew
+    beginLightingAnew();
+    history.record(++gesture, {.path = "environment",
+                               .before = "",
+                               .after = "",
+                               .conversion = {},
+                               .relighting = Relighting{held, lighting()}});
 }
 
+Lighting Viewer::State::lighting() const { return {scene->environment, scene->view.exposure}; }
+
+// As if they were loaded as they are.
+void Viewer::State::beginLightingAnew() {
+    for (const char* path : {"environment.intensity", "view.exposure"})
+        loaded.erase(path);
+}
+
+// The controls of the scene as it is now.
 void Viewer::State::bind() {
     controls.clear();
     std::vector<BoundParam> modes = bindMode(mode, *scene, automaticError);
@@ -299,6 +312,8 @@ void Viewer::State::apply(const std::vector<Change>& changes, bool back) {
         const std::string& value = back ? one.before : one.after;
         if (one.conversion)
             setMaterials(back ? one.conversion->before : one.conversion->after);
+        else if (one.relighting)
+            relight(back ? one.relighting->before : one.relighting->after);
         else if (!one.path.starts_with(kStrokesOn))
             (void)scene::setParam(*scene, one.path, value);
         else
@@ -307,6 +322,12 @@ void Viewer::State::apply(const std::vector<Change>& changes, bool back) {
     }
     bind();
     changed();
+}
+
+void Viewer::State::relight(const Lighting& lit) {
+    scene->environment = lit.environment;
+    scene->view.exposure = lit.exposure;
+    beginLightingAnew();
 }
 
 // Changes that do not come from a drag are one step while they keep to one parameter without a pause.

@@ -15,10 +15,20 @@ struct Conversion {
     std::vector<scene::Material> before, after;
 };
 
+/// What an environment that is opened takes with it.
+struct Lighting {
+    std::optional<scene::Environment> environment;
+    float exposure;
+};
+struct Relighting {
+    Lighting before, after;
+};
+
 /// One parameter's value before and after.
 struct Change {
     std::string path, before, after;
     std::optional<Conversion> conversion = {}; ///< then in place of the values
+    std::optional<Relighting> relighting = {}; ///< or this
 };
 
 /// Undo and redo. Changes of one gesture (a drag, a burst of typing) are one step; the oldest steps are

@@ -175,6 +175,9 @@ struct Viewer::State {
     void adopt(scene::Scene newScene);
     void bind();
     void shineBy(const std::string& source, std::shared_ptr<const Image> map);
+    Lighting lighting() const;
+    void relight(const Lighting& lit);
+    void beginLightingAnew();
     void offer(BoundParam bound, const std::string& before);
     void offerOfView(BoundParam bound);
     std::vector<BoundParam> bindView();
