@@ -92,8 +92,14 @@ function followLink() {
   } else showScene(wanted, changes);
 }
 
+// The picture shows one message: where several values of a link are wrong, all are told above it.
 function applyChanges(changes) {
+  const wrong = [];
+  const collect = ({ detail }) => wrong.push(detail.message);
+  viewer.addEventListener('error', collect);
   for (const [path, text] of Object.entries(changes)) viewer.set(path, text);
+  viewer.removeEventListener('error', collect);
+  if (wrong.length > 1) tell(`Not taken from the link: ${wrong.join('; ')}`, ['Close', () => {}]);
 }
 
 // ---- scenes
