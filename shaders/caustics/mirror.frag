@@ -10,7 +10,7 @@
 #include "caustics/lamp.glsl"
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
-const int kMostMirrors = 32;
+#include "caustics/mirrors.glsl"
 
 layout(std140) uniform MirrorBlock {
     View view; // of the light

@@ -12,7 +12,7 @@
 // in step, and where one is busy the others wait. Some drivers run both sides of every `if`, and every loop once.
 //
 // The file that includes this declares `layers`: a struct or block with View view, int count; USE_BOX: vec4 low, high
-// around all that there is, from the eye.
+// around all that there is, from the eye. TWO_SIDED: of surfaces that rays meet from both sides and are never inside of.
 #include "views/layer_texel.glsl"
 #include "views/triangles.glsl"
 uniform sampler2DArray uLayers;
@@ -114,7 +114,12 @@ bool mayMeet(View view, Ray ray, ivec2 pixel, vec4 texel, int inside, float from
     vec3 place = placeFrom(view, vec2(pixel) + 0.5, texel.x);
     float apart = dot(place - ray.origin, n) - 0.5 * (from + to) * slope;
     float beside = kBeside * length(view.right.xyz) * (view.eye.w > 0.5 ? texel.x : 1.0);
-    return slope != 0.0 && isInside(inside, objectOf(texel)) == (slope > 0.0) &&
+#ifdef TWO_SIDED
+    bool turned = true;
+#else
+    bool turned = isInside(inside, objectOf(texel)) == (slope > 0.0);
+#endif
+    return slope != 0.0 && turned &&
            abs(apart) <= 0.5 * (to - from) * abs(slope) + beside;
 }
 
@@ -143,6 +148,9 @@ Look lookIn(View view, Ray ray, ivec2 pixel, int inside, float from, float to, f
         else if ((seen & bit) == 0 && !faces) look.around |= inside & bit;
         seen |= bit;
     }
+#ifdef TWO_SIDED
+    look.around = 0;
+#endif
     return look;
 }
 
@@ -162,17 +170,29 @@ struct Nearest {
 // Which side of an object the ray can meet.
 float sideOf(int inside, int object) { return isInside(inside, object) ? 1.0 : -1.0; }
 
+// Which side of one of its triangles.
+float sideOf(int inside, int object, vec3 outward, vec3 direction) {
+#ifdef TWO_SIDED
+    return dot(outward, direction) > 0.0 ? 1.0 : -1.0;
+#else
+    return sideOf(inside, object);
+#endif
+}
+
 // Follows a ray over an object's mesh from a triangle on, and keeps what it pierces there where it is met before
 // `nearest` and in front of the ray.
-void pierceFrom(View view, Ray ray, int triangle, int object, int inside, inout Nearest nearest) {
-    float side = sideOf(inside, object);
+void pierceFrom(View view, Ray ray, int triangle, int object, float side, inout Nearest nearest) {
     Piercing found = pierce(view.eye.xyz, ray.origin, ray.axes, triangle, side);
     float rounding = 1e-6 * view.forward.w;
     float order = found.t - (side < 0.0 ? rounding : 0.0);
     if (found.triangle == kNoTriangle || order >= nearest.t) return;
+#ifdef TWO_SIDED
+    if (found.t < 0.5 * length(view.right.xyz) * (view.eye.w > 0.5 ? ray.from.z : 1.0)) return; // it begins there
+#else
     // Surfaces of two objects may lie in one place.
     if (found.t < (object == standing.object ? 0.0 : -rounding)) return;
     if (found.triangle == standing.triangle && found.t < rounding) return;
+#endif
     nearest = Nearest(order, object, found);
 }
 
@@ -183,14 +203,22 @@ void pierceCandidates(View view, Ray ray, ivec2 pixel, uint candidates, int insi
     while (candidates != 0u) {
         vec4 texel = texelFetch(uLayers, ivec3(pixel, lowestBit(candidates)), 0);
         candidates &= candidates - 1u;
-        pierceFrom(view, ray, triangleOf(texel), objectOf(texel), inside, nearest);
+        float side = sideOf(inside, objectOf(texel), normalOf(texel), ray.direction);
+        pierceFrom(view, ray, triangleOf(texel), objectOf(texel), side, nearest);
     }
 }
 
 Crossing crossingAt(Ray ray, Nearest nearest, int inside) {
     standing = Standing(nearest.piercing.triangle, nearest.object);
-    return Crossing(kGlass, max(nearest.piercing.t, 0.0), nearest.object, !isInside(inside, nearest.object),
-                    bendingNormal(nearest.piercing, ray.direction, sideOf(inside, nearest.object)), ivec2(0));
+    vec3 outward = nearest.piercing.outward;
+    float side = sideOf(inside, nearest.object, outward, ray.direction);
+    vec3 normal = bendingNormal(nearest.piercing, ray.direction, side);
+#ifdef TWO_SIDED
+    // What it would mirror through the triangle is mirrored as the triangle does.
+    if (side * dot(reflect(ray.direction, normal), outward) > 0.0) normal = normalize(outward);
+#endif
+    return Crossing(kGlass, max(nearest.piercing.t, 0.0), nearest.object, !isInside(inside, nearest.object), normal,
+                    ivec2(0));
 }
 
 #ifdef USE_SOLID
@@ -241,7 +269,8 @@ void meetUnseen(View view, Ray ray, float t, vec2 towards, int inside, int unsee
         if (beside.x != kNoTriangle) across = linksFrom(texelFetch(uLinks, tableTexel(beside.x), 0)).across;
         ivec4 starts = ivec4(start.x, across);
         for (int i = 0; i < 4; ++i)
-            pierceFrom(view, ray, starts[i], i == 0 ? start.y : beside.y, inside, nearest);
+            pierceFrom(view, ray, starts[i], i == 0 ? start.y : beside.y,
+                       sideOf(inside, i == 0 ? start.y : beside.y), nearest);
     }
 }
 

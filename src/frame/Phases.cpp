@@ -110,7 +110,7 @@ Result<bool> Renderer::State::prepare(const Picture& picture) {
 // Triangles stay where they are while their objects do, for the last phases: rays are traced there.
 Result<views::Drawables> Renderer::State::poseKeeping(graph::FrameGraph& graph, const Picture& picture) {
     std::vector<views::ObjectKey> standing;
-    for (const auto& one : refractive(picture.drawables))
+    for (const auto& one : filtered(picture.drawables, &views::Drawable::isTraced))
         standing.push_back(views::objectKey(*one->object, picture.scene.view.time));
     if (standing.empty()) // the next picture with some finds its own
         return views::recordPose(graph, context, picture.drawables, picture.scene.view.time);

@@ -6,8 +6,7 @@ namespace lucent::truth {
 
 LampRays::LampRays(const Optics& optics, const Illumination& illumination, Branching branching)
     : optics_(optics), illumination_(illumination), branching_(branching),
-      limits_(branching == Branching::Tree ? kPhysics : Limits{.mirrors = 1}),
-      media_(illumination.sources()) {
+      limits_(branching == Branching::Tree ? kPhysics : Limits{}), media_(illumination.sources()) {
     for (const int number : optics.optical())
         if (optics.object(number).material.isMirror() || !optics.bendsNothing())
             targets_.push_back(optics.rays().around(number));

@@ -13,7 +13,7 @@
 namespace lucent::truth {
 
 /// Each ray is aimed at a ball around one of the objects that bend or mirror light, chosen by chance. The
-/// chain follows what is transmitted and one reflection on a mirror; the tree both ways and any number.
+/// chain follows what is transmitted, and what mirrors reflect; the tree both ways and any number.
 class LampRays {
 public:
     /// @param optics, illumination  must outlive this

@@ -48,7 +48,8 @@ struct Drawable {
     bool isRefractive() const { return object->material.isRefractive(); }
     bool isBlended() const { return mesh() && textured && textured->isBlended; } ///< in part
     bool isMirror() const { return object->material.isMirror(); }
-    Bounds bounds() const { return boundsOf(*object); } ///< at any time
+    bool isTraced() const { return isRefractive() || isMirror(); } ///< rays go over its triangles
+    Bounds bounds() const { return boundsOf(*object); }            ///< at any time
 
     /// For who shades one kind of things alone; null: it is another.
     virtual const DrawnField* field() const { return nullptr; }
@@ -57,9 +58,9 @@ struct Drawable {
 
     /// The same as it stands at `time` [s].
     ///
-    /// @param refractive  what is to be put into images of triangles joins it
+    /// @param refractive  what isTraced() and is to be put into images of triangles joins it
     virtual Result<Ptr> posed(graph::FrameGraph& graph, gl::Context& context, float time,
-                              std::vector<DrawnMesh*>& refractive) const = 0;
+                              std::vector<DrawnMesh*>& traced) const = 0;
     /// Declares what a pass reads to draw it.
     ///
     /// @param number   by which shaders call it
@@ -112,7 +113,7 @@ std::vector<DrawnMesh> meshesOf(const Drawables& list);
 Bounds boundsOfAll(const Drawables& list);
 
 /// Moves the vertices of what moves, for all views of the frame alike, and puts the triangles of all that is
-/// refractive into images. The graph must run before this is called for another time: rigs are on the GPU in
+/// traced into images. The graph must run before this is called for another time: rigs are on the GPU in
 /// one pose.
 ///
 /// @param kept  of recordTriangles()

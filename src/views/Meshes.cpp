@@ -90,7 +90,7 @@ Result<Drawable::Ptr> DrawnMesh::create(const scene::Object& object, int index, 
         if (!caster) return caster.error();
         drawn->caster = *caster;
     }
-    Result<const MeshTextures*> textures = images.mesh(source, object.material.isRefractive());
+    Result<const MeshTextures*> textures = images.mesh(source, drawn->isTraced());
     if (!textures) return textures.error();
     drawn->textures = *textures;
     if (const scene::Textures* pictures = texturesOf(object))
@@ -105,7 +105,7 @@ void DrawnMesh::sampleFrom(graph::PassBuilder& pass) const {
 }
 
 Result<Drawable::Ptr> DrawnMesh::posed(graph::FrameGraph& graph, gl::Context& context, float time,
-                                       std::vector<DrawnMesh*>& refractive) const {
+                                       std::vector<DrawnMesh*>& traced) const {
     const auto images = [&]() -> Result<VertexImages> {
         if (water) return recordWater(graph, context, *water, object->name);
         const auto import = [&](const graph::Texture& texture) {
@@ -124,7 +124,7 @@ Result<Drawable::Ptr> DrawnMesh::posed(graph::FrameGraph& graph, gl::Context& co
     const auto standing = std::make_shared<DrawnMesh>(*this);
     standing->positions = images->positions;
     standing->normals = images->normals;
-    if (isRefractive()) refractive.push_back(standing.get());
+    if (isTraced()) traced.push_back(standing.get());
     return Ptr(standing);
 }
 

@@ -13,9 +13,9 @@ struct ObjectKey {
         std::shared_ptr<const void> shape, mask;
         vec2 field{0}; ///< of a height field: width and height scale
         bool isRefractive = false;
-        scene::Wave wave{}; ///< where it acts
+        scene::Wave wave{};                                ///< where it acts
         std::optional<scene::Displacement> displacement{}; ///< of what is displaced
-        float time = 0;     ///< s, where the object moves by itself
+        float time = 0;                                    ///< s, where the object moves by itself
         bool operator==(const Own&) const = default;
     };
     Own own;

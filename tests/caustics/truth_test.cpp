@@ -75,6 +75,40 @@ TEST_F(Caustics, AFewDirectionsOfAWidePartOfAnEnvironmentBlurWhatTheyThrow) {
     }
 }
 
+scene::Object mirrorAt(const vec3& place, const vec3& degrees, float reflectance) {
+    scene::Object object = mirror(scene::Plane{{1, 1}}, place);
+    object.material.kind = scene::Mirror{.reflectance = vec3(reflectance)};
+    object.transform.rotate = degrees;
+    object.visible = false;
+    return object;
+}
+
+// A periscope: from above to one mirror, across to the next, and down. What the second one's back sends away
+// does not come down.
+TEST_F(Caustics, TwoMirrorsHandLightOn) {
+    scene::Scene scene = floorUnder(mirrorAt({-1, 1, 0}, {0, 0, -45}, 0.8f), 4);
+    scene.objects.push_back(mirrorAt({1, 1, 0}, {0, 0, 135}, 0.5f));
+    const Shown shown = show(scene, {80, 80}); // 20 pixels a metre
+    expectClosed(shown.energy);
+    EXPECT_NEAR(shown.light.at(60, 40)[1], 0.8f * 0.5f, 0.004f);
+    EXPECT_NEAR(shown.light.at(40, 40)[1], 0, 0.004f);
+    EXPECT_NEAR(sumOf(shown.light) / (400 * std::sqrt(0.5)), 0.8 * 0.5, 0.004);
+    EXPECT_LT(misplaced(shown.light, truthOf(scene, {80, 80}, 400000)), 0.02);
+}
+
+// Its inner side sends light on along itself; nothing gets out.
+TEST_F(Caustics, ARingKeepsTheLightThatItMirrorsInside) {
+    scene::Object ring = mirror(scene::Cylinder{1, 0.4f, true}, {0, 0.21f, 0});
+    ring.material.kind = scene::Mirror{.reflectance = vec3(0.8f)};
+    scene::Scene scene = floorUnder(ring, 3);
+    scene.lights = {scene::DistantLight{.direction = {1, -0.5f, 0}, .irradiance = 2}};
+    const Shown shown = show(scene, {90, 90}, {.grid = 256});
+    expectClosed(shown.energy);
+    const Image truth = truthOf(scene, {90, 90}, 2000000);
+    EXPECT_NEAR(sumOf(shown.light) / sumOf(truth), 1, 0.01);
+    EXPECT_LT(misplaced(shown.light, truth), 0.02);
+}
+
 TEST_F(Caustics, AReliefOfGlassThrowsTheCausticsOfItsHeights) {
     scene::Object relief = test::glassRelief(64, 1.5f, [](double x, double y) {
         return 0.01 + 4e-4 * (std::cos(110 * x) + std::cos(90 * y + 40 * x)); // waves of 6 cm

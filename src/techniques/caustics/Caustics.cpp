@@ -90,6 +90,14 @@ views::ShadowViews paraboloidsOf(const vec3& place, const views::Bounds& receive
     return {.faces = isAllBefore ? std::vector{eye} : std::vector{eye, back}, .size = size};
 }
 
+// Whether an object does not lie behind itself, and light that leaves it outside does not meet it again: one
+// surface that bends nowhere away from any lamp.
+bool isConvex(const scene::Object& object) {
+    return object.wave.amplitude == vec3(0) && (std::holds_alternative<scene::Plane>(object.shape) ||
+                                                std::holds_alternative<scene::Box>(object.shape) ||
+                                                std::holds_alternative<scene::Sphere>(object.shape));
+}
+
 // Depths of the first and the second receivers that a light sees.
 Result<graph::Texture> recordBoth(graph::FrameGraph& graph, gl::Context& context,
                                   const views::ShadowViews& views, const views::Drawables& receivers,
@@ -219,12 +227,6 @@ views::Bounds hidingFrom(const views::LampPoint& lamp, const views::Bounds& box,
 }
 
 } // namespace
-
-bool isConvex(const scene::Object& object) {
-    return object.wave.amplitude == vec3(0) && (std::holds_alternative<scene::Plane>(object.shape) ||
-                                                std::holds_alternative<scene::Box>(object.shape) ||
-                                                std::holds_alternative<scene::Sphere>(object.shape));
-}
 
 std::string_view nameOf(Intersect intersect) { return kIntersects[std::size_t(intersect)]; }
 std::string_view nameOf(Deposit deposit) { return kDeposits[std::size_t(deposit)]; }
@@ -367,6 +369,9 @@ Result<Plan> Caustics::plan(views::Readings& readings, graph::TexturePool& pool,
                            mirrors = mirrorsOf(solids), receivers = receiversOf(solids);
     if (Status legal = checkLimits(glass, mirrors, asked); !legal) return legal.error();
     const views::Bounds glassBox = boundsOfAll(glass), mirrorBox = boundsOfAll(mirrors);
+    const views::Drawables traced = tracedMirrorsOf(solids);
+    const bool meetsAgain =
+        mirrors.size() + glass.size() > 1 || (mirrors.size() == 1 && !isConvex(*mirrors.front()->object));
     // what stands before glass and mirrors hides them
     const views::Bounds everything = boundsOfAll(drawables);
     views::Bounds throwing = glassBox;
@@ -408,8 +413,15 @@ Result<Plan> Caustics::plan(views::Readings& readings, graph::TexturePool& pool,
             if (*count > 0) light.glass.push_back({face, *count, borderOf(faces, size)});
         }
         const std::vector<views::Eye> mirroring = viewsOf(mirrors, mirrorBox);
-        for (const views::Eye& face : mirroring)
+        for (const views::Eye& face : mirroring) {
             light.mirrors.push_back({face, 0, borderOf(mirroring, size)});
+            if (!meetsAgain || traced.empty()) continue;
+            const std::string asked = question + " mirror " + std::to_string(&face - mirroring.data());
+            const Result<int> count =
+                surfacesIn(readings, asked, pool, context_, face, traced, scene.view.time, size);
+            if (!count) return count.error();
+            light.mirrors.back().layers = *count;
+        }
         if (!light.water && light.glass.empty() && light.mirrors.empty()) continue;
         if (settings.receiverLayers > 1 && settings.intersect == Intersect::Hybrid) {
             Result<bool> lies = liesBehind(readings, question, pool, context_, light.receivers,

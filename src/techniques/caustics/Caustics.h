@@ -37,10 +37,6 @@ struct Settings {
 /// Whether the light that glass, water and mirrors throw of a scene's environment is drawn.
 bool carriesEnvironment(const scene::Scene& scene);
 
-/// Whether an object does not lie behind itself and light that leaves it outside does not meet it again: one
-/// surface that bends nowhere away from any lamp.
-bool isConvex(const scene::Object& object);
-
 struct Inputs {
     const scene::Scene& scene;
     const views::Eye& eye;     ///< the camera's
@@ -57,7 +53,7 @@ struct Inputs {
 struct Plan {
     struct View {
         views::Eye eye;
-        int layers = 0; ///< surfaces of refractive objects behind each other
+        int layers = 0; ///< surfaces of refractive objects, or of mirrors, behind each other; 0: not drawn
         int border = 0; ///< pixels at each side that belong to the light's next view
     };
     /// Water under a lamp that is high above it: its light is followed from the surface on.
@@ -108,10 +104,10 @@ struct Carried {
     std::vector<Map> maps{};     ///< of the lights; empty where light is gathered in the picture alone
 };
 
-/// Not drawn: light that glass or mirrors reflect on (but for total reflection inside), light by way of a
-/// mirror and glass or of two mirrors, what falls on receivers that the lamp sees past two or more others, or
-/// on sides turned away from it, and what lamps inside of glass send out of it. Mirrors
-/// hide glass from a lamp, but stop no light behind it.
+/// Not drawn: light that glass reflects outside, light by way of a mirror and then glass, what displaced
+/// mirrors mirror twice, or mirrors that a light sample sees in no view of them or, past glass, in several;
+/// what falls on receivers that the lamp sees past two or more others, or on sides turned away from it, and
+/// what lamps inside of glass send out of it.
 class Caustics {
 public:
     static const ParamTable& params();

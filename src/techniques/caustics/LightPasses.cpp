@@ -59,19 +59,20 @@ PhotonBlock LightPasses::photonBlock(const Plan::View& view, const Tint& tint) c
 }
 
 // What is blended ends no ray: beams would end with it, which it only weakens.
-Result<LightPasses::GlassSeen> LightPasses::glassFrom(const Plan::View& view) {
+Result<LightPasses::GlassSeen> LightPasses::glassFrom(const Plan::View& view, const views::Drawables& glass,
+                                                      const views::Drawables& solids) {
     GlassSeen seen;
     const ivec2 size = viewSize();
-    if (!solids_.empty()) {
+    if (!solids.empty()) {
         const TextureDesc desc{.size = size, .format = Format::RGBA32F};
         const TextureId surface = graph_.create("caustics.surface", desc);
         seen.solid = graph_.create("caustics.solid", desc);
-        Status s = views::recordSurface(graph_, context_, view.eye, solids_, surface, size);
-        if (s) s = views::recordSolid(graph_, context_, view.eye, solids_, surface, seen.solid, size);
+        Status s = views::recordSurface(graph_, context_, view.eye, solids, surface, size);
+        if (s) s = views::recordSolid(graph_, context_, view.eye, solids, surface, seen.solid, size);
         if (!s) return s.error();
     }
     Result<views::Layers> layers =
-        views::recordLayers(graph_, context_, view.eye, in_.glass, size, view.layers, seen.solid);
+        views::recordLayers(graph_, context_, view.eye, glass, size, view.layers, seen.solid);
     if (!layers) return layers.error();
     seen.layers = *layers;
     Result<TextureId> depth = opticalDepth(view.eye, seen.layers.images, {"OF_LAYERS"});
@@ -217,12 +218,81 @@ Result<LightPasses::Photons> LightPasses::send(Part part, const Cells& cells, co
     const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
     photons.place = targets_.make("caustics.place", desc);
     photons.direction = targets_.make("caustics.direction", desc);
-    photons.flux = targets_.make("caustics.flux", desc);
+    photons.flux =
+        mirrors_.view ? graph_.create("caustics.sent", desc) : targets_.make("caustics.flux", desc);
     if (Status s = trace({part, cells, {photons.place, photons.direction, photons.flux}}); !s)
         return s.error();
+    if (mirrors_.view)
+        if (Status s = bounce(photons); !s) return s.error();
     if (isInPicture()) return photons; // they land there
     if (Status s = land(photons, part, cells); !s) return s.error();
     return photons;
+}
+
+Result<LightPasses::MirrorLayers> LightPasses::layersOf(const Plan::View& view) {
+    MirrorLayers layers;
+    const views::Drawables receivers = receiversOf(solids_);
+    if (view.layers == 0 || receivers.empty()) return layers;
+    const Result<GlassSeen> seen = glassFrom(view, tracedMirrorsOf(in_.solids), receivers);
+    if (!seen) return seen.error();
+    layers = {&view, *seen};
+    return layers;
+}
+
+// Follows rays from mirror to mirror.
+Status LightPasses::bounce(Photons& photons) {
+    const gl::Program* bouncing = program("caustics/bounce");
+    const Photons before = photons;
+    const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
+    photons.place = targets_.make("caustics.bounced", desc);
+    photons.direction = targets_.make("caustics.bouncedDirection", desc);
+    photons.flux = targets_.make("caustics.flux", desc);
+    photons.sent = before.flux;
+    BounceBlock block{.view = views::viewBlock(mirrors_.view->eye, viewSize()),
+                      .mirrors = {},
+                      .count = mirrors_.view->layers};
+    std::size_t number = 0;
+    for (const auto& mirror : tracedMirrorsOf(in_.solids))
+        block.mirrors[number++] = vec4(mirror->object->material.mirror().reflectance, 0);
+    graph_.addPass("caustics.bounce", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("mirrors that rays meet on their way");
+        views::sampleLayers(pass, mirrors_.seen.layers);
+        for (const TextureId image : {mirrors_.seen.solid, before.place, before.direction, before.flux})
+            pass.sample(image);
+        for (const TextureId target : {photons.place, photons.direction, photons.flux})
+            pass.write(target);
+        return [=, seen = mirrors_.seen, program = bouncing](const graph::Resources& resources,
+                                                             graph::Commands& commands) {
+            auto textures = views::layerBindings(resources, seen.layers);
+            textures.insert(textures.end(), {{"uSolid", resources[seen.solid]},
+                                             {"uPlace", resources[before.place]},
+                                             {"uDirection", resources[before.direction]},
+                                             {"uFlux", resources[before.flux]}});
+            commands.draw({.program = program, .block = block, .textures = std::move(textures)});
+        };
+    });
+    return Done{};
+}
+
+// What mirrors that were met again have absorbed.
+Status LightPasses::keepDimmed(const Photons& photons, TextureId incident) {
+    const gl::Program* weighing = program("caustics/dimmed");
+    const TextureId target =
+        targets_.make("caustics.absorbed", {.size = photons.count, .format = Format::RGBA32F});
+    graph_.addPass("caustics.dimmed", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what mirrors absorb on the way");
+        const Samples samples{{"uBefore", photons.sent}, {"uAfter", photons.flux}, {"uIncident", incident}};
+        for (const auto& [name, texture] : samples)
+            pass.sample(texture);
+        pass.write(target);
+        return [=, program = weighing](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{.program = program};
+            for (const auto& [name, texture] : samples)
+                draw.textures.push_back({name, resources[texture]});
+            commands.draw(draw);
+        };
+    });
+    return Done{};
 }
 
 // Where somebody reads it, what became of their light.
@@ -233,7 +303,8 @@ Status LightPasses::keepBook(Part part, const Cells& cells, const Photons& photo
     for (const char* label :
          {"caustics.incident", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
         book.push_back(targets_.make(label, desc));
-    return trace({part, cells, std::move(book), true});
+    if (Status s = trace({part, cells, book, true}); !s) return s;
+    return photons.sent ? keepDimmed(photons, book.front()) : Status(Done{});
 }
 
 Status LightPasses::carry(const views::Eye& eye, const Trace& trace) {
@@ -496,8 +567,13 @@ Status LightPasses::record(TextureId& sum) {
     if (light_.water)
         for (const Tint& tint : light)
             if (Status s = carryFromWater(tint); !s) return s;
+    if (light_.mirrors.size() == 1 && !light_.glass.empty()) {
+        const Result<MirrorLayers> layers = layersOf(light_.mirrors.front());
+        if (!layers) return layers.error();
+        mirrors_ = *layers;
+    }
     for (const Plan::View& view : light_.glass) {
-        const Result<GlassSeen> seen = glassFrom(view);
+        const Result<GlassSeen> seen = glassFrom(view, in_.glass, solids_);
         if (!seen) return seen.error();
         for (const Tint& tint : light) {
             const auto through = [&](const Start& start) { return trace(view, tint, *seen, start); };
@@ -507,6 +583,9 @@ Status LightPasses::record(TextureId& sum) {
     for (const Plan::View& view : light_.mirrors) {
         const Result<MirrorsSeen> seen = mirrorsFrom(view.eye);
         if (!seen) return seen.error();
+        const Result<MirrorLayers> layers = layersOf(view);
+        if (!layers) return layers.error();
+        mirrors_ = *layers;
         const auto off = [&](const Start& start) { return reflect(view, *seen, start); };
         if (Status s = carry(view.eye, off); !s) return s;
     }

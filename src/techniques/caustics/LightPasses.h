@@ -17,6 +17,11 @@ inline views::Drawables mirrorsOf(views::Drawables solids) {
 inline views::Drawables receiversOf(views::Drawables solids) {
     return filtered(std::move(solids), std::not_fn(&views::Drawable::isMirror));
 }
+/// Those of them that layers can show.
+inline views::Drawables tracedMirrorsOf(views::Drawables solids) {
+    return filtered(mirrorsOf(std::move(solids)),
+                    [](const views::Drawable& one) { return one.mesh() != nullptr; });
+}
 /// Without blended meshes that stand between a lamp and all that bends its light: its view would show them
 /// in the stead of what the light falls on.
 ///
@@ -76,6 +81,7 @@ private:
     struct Photons {
         ivec2 count{0}; // of rays
         graph::TextureId place{}, direction{}, flux{}, landing{};
+        graph::TextureId sent{}; // flux before mirrors were met again; none where none can be
     };
     // Which triangles between the rays of a grid are beams, and in which cells rays of their own begin for
     // the rest (shaders/caustics/lone_cells.glsl).
@@ -117,6 +123,16 @@ private:
         Samples samples() const;
     };
     using Trace = std::function<Status(const Start&)>;
+    // What a light's view of refractive objects shows; none where nothing opaque or blended stands there.
+    struct GlassSeen {
+        views::Layers layers;
+        graph::TextureId solid, opticalDepth;
+    };
+    // All surfaces of mirrors that rays may meet again, seen from the light.
+    struct MirrorLayers {
+        const Plan::View* view = nullptr; // none: rays are not looked after
+        GlassSeen seen{};
+    };
 
     const gl::Program* program(const char* stem, std::vector<std::string> defines = {}) {
         return context_.program(stem, defines);
@@ -130,11 +146,6 @@ private:
     }
 
     PhotonBlock photonBlock(const Plan::View& view, const Tint& tint) const;
-    // What a light's view of refractive objects shows; none where nothing opaque or blended stands there.
-    struct GlassSeen {
-        views::Layers layers;
-        graph::TextureId solid, opticalDepth;
-    };
     struct MirrorsSeen {
         graph::TextureId surface, opticalDepth;
     };
@@ -143,13 +154,17 @@ private:
         box.add(boundsOfAll(mirrorsOf(in.solids)));
         return box;
     }
-    Result<GlassSeen> glassFrom(const Plan::View& view);
+    Result<GlassSeen> glassFrom(const Plan::View& view, const views::Drawables& glass,
+                                const views::Drawables& solids);
     Result<MirrorsSeen> mirrorsFrom(const views::Eye& eye);
     Result<graph::TextureId> opticalDepth(const views::Eye& eye, graph::TextureId first,
                                           const std::vector<std::string>& defines);
     Status trace(const Plan::View& view, const Tint& tint, const GlassSeen& seen, const Start& start);
     MirrorBlock mirrorBlock(const Plan::View& view) const;
     Status reflect(const Plan::View& view, const MirrorsSeen& seen, const Start& start);
+    Result<MirrorLayers> layersOf(const Plan::View& view);
+    Status bounce(Photons& photons);
+    Status keepDimmed(const Photons& photons, graph::TextureId incident);
 
     Status carry(const views::Eye& eye, const Trace& trace);
     Result<Photons> send(Part part, const Cells& cells, const Trace& trace);
@@ -216,6 +231,7 @@ private:
     graph::TextureHandle picture_ = graph::TextureHandle::None; // that the lamp projects
     views::Drawables receivers_;
     views::Drawables blended_, solids_; // what weakens light on its way, and what ends it
+    MirrorLayers mirrors_{};            // of the rays that are sent
     std::vector<Sheet> sheets_;
     graph::TextureId depths_, map_;
     graph::TextureId behind_, back_;         // none where no receiver lies behind another

@@ -234,22 +234,20 @@ bool hasGlass(const scene::Scene& scene) {
 bool hasMirror(const scene::Scene& scene) {
     return any(scene, [](const scene::Material& material) { return material.isMirror(); });
 }
-// Whether light may meet one of them twice.
-bool hasHollowMirror(const scene::Scene& scene) {
-    return !scene.lights.empty() &&
-           std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
-               return object.material.isMirror() && !object.isField() && !isConvex(object);
-           });
+bool hasDisplacedMirror(const scene::Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
+        return object.material.isMirror() && object.isDisplaced();
+    });
 }
 bool scatters(const scene::Scene& scene) {
     return any(scene, [](const scene::Material& material) { return material.isScattering(); });
 }
 const technique::NotDrawn kLimits[] = {
     {"caustics by reflection on glass and water", "their light is followed through, not back", hasGlass},
-    {"caustics by way of several mirrors, of one twice, or of a mirror and glass",
-     "light is followed past the second one",
+    {"caustics by way of a mirror and then glass, or of displaced mirrors twice",
+     "light that a mirror sends goes on past them",
      [](const scene::Scene& scene) {
-         return hasMirror(scene) && (scene.objects.size() > 2 || hasHollowMirror(scene));
+         return hasMirror(scene) && (hasGlass(scene) || hasDisplacedMirror(scene));
      }},
     {"caustics of the environment",
      "environmentDirections is 0: its light passes glass straight on, at most as much as falls beneath it is "
