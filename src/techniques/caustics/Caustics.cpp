@@ -430,6 +430,7 @@ Result<Plan> Caustics::plan(views::Readings& readings, graph::TexturePool& pool,
             light.hasBehind = *lies;
         }
         plan.lights.push_back(std::move(light));
+        if (!readings.areThere()) return plan; // what the next light asks would hold up the answers
     }
     return plan;
 }
