@@ -1,17 +1,13 @@
 // caustics/absorb.frag: what water leaves of the light of rays that land in it.
 //
 // in    uPlace, uFlux, uLanding  of the rays: where they entered, with what, where they landed
-// out   oFlux    as uFlux. WITH_BOOK: oFlux what is absorbed of the share uIncident.a of it
-#pragma variants - WITH_BOOK
+// out   oFlux    as uFlux
 layout(std140) uniform SoakBlock {
     vec4 absorption; // 1/m
 } water;
 uniform sampler2D uPlace;
 uniform sampler2D uFlux;
 uniform sampler2D uLanding;
-#ifdef WITH_BOOK
-uniform sampler2D uIncident;
-#endif
 layout(location = 0) out vec4 oFlux;
 
 void main() {
@@ -20,9 +16,5 @@ void main() {
     vec4 landing = texelFetch(uLanding, ray, 0);
     vec3 left = vec3(1.0);
     if (landing.w > 0.0) left = exp(-water.absorption.rgb * distance(landing.xyz, texelFetch(uPlace, ray, 0).xyz));
-#ifdef WITH_BOOK
-    oFlux.rgb *= (1.0 - left) * texelFetch(uIncident, ray, 0).a;
-#else
     oFlux.rgb *= left;
-#endif
 }

@@ -49,8 +49,7 @@ int borderOf(const std::vector<views::Eye>& faces, int size) {
 } // namespace
 
 // All of what scatters light to where it is shown, too, and a little around: beams that end beside the map
-// are no beams, and so are frayed where it ends. In steps, so that maps serve while the camera moves a
-// little.
+// are no beams, and so are frayed where it ends.
 views::Bounds Caustics::receiving(const views::Eye* eye, const views::Drawables& drawables,
                                   const Settings& settings) {
     constexpr float kMargin = 1.0f / 16, kRays = 4; // of the longest side; at least
@@ -168,11 +167,12 @@ int viewSizeOf(int grid, int least = kLeastView) {
     return grid * (pixels | 1);
 }
 
+constexpr int kMostCoarse = 4;
+
 // For samples of an environment, whose size blurs what they throw: coarser by up to four times a side, as
 // long as what is left of a map's texels is finer than the blur.
 //
 // @param reach  m that light goes from where it is bent, about
-constexpr int kMostCoarse = 4;
 int coarsenessOf(const views::LampPoint& lamp, float reach, const views::ShadowViews& map) {
     if (!lamp.isEnvironment) return 1;
     const vec2 half = map.faces.front().halfExtent;
@@ -406,9 +406,9 @@ Result<Plan> Caustics::plan(views::Readings& readings, graph::TexturePool& pool,
         const std::vector<views::Eye> faces =
             isOnWater ? std::vector<views::Eye>{} : viewsOf(glass, glassBox);
         for (const views::Eye& face : faces) {
-            const std::string asked = question + " face " + std::to_string(&face - faces.data());
+            const std::string seen = question + " face " + std::to_string(&face - faces.data());
             const Result<int> count =
-                surfacesIn(readings, asked, pool, context_, face, glass, scene.view.time, size);
+                surfacesIn(readings, seen, pool, context_, face, glass, scene.view.time, size);
             if (!count) return count.error();
             if (*count > 0) light.glass.push_back({face, *count, borderOf(faces, size)});
         }
@@ -416,9 +416,9 @@ Result<Plan> Caustics::plan(views::Readings& readings, graph::TexturePool& pool,
         for (const views::Eye& face : mirroring) {
             light.mirrors.push_back({face, 0, borderOf(mirroring, size)});
             if (!meetsAgain || traced.empty()) continue;
-            const std::string asked = question + " mirror " + std::to_string(&face - mirroring.data());
+            const std::string seen = question + " mirror " + std::to_string(&face - mirroring.data());
             const Result<int> count =
-                surfacesIn(readings, asked, pool, context_, face, traced, scene.view.time, size);
+                surfacesIn(readings, seen, pool, context_, face, traced, scene.view.time, size);
             if (!count) return count.error();
             light.mirrors.back().layers = *count;
         }

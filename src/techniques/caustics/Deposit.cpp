@@ -39,7 +39,7 @@ DepositBlock LightPasses::depositBlock(const Photons& photons, float size) const
             .size = size,
             .first = 0,
             .spread = spreadOf(light_.lamp),
-            .within = light_.within};
+            .within = 0};
 }
 
 // Over what the light of the rays that carry the rest is spread.
@@ -170,6 +170,7 @@ Status LightPasses::deposit() {
                           .block = depositBlock(kind.rest ? sheet.rest : sheet.grid, splatSize(sheet.eye)),
                           .samples = kind.samples(sheet)};
                 step.block.first = range.first;
+                step.block.within = sheet.within;
                 for (const auto& [name, texture] : step.samples)
                     pass.sample(texture);
                 steps.push_back(std::move(step));

@@ -274,13 +274,13 @@ Status LightPasses::bounce(Photons& photons) {
     return Done{};
 }
 
-// What mirrors that were met again have absorbed.
-Status LightPasses::keepDimmed(const Photons& photons, TextureId incident) {
-    const gl::Program* weighing = program("caustics/dimmed");
+// What was absorbed on the way: of the flux that was sent, what is left.
+Status LightPasses::keepAbsorbed(const Photons& photons, TextureId incident) {
+    const gl::Program* weighing = program("caustics/absorbed");
     const TextureId target =
         targets_.make("caustics.absorbed", {.size = photons.count, .format = Format::RGBA32F});
-    graph_.addPass("caustics.dimmed", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("what mirrors absorb on the way");
+    graph_.addPass("caustics.absorbed", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("what water or mirrors absorb on the way");
         const Samples samples{{"uBefore", photons.sent}, {"uAfter", photons.flux}, {"uIncident", incident}};
         for (const auto& [name, texture] : samples)
             pass.sample(texture);
@@ -304,13 +304,13 @@ Status LightPasses::keepBook(Part part, const Cells& cells, const Photons& photo
          {"caustics.incident", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
         book.push_back(targets_.make(label, desc));
     if (Status s = trace({part, cells, book, true}); !s) return s;
-    return photons.sent ? keepDimmed(photons, book.front()) : Status(Done{});
+    return photons.sent ? keepAbsorbed(photons, book.front()) : Status(Done{});
 }
 
-Status LightPasses::carry(const views::Eye& eye, const Trace& trace) {
+Status LightPasses::carry(const views::Eye& eye, float within, const Trace& trace) {
     const bool beams = settings_.deposit == Deposit::Beam;
     const Part part = beams ? Part::Vertices : Part::Cells;
-    Sheet sheet{.eye = eye};
+    Sheet sheet{.eye = eye, .within = within};
     Result<Photons> grid = send(part, {}, trace);
     if (!grid) return grid.error();
     sheet.grid = *grid;
@@ -577,7 +577,7 @@ Status LightPasses::record(TextureId& sum) {
         if (!seen) return seen.error();
         for (const Tint& tint : light) {
             const auto through = [&](const Start& start) { return trace(view, tint, *seen, start); };
-            if (Status s = carry(view.eye, through); !s) return s;
+            if (Status s = carry(view.eye, light_.within, through); !s) return s;
         }
     }
     for (const Plan::View& view : light_.mirrors) {
@@ -587,7 +587,7 @@ Status LightPasses::record(TextureId& sum) {
         if (!layers) return layers.error();
         mirrors_ = *layers;
         const auto off = [&](const Start& start) { return reflect(view, *seen, start); };
-        if (Status s = carry(view.eye, off); !s) return s;
+        if (Status s = carry(view.eye, 0, off); !s) return s;
     }
     if (isInPicture()) return drawLines(sum);
     if (Status s = deposit(); !s) return s;

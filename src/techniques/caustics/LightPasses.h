@@ -81,7 +81,7 @@ private:
     struct Photons {
         ivec2 count{0}; // of rays
         graph::TextureId place{}, direction{}, flux{}, landing{};
-        graph::TextureId sent{}; // flux before mirrors were met again; none where none can be
+        graph::TextureId sent{}; // flux before water or mirrors absorbed of it; none where they cannot
     };
     // Which triangles between the rays of a grid are beams, and in which cells rays of their own begin for
     // the rest (shaders/caustics/lone_cells.glsl).
@@ -91,7 +91,8 @@ private:
     // The rays of one view: those of a grid, the triangles between them that carry light, and rays of their
     // own for the rest. Splats and lines are drawn of the grid's alone.
     struct Sheet {
-        views::Eye eye; // of the light
+        views::Eye eye;   // of the light
+        float within = 0; // m of the way through what bends it
         Photons grid{}, rest{};
         Cells cells{};
         graph::TextureId density{}, points{};
@@ -164,9 +165,9 @@ private:
     Status reflect(const Plan::View& view, const MirrorsSeen& seen, const Start& start);
     Result<MirrorLayers> layersOf(const Plan::View& view);
     Status bounce(Photons& photons);
-    Status keepDimmed(const Photons& photons, graph::TextureId incident);
+    Status keepAbsorbed(const Photons& photons, graph::TextureId incident);
 
-    Status carry(const views::Eye& eye, const Trace& trace);
+    Status carry(const views::Eye& eye, float within, const Trace& trace);
     Result<Photons> send(Part part, const Cells& cells, const Trace& trace);
     Status keepBook(Part part, const Cells& cells, const Photons& photons, const Trace& trace);
     static graph::Draw drawOf(Part part);
@@ -183,8 +184,7 @@ private:
     WaterRaysBlock waterBlock(const Tint& tint, ivec2 rays) const;
     Status beginOnWater(const Tint& tint, ivec2 rays, graph::TextureId shadow,
                         const std::vector<graph::TextureId>& targets, bool book);
-    Status absorb(const Photons& photons, graph::TextureId before, graph::TextureId met,
-                  graph::TextureId target);
+    Status absorb(const Photons& photons, graph::TextureId target);
     Status leaveAlone(Sheet& sheet);
     Status carryFromWater(const Tint& tint);
 
@@ -206,7 +206,7 @@ private:
     Status addSplats(std::vector<Kind>& kinds);
     Status deposit();
     bool isSpread() const { return spreadOf(light_.lamp) > 0; }
-    void blur(graph::TextureId from, ivec2 along);
+    void blur(graph::TextureId target, ivec2 along);
 
     // Lines are drawn in the camera's picture; where that is not asked for, their rays are splats.
     // The points of a lamp with a size blur each other's edges.

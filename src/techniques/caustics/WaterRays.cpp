@@ -91,23 +91,20 @@ Status LightPasses::beginOnWater(const Tint& tint, ivec2 rays, TextureId shadow,
     return Done{};
 }
 
-Status LightPasses::absorb(const Photons& photons, TextureId before, TextureId met, TextureId target) {
-    const gl::Program* soaking =
-        program("caustics/absorb", met ? std::vector<std::string>{"WITH_BOOK"} : std::vector<std::string>{});
+Status LightPasses::absorb(const Photons& photons, TextureId target) {
+    const gl::Program* soaking = program("caustics/absorb");
     graph_.addPass("caustics.absorb", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("what the water leaves of their light until they land");
         pass.sample(photons.place);
         pass.sample(photons.landing);
-        pass.sample(before);
-        if (met) pass.sample(met);
+        pass.sample(photons.sent);
         pass.write(target);
         const views::GlassBlock glass = views::glassBlock(in_.glass.front()->object->material);
         return [=, program = soaking, block = SoakBlock{glass.absorption}](const graph::Resources& resources,
                                                                            graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uPlace", resources[photons.place]},
                                                  {"uLanding", resources[photons.landing]},
-                                                 {"uFlux", resources[before]}};
-            if (met) textures.push_back({"uIncident", resources[met]});
+                                                 {"uFlux", resources[photons.sent]}};
             commands.draw({.program = program, .block = block, .textures = std::move(textures)});
         };
     });
@@ -160,20 +157,20 @@ Status LightPasses::carryFromWater(const Tint& tint) {
     sheet.grid.count = desc.size;
     sheet.grid.place = targets_.make("caustics.place", desc);
     sheet.grid.direction = targets_.make("caustics.direction", desc);
-    const TextureId entering = graph_.create("caustics.entering", desc);
-    Status s =
-        beginOnWater(tint, desc.size, shadow, {sheet.grid.place, sheet.grid.direction, entering}, false);
+    sheet.grid.sent = graph_.create("caustics.sent", desc);
+    Status s = beginOnWater(tint, desc.size, shadow,
+                            {sheet.grid.place, sheet.grid.direction, sheet.grid.sent}, false);
     if (s) s = land(sheet.grid, Part::Cells, {});
     if (!s) return s;
     sheet.grid.flux = targets_.make("caustics.flux", desc);
-    if (s = absorb(sheet.grid, entering, {}, sheet.grid.flux); !s) return s;
+    if (s = absorb(sheet.grid, sheet.grid.flux); !s) return s;
     if (targets_.keeps()) {
         std::vector<TextureId> book;
         for (const char* label :
              {"caustics.incident", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
             book.push_back(targets_.make(label, desc));
         s = beginOnWater(tint, desc.size, shadow, book, true);
-        if (s) s = absorb(sheet.grid, entering, book.front(), targets_.make("caustics.absorbed", desc));
+        if (s) s = keepAbsorbed(sheet.grid, book.front());
         if (!s) return s;
     }
     const float reach = light_.lamp.place.w == 0

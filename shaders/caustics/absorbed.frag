@@ -1,4 +1,4 @@
-// caustics/dimmed.frag: what mirrors have absorbed of rays on their way.
+// caustics/absorbed.frag: what water or mirrors have absorbed of rays on their way.
 //
 // in    uBefore, uAfter  flux of the rays
 //       uIncident        a: the share of it that is a ray's own to carry
