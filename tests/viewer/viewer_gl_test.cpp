@@ -408,8 +408,16 @@ protected:
     }
     /// Draws for `seconds`, a frame every 20 ms.
     void watch(double seconds) {
-        for (const double end = time + seconds; time < end;)
+        for (long left = std::lround(seconds / 0.02); left > 0; --left)
             viewer->draw(time += 0.02);
+    }
+    /// Draws while no time passes, until a picture of this time begins.
+    void waitFor(float moment) {
+        const Deadline deadline;
+        while (number("view.time") < moment) {
+            ASSERT_FALSE(deadline.passed());
+            viewer->draw(time);
+        }
     }
 };
 
@@ -420,10 +428,10 @@ TEST_F(Playing, TimeRunsWhileItPlaysAndStandsStillElse) {
     EXPECT_TRUE(viewer->key(" ", {}));
     EXPECT_EQ(viewer->get("playing"), "true");
     watch(0.5);
-    // What passed since the last picture began is not in it yet: at most what one step may take.
+    EXPECT_LE(number("view.time"), 0.5f + 1e-4f); // what passed since the last picture began is not in it yet
+    waitFor(0.5f - 1e-4f);
     const float reached = number("view.time");
-    EXPECT_GT(reached, 0.5f - 0.25f);
-    EXPECT_LE(reached, 0.5f + 1e-4f);
+    EXPECT_NEAR(reached, 0.5f, 1e-4f);
     EXPECT_FALSE(viewer->undo()); // time is no step
     EXPECT_TRUE(viewer->set("playing", "false").ok());
     settle();
@@ -446,8 +454,9 @@ TEST_F(Playing, AfterAPauseTimeGoesOnWhereItWas) {
 TEST_F(Playing, AMovingPictureIsComplete) {
     load(kGlassScene);
     ASSERT_TRUE(viewer->set("playing", "true").ok());
+    const Deadline deadline;
     bool complete = false;
-    for (int i = 0; i < 200 && !complete; ++i) {
+    while (!complete && !deadline.passed()) {
         viewer->draw(time += 0.02);
         complete = stats()["complete"].get<bool>();
     }

@@ -4,14 +4,16 @@
 namespace lucent::viewer {
 namespace {
 
-using Water = Page;
-
-// Draws until time stands at this moment or later, and stops it there.
-void playUntil(Viewer& viewer, double& time, float moment) {
-    for (int i = 0; i < 3000 && std::strtof(viewer.get("view.time").c_str(), nullptr) < moment; ++i)
-        viewer.draw(time += 0.02);
-    EXPECT_TRUE(viewer.set("playing", "false").ok());
-}
+class Water : public Page {
+protected:
+    /// Draws until time stands at this moment or later, and stops it there.
+    void playUntil(float moment) {
+        const Deadline deadline;
+        while (number("view.time") < moment && !deadline.passed())
+            viewer->draw(time += 0.02);
+        EXPECT_TRUE(viewer->set("playing", "false").ok());
+    }
+};
 
 TEST_F(Water, AClickLetsADropFallAndTimeRuns) {
     load(kWaterScene);
@@ -21,7 +23,7 @@ TEST_F(Water, AClickLetsADropFallAndTimeRuns) {
     EXPECT_TRUE(down({200, 200}));
     up({200, 200});
     EXPECT_EQ(viewer->get("playing"), "true");
-    playUntil(*viewer, time, 0.2f);
+    playUntil(0.2f);
     settle();
     EXPECT_GT(differences(before, window->read()), 500);
     EXPECT_EQ(viewer->get("camera.eye"), eye);
@@ -42,7 +44,7 @@ TEST_F(Water, BesideItAndWithControlADragLeadsTheCamera) {
 TEST_F(Water, KeyAndCallLetDropsFallWhereTheyMust) {
     load(kWaterScene);
     EXPECT_TRUE(viewer->key("d", {}));
-    playUntil(*viewer, time, 0.1f);
+    playUntil(0.1f);
     settle();
     const Image byKey = window->read();
     EXPECT_TRUE(viewer->set("view.time", "0").ok());
