@@ -43,29 +43,52 @@ struct Sums {
 // A little light is everywhere, so that dark parts have a middle too.
 double lightOf(glm::dvec3 radiance) { return glm::dot(radiance, glm::dvec3(0.2126, 0.7152, 0.0722)) + 1e-4; }
 
-// Part of a row of pixels within a ring. Lat-long map: row 0 = +y, centre column = -z, to the right = +x.
+// Mean direction across the axis between two places of a row, [0,1]: along x and z. Lat-long map: row 0 = +y,
+// centre column = -z, to the right = +x.
+glm::dvec2 acrossOf(double from, double to) {
+    const double azimuth = (from + to - 1) * std::numbers::pi, half = (to - from) * std::numbers::pi;
+    const double length = half > 0 ? std::sin(half) / half : 1;
+    return length * glm::dvec2(std::sin(azimuth), -std::cos(azimuth));
+}
+
+// Where the pixels of a row begin and end, [0,1], and acrossOf() each: the same in all rows.
+struct Row {
+    explicit Row(int width) {
+        for (int x = 0; x <= width; ++x)
+            borders.push_back(double(x) / width);
+        for (int x = 0; x < width; ++x)
+            across.push_back(acrossOf(borders[std::size_t(x)], borders[std::size_t(x) + 1]));
+    }
+    std::vector<double> borders;
+    std::vector<glm::dvec2> across;
+};
+
+// Part of a row of pixels within a ring.
 struct Band {
     double solidAngle; // of a pixel
     double cosine;     // of the polar angle, mean
-    /// Mean over the part of the row between two of its places, [0,1].
-    glm::dvec3 direction(double from, double to) const {
-        const double azimuth = (from + to - 1) * std::numbers::pi, half = (to - from) * std::numbers::pi;
-        const double across = std::sqrt(1 - cosine * cosine) * (half > 0 ? std::sin(half) / half : 1);
-        return {std::sin(azimuth) * across, cosine, -std::cos(azimuth) * across};
+    double sine;
+    Band(double above, double below, int width)
+        : solidAngle((above - below) * 2 * std::numbers::pi / width), cosine((above + below) / 2),
+          sine(std::sqrt(1 - cosine * cosine)) {}
+    glm::dvec3 direction(const glm::dvec2& across) const {
+        return {sine * across.x, cosine, sine * across.y};
     }
 };
 
 // Adds a pixel's part inside one ring, split at the borders of the ring's cells.
-void addPixel(Sums& sums, const Rings& rings, int row, double left, double right, const Band& band,
+void addPixel(Sums& sums, const Rings& rings, int ring, const Row& row, std::size_t x, const Band& band,
               glm::dvec3 color) {
-    const int columns = rings.columns[row];
+    const int columns = rings.columns[ring];
+    const double left = row.borders[x], right = row.borders[x + 1], light = lightOf(color);
     for (double at = left; at < right - 1e-12;) {
         const int column = int(std::floor(at * columns - rings.around + 1e-9));
         const double end = std::min(right, (column + 1 + rings.around) / columns);
-        const double share = band.solidAngle * (end - at) / (right - left);
-        const int cell = rings.first[row] + (column + columns) % columns;
+        const bool isWhole = at == left && end == right;
+        const double share = band.solidAngle * (isWhole ? 1 : (end - at) / (right - left));
+        const int cell = rings.first[ring] + (column + columns) % columns;
         sums.radiance[cell] += share * color;
-        sums.towards[cell] += share * lightOf(color) * band.direction(at, end);
+        sums.towards[cell] += share * light * band.direction(isWhole ? row.across[x] : acrossOf(at, end));
         sums.area[cell] += share;
         at = std::max(end, at + 1e-12);
     }
@@ -78,6 +101,7 @@ namespace {
 // The cells of a map, before it is turned: radiance and area of each.
 std::vector<EnvironmentLight> cellsOf(const Image& map, int count, vec2 offset) {
     const Rings rings(count, offset);
+    const Row pixels(map.width);
     Sums sums(rings.total);
     for (int y = 0; y < map.height; ++y) {
         const double top = double(y) / map.height, bottom = double(y + 1) / map.height;
@@ -87,11 +111,10 @@ std::vector<EnvironmentLight> cellsOf(const Image& map, int count, vec2 offset) 
             const double high = std::min(bottom, rings.bottom(row));
             // Area of a band of the unit sphere: difference of cosines times the azimuth.
             const double above = std::cos(low * std::numbers::pi), below = std::cos(high * std::numbers::pi);
-            const Band band{(above - below) * 2 * std::numbers::pi / map.width, (above + below) / 2};
+            const Band band(above, below, map.width);
             for (int x = 0; x < map.width; ++x) {
                 const float* color = map.at(x, y);
-                addPixel(sums, rings, row, double(x) / map.width, double(x + 1) / map.width, band,
-                         {color[0], color[1], color[2]});
+                addPixel(sums, rings, row, pixels, std::size_t(x), band, {color[0], color[1], color[2]});
             }
         }
     }
@@ -184,7 +207,9 @@ std::vector<EnvironmentLight> environmentLights(const scene::Environment& enviro
     return lights;
 }
 
-std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count) {
+namespace {
+
+std::vector<EnvironmentLight> partsOf(const scene::Environment& environment, int count) {
     constexpr int kFineCells = 16384;
     const auto lessUrgent = [](const Part& a, const Part& b) { return a.urgency() < b.urgency(); };
     std::vector<Part> parts{Part(environmentLights(environment, std::max(kFineCells, 4 * count)))};
@@ -200,6 +225,14 @@ std::vector<EnvironmentLight> importanceLights(const scene::Environment& environ
     for (const Part& part : parts)
         lights.push_back(lightOf(part));
     return lights;
+}
+
+} // namespace
+
+std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count) {
+    return environment.kept.of<std::vector<EnvironmentLight>>(
+        std::tuple(environment.map, count, environment.rotation, environment.intensity),
+        [&] { return partsOf(environment, count); });
 }
 
 float brightestWhite(const scene::Environment& environment) {
