@@ -169,15 +169,16 @@ void importKept(graph::FrameGraph& graph, gl::Context& context, KeptLayers& kept
 
 } // namespace
 
-void askToCount(gl::Context& context) { context.program("views/count"); }
+void askToCount(gl::Context& context) {
+    context.program("views/count");
+    context.program("views/maxima");
+}
 
 namespace {
 // How many surfaces each pixel shows.
-Result<graph::Texture> recordCounts(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
-                                    const Drawables& glass, float time, ivec2 size) {
-    graph::Texture counts(context.device(), {.size = size, .format = Format::RGBA16F}, "views.counts");
-    const TextureId target = graph.import(counts.handle(), counts.desc(), counts.label());
-    graph.keep(target);
+Result<TextureId> recordCounts(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
+                               const Drawables& glass, float time, ivec2 size) {
+    const TextureId target = graph.create("views.counts", {.size = size, .format = Format::RGBA16F});
     Result<Drawables> posed = recordPose(graph, context, glass, time);
     if (!posed) return posed.error();
     graph.addPass("views.count", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -190,26 +191,23 @@ Result<graph::Texture> recordCounts(graph::FrameGraph& graph, gl::Context& conte
                 draw(resources, commands, eye, size, {.blend = graph::Blend::Add});
         };
     });
-    return counts;
+    return target;
 }
 } // namespace
 
 Result<int> countLayers(Readings& readings, const std::string& question, graph::TexturePool& pool,
                         gl::Context& context, const Eye& eye, const Drawables& glass, float time,
                         ivec2 size) {
-    const Result<const Image*> counts = readings.of(question, pool, context, [&](graph::FrameGraph& graph) {
+    const auto counted = readings.most(question, pool, context, [&](graph::FrameGraph& graph) {
         return recordCounts(graph, context, eye, glass, time, size);
     });
-    if (!counts) return counts.error();
-    if (!*counts) return 1;
-    float most = 0;
-    for (std::size_t i = 0; i < (*counts)->pixels.size(); i += 4)
-        most = std::max(most, (*counts)->pixels[i]);
-    if (int(most) > kMostLayers)
-        warnOnce("views: " + std::to_string(int(most)) +
+    if (!counted) return counted.error();
+    const int most = int(counted->value_or(1));
+    if (most > kMostLayers)
+        warnOnce("views: " + std::to_string(most) +
                  " refractive surfaces lie behind each other; the nearest " + std::to_string(kMostLayers) +
                  " are drawn, and rays go straight on behind them");
-    return std::min(int(most), kMostLayers);
+    return std::min(most, kMostLayers);
 }
 
 LayerQueries LayerCount::ask() {

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures that are drawn to be read back: where a frame must not wait for the GPU it asks now and reads
+/// Numbers that are drawn to be read back: where a frame must not wait for the GPU it asks now and reads
 /// later.
 
 #include "gl/Context.h"
@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace lucent::views {
@@ -21,34 +22,36 @@ public:
     /// before the first round
     void restart(std::function<bool()> canDraw) {
         canDraw_ = std::move(canDraw);
-        areThere_ = true;
+        missing_ = 0;
     }
-    /// Whether all questions of this round were answered.
-    bool areThere() const { return areThere_; }
+    /// How many questions of this round were not answered.
+    int missing() const { return missing_; }
+    bool areThere() const { return missing_ == 0; }
     /// Forgets what was asked.
     void clear() { asked_.clear(); }
     /// Whether the GPU has drawn all that was asked.
     bool areDrawn() const;
 
-    /// What was drawn.
+    /// The greatest red of a picture, at least 0.
     ///
     /// @param question  the same in every round, and nobody else's
     /// @param record    adds the passes that draw it, and says where; again until it could be drawn
-    /// @return          null: it is not there yet
-    Result<const Image*> of(const std::string& question, graph::TexturePool& pool, gl::Context& context,
-                            const std::function<Result<graph::Texture>(graph::FrameGraph&)>& record);
+    /// @return          nothing: it is not there yet
+    Result<std::optional<float>>
+    most(const std::string& question, graph::TexturePool& pool, gl::Context& context,
+         const std::function<Result<graph::TextureId>(graph::FrameGraph&)>& record);
 
 private:
     struct Asked {
-        graph::Texture texture;
+        graph::Texture maxima;
         gl::Fence drawn{};
-        Image image{};
+        std::optional<float> answer{};
     };
-    Result<bool> draw(const std::string& question, graph::TexturePool& pool,
-                      const std::function<Result<graph::Texture>(graph::FrameGraph&)>& record);
+    Result<bool> draw(const std::string& question, graph::TexturePool& pool, gl::Context& context,
+                      const std::function<Result<graph::TextureId>(graph::FrameGraph&)>& record);
     std::map<std::string, Asked> asked_;
     std::function<bool()> canDraw_;
-    bool areThere_ = true;
+    int missing_ = 0;
 };
 
 } // namespace lucent::views

@@ -71,10 +71,10 @@ struct Caustics : support::GlTest {
             drawn = *views::drawablesOf(scene, images, &waters);
             const caustics::Caustics technique(context);
             views::Readings readings;
-            auto planned = technique.plan(
-                readings, pool, scene, caustics::Caustics::receiving(&eye, drawn, settings), drawn, settings);
+            const Status planned =
+                technique.plan(plan, readings, pool, scene,
+                               caustics::Caustics::receiving(&eye, drawn, settings), drawn, settings);
             EXPECT_TRUE(planned.ok()) << planned.error().message;
-            plan = std::move(*planned);
         }
     };
     // The technique, with the pictures that lamps project.

@@ -49,7 +49,7 @@ struct Inputs {
     float extent = 0;          ///< and extent
 };
 
-/// What is drawn for each light; made once for as long as lights and objects stay where they are.
+/// What is drawn for each light sample; made once for as long as lights and objects stay where they are.
 struct Plan {
     struct View {
         views::Eye eye;
@@ -74,6 +74,8 @@ struct Plan {
         bool hasBehind = false; ///< behind what receives light lies more that does
     };
     std::vector<Light> lights;
+    std::vector<views::LampPoint> samples{}; ///< of all lights
+    std::size_t planned = 0;                 ///< of these: whose views are chosen
 };
 
 /// What became of light that met something refractive or mirroring, W of each colour. Every entry is summed
@@ -125,16 +127,17 @@ public:
     static views::Bounds receiving(const views::Eye* eye, const views::Drawables& drawables,
                                    const Settings& settings);
 
-    /// Chooses the views of each light and counts their layers.
+    /// Chooses the views of each light sample and counts their layers.
     ///
-    /// @param readings   not all there: the plan is of no use yet
+    /// @param plan       empty: begins; else goes on with the same arguments
+    /// @param readings   not all there: the plan is not whole yet
     /// @param receiving  receiving()
     /// @param drawables  all that bends light or receives it
     /// @return  Error (Fault::Machine) for more than views::kMostGlass refractive objects or images larger
     ///          than the GPU's textures
-    Result<Plan> plan(views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
-                      const views::Bounds& receiving, const views::Drawables& drawables,
-                      const Settings& settings) const;
+    Status plan(Plan& plan, views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
+                const views::Bounds& receiving, const views::Drawables& drawables,
+                const Settings& settings) const;
 
     /// Adds the passes that give each pixel of opaque objects and height fields the irradiance of caustics.
     ///

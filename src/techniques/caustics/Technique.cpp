@@ -32,14 +32,17 @@ public:
     Status prepare(const technique::Picture& picture) override {
         const views::Drawables drawables = changingLight(picture.scene, picture.drawables);
         Key key = keyOf(picture, drawables);
-        if (plan_ && key_ == key) return Done{};
-        clear();
-        Result<Plan> plan = caustics_.plan(picture.readings, store_.pool, picture.scene, key.receiving,
-                                           drawables, key.settings);
-        if (!plan) return plan.error();
-        if (!picture.readings.areThere()) return Done{};
-        plan_ = std::move(*plan);
-        key_ = std::move(key);
+        if (key_ != key) {
+            clear();
+            key_ = std::move(key);
+        }
+        if (plan_) return Done{};
+        const int missing = picture.readings.missing();
+        if (Status s = caustics_.plan(planning_, picture.readings, store_.pool, picture.scene,
+                                      key_->receiving, drawables, key_->settings);
+            !s)
+            return s;
+        if (picture.readings.missing() == missing) plan_ = std::exchange(planning_, {});
         return Done{};
     }
 
@@ -117,6 +120,8 @@ public:
     }
     void clear() override {
         plan_.reset();
+        planning_ = {};
+        key_.reset();
         giveMaps();
     }
 
@@ -201,7 +206,8 @@ private:
     technique::Store store_;
     Caustics caustics_;
     std::optional<Plan> plan_;
-    Key key_{};                           // of the plan
+    Plan planning_;                       // until it is whole
+    std::optional<Key> key_;              // of both
     std::vector<KeptMap> kept_;           // of the plan's first lights
     std::span<const Plan::Light> lights_; // that the graph carries which is recorded
     Carried carried_;                     // by it

@@ -201,10 +201,12 @@ Result<Energy> energyOf(gl::Context& context, const scene::Scene& scene, const S
     const views::Eye eye = views::makeEye(scene, float(scene.size.x) / float(scene.size.y));
     const Caustics technique(context);
     views::Readings readings;
-    const Result<Plan> plan =
-        technique.plan(readings, pool, scene, Caustics::receiving(&eye, *drawn, settings), *drawn, settings);
-    if (!plan) return plan.error();
-    return technique.measure(pool, scene, eye, *drawn, *plan);
+    Plan plan;
+    if (Status s = technique.plan(plan, readings, pool, scene, Caustics::receiving(&eye, *drawn, settings),
+                                  *drawn, settings);
+        !s)
+        return s.error();
+    return technique.measure(pool, scene, eye, *drawn, plan);
 }
 
 double total(const dvec3& flux) { return flux.r + flux.g + flux.b; }
