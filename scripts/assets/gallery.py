@@ -14,8 +14,9 @@ THUMBNAIL = 256  # pixels, the longer side
 TRUTH_UNDER_LAMPS = 192, 1
 TRUTH_UNDER_SKY = 128, 256
 
-# Of truths with bent and mirrored light: pixels of the longer side, light rays, points of each lamp that has a size.
-TRUTH_WITH_LIGHT_RAYS = 128, 4_000_000, 16
+# Of truths with bent and mirrored light: pixels of the longer side, light rays, points of each pixel, of lamps that have
+# a size and of the environment.
+TRUTH_WITH_LIGHT_RAYS = 128, 4_000_000, 256
 
 # Of truths with light inside: pixels of the longer side, lines for each of them on which light may enter.
 TRUTH_OF_DIPOLES = 128, 512

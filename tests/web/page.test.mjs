@@ -10,7 +10,6 @@ import {
   difference,
   drawsOf,
   eventOf,
-  kDriver,
   openPage,
   openStage,
   openViewers,
@@ -229,9 +228,10 @@ test('the page of examples shows two scenes of the gallery with one context', as
   await page.leave();
 });
 
-// Those that pictures.test.mjs holds against the program's pictures are finished there. Here every pass is to run, however
-// often it runs: few samples do, of one scene of each kind. The quicker driver shows a preview of all others.
+// Those that pictures.test.mjs holds against the program's pictures are finished there, on both drivers. Here every pass
+// is to run, however often it runs: few samples do, of one scene of each kind. A preview is shown of all others.
 const kFewSamples = { pixelSamples: 1, directions: 6, lampSamples: 1 };
+const kFewDirections = 4; // of an environment whose caustics are drawn
 const kNative = process.env.LUCENT_NATIVE;
 const kCompared = kNative ? readdirSync(kNative).map((name) => name.replace('.png', '.json')) : [];
 
@@ -248,10 +248,11 @@ test('every scene of the gallery is shown, and one of each kind comes to a finis
     const response = await route.fetch();
     const json = await response.json();
     if (json.lucent) json.technique = { ...json.technique, sampling: { ...json.technique?.sampling, ...kFewSamples } };
+    if (json.technique?.caustics?.environmentDirections) json.technique.caustics.environmentDirections = kFewDirections;
     await route.fulfill({ response, json });
   });
   const firsts = left.filter(isFirst);
-  for (const { scene } of kDriver === 'swiftshader' ? firsts : left) {
+  for (const { scene } of left) {
     await eventOf(page, 'load', () =>
       page.evaluate((name) => (document.querySelector('lucent-viewer').src = 'gallery/' + name), scene),
     );

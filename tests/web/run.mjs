@@ -23,6 +23,7 @@ const kOnOneDriver = Object.fromEntries(
     'axe',
     'bench',
     'bring',
+    'compare',
     'controls',
     'docs',
     'element',
@@ -31,6 +32,7 @@ const kOnOneDriver = Object.fromEntries(
     'keep',
     'limits',
     'modules',
+    'page',
     'paint',
     'peers',
     'playing',
@@ -41,7 +43,7 @@ const kOnOneDriver = Object.fromEntries(
 // Much of a test is waiting, compiling and JavaScript, which take one core.
 const kWorkers = 2;
 // These begin, so that the last worker does not end long after the others.
-const kLongest = ['page.test.mjs', 'selfcheck.test.mjs', 'pictures.test.mjs', 'paint.test.mjs', 'compare.test.mjs'];
+const kLongest = ['page', 'selfcheck', 'bring', 'pictures', 'compare', 'paint'].map((name) => `${name}.test.mjs`);
 
 const { values: options, positionals } = parseArgs({
   options: { site: { type: 'string' }, native: { type: 'string' }, program: { type: 'string' }, driver: { type: 'string' } },
