@@ -37,6 +37,7 @@ import { isOfHtml, nearestName } from './names.js';
 import { PhotoBar } from './photos.js';
 import { question } from './question.js';
 import { LucentError, Runtime } from './runtime.js';
+import { nextTask } from './task.js';
 import { TruthBar } from './truth.js';
 import { askUses } from './uses.js';
 import { camelCase, textOf, valueOf } from './values.js';
@@ -569,6 +570,11 @@ export class LucentViewer extends HTMLElement {
     const runtime = await Runtime.shared(whole);
     if (task !== this.#task) return null;
     const seat = { runtime, handle: runtime.call('viewer_create') };
+    await nextTask(); // the first one of a page makes the font's letters
+    if (task !== this.#task) {
+      runtime.drop(seat.handle);
+      return null;
+    }
     if (!this.#handle) this.#moveTo(seat);
     return seat;
   }
