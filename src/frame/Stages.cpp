@@ -160,7 +160,7 @@ void Renderer::State::addSamples(const scene::Scene& scene) {
     }
 }
 
-// How long a stage takes, in directions.
+// How long a stage takes, in directions; one for what is not summed.
 float Renderer::State::work(const Stage& of) const {
     return float(of.baked ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions) + 1;
 }
@@ -168,7 +168,9 @@ float Renderer::State::work(const Stage& of) const {
 float Renderer::State::shareOfStage(const scene::Scene& scene) const {
     if (stages[stage].baked)
         if (const Guest* guest = baker(chosen(scene))) return guest->bakedShare();
-    return float(next) / float(std::max<std::size_t>(1, lights.size()));
+    float done = float(next);
+    if (running) done += running->graph.share() * float(std::max(1, running->end - next));
+    return done / float(lights.size() + 1);
 }
 
 // Whether each sample of a pixel has its own light samples: unless a guest works with those of the first.

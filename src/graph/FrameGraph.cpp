@@ -311,6 +311,7 @@ std::optional<FrameGraph::Portion> FrameGraph::step(TexturePool& pool,
         Recorder recorder;
         pass.execute(PassResources(*this, pass, pool), recorder);
         draws_ = std::move(recorder.draws);
+        drawsOfPass_ = draws_->size();
         row_ = 0;
     }
     PassTarget target = targetOf(pass, pool);
@@ -342,6 +343,18 @@ std::optional<FrameGraph::Portion> FrameGraph::step(TexturePool& pool,
         release(int(next_++), pool);
     }
     return Portion{pass.name, rows * size.x};
+}
+
+float FrameGraph::share() const {
+    if (next_ >= passes_.size()) return 1;
+    const Pass& pass = passes_[next_];
+    float begun = 0;
+    if (draws_ && !pass.targets.empty()) {
+        const Target& target = pass.targets.front();
+        const int rows = resources_[std::size_t(target.texture)].desc.sizeOf(target.level).y;
+        begun = (float(drawsOfPass_ - draws_->size()) + float(row_) / float(rows)) / float(drawsOfPass_);
+    }
+    return (float(next_) + begun) / float(passes_.size());
 }
 
 void FrameGraph::abandon(TexturePool& pool) {

@@ -463,10 +463,16 @@ TEST_F(FrameGraphTest, StepsRunDrawsOneByOneAndRowsOfThoseThatFillTheirTarget) {
     graph.keep(kept);
     ASSERT_TRUE(graph.compile().ok());
     std::vector<int> pixels;
+    std::vector<float> shares{graph.share()};
     while (const auto portion = graph.step(pool, [](const std::string&) { return 35; })) { // three rows
         EXPECT_EQ(portion->pass, "mixed");
         pixels.push_back(portion->pixels);
+        shares.push_back(graph.share());
     }
+    const std::vector<float> expected{0, 1 / 3.f, (1 + 3 / 7.f) / 3, (1 + 6 / 7.f) / 3, 2 / 3.f, 1};
+    ASSERT_EQ(shares.size(), expected.size());
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        EXPECT_FLOAT_EQ(shares[i], expected[i]) << i;
     EXPECT_EQ(pixels, (std::vector<int>{70, 30, 30, 10, 70}));
     ASSERT_EQ(device.draws.size(), 5u);
     const ivec2 rows[] = {{0, 0}, {0, 3}, {3, 6}, {6, 7}, {0, 0}};
