@@ -570,7 +570,7 @@ export class LucentViewer extends HTMLElement {
     const runtime = await Runtime.shared(whole);
     if (task !== this.#task) return null;
     const seat = { runtime, handle: runtime.call('viewer_create') };
-    await nextTask(); // the first one of a page makes the font's letters
+    await nextTask(); // the first viewer of a page draws the glyphs of the panel's font
     if (task !== this.#task) {
       runtime.drop(seat.handle);
       return null;
