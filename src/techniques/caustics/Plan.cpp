@@ -243,7 +243,7 @@ private:
     const std::string light_;
 };
 
-// The view of what bends light, or of what mirrors it, that a light sample has.
+// The views that a light sample has of what bends light, or of what mirrors it.
 std::vector<views::Eye> viewsOf(const Subject& of, const Plan::Light& light, const views::Drawables& bending,
                                 const views::Bounds& bounds) {
     return views::shadowViews(aimedAt(light.lamp.source, bending, bounds), of.everything, bounds,
