@@ -10,7 +10,8 @@
 //                     the second objects
 //       uAroundSolid  x: depth along the face's axis [m]; yz: octahedral normal towards the middle; w: number of the
 //                     object in the scene + 1, 0: nothing there
-// The file that includes this defines AROUND, an Around, and environmentAt(direction).
+// The file that includes this defines AROUND, an Around, and environmentAt(direction); before it, where there is
+// something finer than the cube, RADIANCE_OF, the name of vec3(Met met, vec3 place) [world].
 #include "lib/octahedral.glsl"
 uniform sampler2DArray uAround;
 uniform sampler2DArray uAroundSolid;
@@ -243,6 +244,10 @@ Met meetAround(int cube, vec3 origin, vec3 direction) {
     return all;
 }
 
+#ifdef RADIANCE_OF
+vec3 RADIANCE_OF(Met met, vec3 place);
+#endif
+
 int cubeOf(int object) {
     for (int i = 0; i < AROUND.count; ++i)
         if (int(AROUND.cubes[i].place.w) == object && AROUND.cubes[i].reflectance.rgb != vec3(0.0)) return i;
@@ -255,7 +260,6 @@ int cubeOf(int object) {
 // way  [m] to what it meets first; 1e30: nothing
 vec4 lightAround(int cube, vec3 place, vec3 direction, out float way) {
     vec3 weight = vec3(1.0);
-    vec4 light;
     way = 1e30;
     Met met = kNothingMet;
     int mirrors = 0, part = 0; // one loop over both: some compilers take seconds for loops within loops
@@ -267,8 +271,6 @@ vec4 lightAround(int cube, vec3 place, vec3 direction, out float way) {
             continue;
         }
         if (mirrors == 0) way = met.t;
-        light = vec4(weight * met.radiance, 1.0);
-        if (met.t > 1e29) light = vec4(weight, 1.0) * environmentAt(direction);
         int next = met.t < 1e29 && mirrors < AROUND.further ? cubeOf(met.object) : -1;
         if (next < 0) break;
         weight *= AROUND.cubes[next].reflectance.rgb;
@@ -279,5 +281,9 @@ vec4 lightAround(int cube, vec3 place, vec3 direction, out float way) {
         part = 0;
         ++mirrors;
     }
-    return light;
+    if (met.t > 1e29) return vec4(weight, 1.0) * environmentAt(direction);
+#ifdef RADIANCE_OF
+    met.radiance = RADIANCE_OF(met, met.place + AROUND.cubes[cube].place.xyz);
+#endif
+    return vec4(weight * met.radiance, 1.0);
 }

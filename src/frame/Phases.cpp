@@ -207,9 +207,13 @@ Status Renderer::State::recordRest(graph::FrameGraph& graph, const Picture& pict
     const Passes passes{picture, graph, *posed, import(graph, shownSurface)};
     graph.keep(shownId);
     Guest* const last = replacing(picture);
-    if (!isNumbered(picture.scene.view.show))
-        for (Guest* guest : needed(picture.scene))
+    if (!isNumbered(picture.scene.view.show)) {
+        const std::vector<Guest*> guests = needed(picture.scene);
+        for (Guest* guest : guests)
             if (Status s = guest->scatter(passes, shownId); !s) return s;
+        for (Guest* guest : guests)
+            if (Status s = guest->mirror(passes, shownId); !s) return s;
+    }
     if (!composed) return Done{};
     const TextureId target = import(graph, through);
     graph.keep(target);

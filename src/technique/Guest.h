@@ -127,6 +127,8 @@ public:
     virtual Status shade(const Passes&, const Slice&) { return Done{}; }
     /// Scatter: draws, over the complete sum, what is not summed sample by sample.
     virtual Status scatter(const Passes&, graph::TextureId) { return Done{}; }
+    /// Mirror: draws what mirrors show, over all that scatters light.
+    virtual Status mirror(const Passes&, graph::TextureId) { return Done{}; }
     /// Through: whether the picture is what this technique makes of the finished one, or shows a quantity of
     /// its own.
     virtual bool replaces(const Picture&) const { return false; }

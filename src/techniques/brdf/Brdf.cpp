@@ -102,9 +102,9 @@ LobeBlock lobeBlock(const Inputs& in, const views::Drawable& glossy) {
 
 // What of the surroundings mirrors show, for people.
 std::string shownIn(const MirrorInputs& in) {
-    if (in.solid) return "they show what the camera sees";
     if (in.surroundings && (in.surroundings->hasCubes() || !in.surroundings->flat.empty()))
         return "they show what is around";
+    if (in.solid) return "they show what the camera sees";
     return "they show the environment";
 }
 
@@ -280,14 +280,13 @@ const ParamTable& params() {
 Status Brdf::recordMirrors(graph::FrameGraph& graph, const MirrorInputs& in) const {
     if (in.mirrors.empty()) return Done{};
     const bool hasSky = in.environment != graph::TextureHandle::None;
-    const bool isAround = in.surroundings && !in.solid;
-    const bool hasCubes = isAround && in.surroundings->hasCubes();
-    const bool hasFlat = isAround && !in.surroundings->flat.empty();
+    const bool hasCubes = in.surroundings && in.surroundings->hasCubes();
+    const bool hasFlat = in.surroundings && !in.surroundings->flat.empty();
     std::vector<std::string> defines;
     if (hasSky) defines.push_back("USE_SKY");
     if (hasCubes) defines.push_back("USE_AROUND");
     if (hasFlat) defines.push_back("USE_FLAT");
-    if (in.solid) defines.push_back("USE_VIEW");
+    if (in.solid && !hasCubes) defines.push_back("USE_VIEW");
     const gl::Program* program = context_.program("brdf/mirror", defines);
     const graph::TextureId seen =
         in.solid ? recordCopy(graph, context_, in.target, in.size) : graph::TextureId{};

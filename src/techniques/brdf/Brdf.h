@@ -55,7 +55,7 @@ struct MirrorInputs {
     graph::TextureId surface;         ///< views.surface
     graph::TextureHandle environment; ///< lat-long map of scene.environment; None without one
     const views::Surroundings* surroundings = nullptr; ///< null: none were asked for
-    graph::TextureId solid{};  ///< views.geometry: what the camera sees is mirrored; or none
+    graph::TextureId solid{};  ///< views.geometry, where what the camera sees is mirrored; or none
     graph::TextureId target{}; ///< RGBA32F
 };
 

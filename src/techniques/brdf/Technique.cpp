@@ -79,13 +79,15 @@ public:
                                            .lobeDirections = settingsOf(picture.scene).lobeDirections,
                                            .table = [this](const auto& map) { return images_.image(map); }});
     }
-    Status scatter(const technique::Passes& passes, graph::TextureId shown) override {
+    Status mirror(const technique::Passes& passes, graph::TextureId shown) override {
         const technique::Picture& picture = passes.picture;
         if (picture.scene.view.show != Aov::Color) return Done{};
         const views::Drawables solids = opaque(visible(passes.posed));
         const views::Drawables mirrors = filtered(solids, &views::Drawable::isMirror);
         graph::TextureId solid;
-        if (!mirrors.empty() && aroundOf(picture.scene) == views::Around::View) {
+        const bool seesCamera = aroundOf(picture.scene) == views::Around::View ||
+                                (picture.surroundings && picture.surroundings->hasCubes());
+        if (!mirrors.empty() && seesCamera) {
             solid =
                 passes.graph.create("brdf.solid", {.size = picture.size, .format = graph::Format::RGBA32F});
             if (Status s = views::recordSolid(passes.graph, context_, picture.eye, solids, passes.surface,
