@@ -259,6 +259,7 @@ Result<bool> Budget::draw(const scene::Scene& scene, const Turned& turned, Trial
     isDrawing_ = true;
     scene::Scene tried = scene;
     put(tried, &turned, trial.value);
+    views::samplingOf(tried).directions = of_.directionsOfSample(tried);
     views::samplingOf(tried).pixelSamples = 1;
     tried.view.show = trial.show;
     renderer_->given = turned.of.knob->showsOnFew ? &kNothing : nullptr;
@@ -342,10 +343,8 @@ bool Budget::isWorthBaking(const scene::Scene& scene, const Turned& turned) cons
 }
 
 // What is left of an error among light samples in the mean over a pixel. Trials have one sample of it.
-// Directions by importance are the same for all.
-float Budget::leftOf(const scene::Scene& scene, const Turned& turned, int placing) const {
-    const bool stays = isOfEnvironment(turned.of) && placing == int(views::EnvironmentSampling::Importance);
-    const bool varies = !stays && turned.of.table == views::samplingParams().name && of_.variesLight(scene);
+float Budget::leftOf(const scene::Scene& scene, const Turned& turned) const {
+    const bool varies = turned.of.table == views::samplingParams().name && of_.variesLight(scene);
     return varies ? std::pow(float(of_.pixelSamples(scene)), kByPixelSamples) : 1;
 }
 
@@ -368,7 +367,7 @@ Status Budget::step(const scene::Scene& scene) {
         const Result<std::optional<float>> error = errorOf(scene, turned, {number, placing}, finer);
         if (!error) return error.error();
         if (!*error) return Done{};
-        least = std::min(least, factor * leftOf(scene, turned, placing) * **error);
+        least = std::min(least, factor * leftOf(scene, turned) * **error);
         if (least >= turned.error) continue;
         turned.error = least;
         turned.value = {number, placing};

@@ -99,7 +99,7 @@ private:
     Result<std::optional<float>> errorOf(const scene::Scene& scene, const Turned& turned, Value tried,
                                          Value finer);
     Value finerThan(const Turned& turned, double number);
-    float leftOf(const scene::Scene& scene, const Turned& turned, int placing) const;
+    float leftOf(const scene::Scene& scene, const Turned& turned) const;
     bool isWorthBaking(const scene::Scene& scene, const Turned& turned) const;
 
     Renderer::State& of_;

@@ -192,6 +192,7 @@ struct Renderer::State {
                              Effort effort);
     void makeTargets();
     bool variesLight(const scene::Scene& scene) const;
+    int directionsOfSample(const scene::Scene& scene) const;
     void startStage(const scene::Scene& scene);
     Status slice(const scene::Scene& scene);
     Result<bool> ready(const Moment& moment);

@@ -17,6 +17,7 @@ namespace {
 
 using views::hasEnvironment;
 
+constexpr int kFewestDirections = 6;             // of the environment
 constexpr std::size_t kMostInFlight = 2;         // so that the GPU never waits for us, nor we long for it
 constexpr double kBatchMs = 80, kDraggedMs = 40; // until a hand that comes down is followed
 
@@ -131,7 +132,7 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool p
     const std::vector<Guest*> guests = needed(scene);
     const bool shades =
         std::any_of(guests.begin(), guests.end(), [&](const Guest* guest) { return guest->shades(scene); });
-    const int directions = isLit && shades && hasEnvironment(scene) ? views::samplingOf(used).directions : 0;
+    const int directions = isLit && shades && hasEnvironment(scene) ? directionsOfSample(used) : 0;
     Guest* const bakes = isLit ? baker(used) : nullptr;
     const bool isThere = bakes && bakes->isBaked(used);
     const bool turns = technique::knobs(scene).size() > (hasEnvironment(scene) ? 1 : 0); // not its directions
@@ -147,7 +148,8 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool p
     const bool grows = hasPreview && effort == Effort::Progressive;
     for (int count = kFirstStage * kStageFactor; grows && count * 2 < summed; count *= kStageFactor)
         stages.push_back({count, false, true});
-    stages.push_back({bakes ? bakes->directionsBesideBake(used) : directions, bakes != nullptr, false});
+    const bool sums = !bakes || bakes->sumsBesideBake(used);
+    stages.push_back({sums ? directions : 0, bakes != nullptr, false});
     if (!dragged) addSamples(scene);
 }
 
@@ -181,6 +183,13 @@ bool Renderer::State::variesLight(const scene::Scene& scene) const {
            });
 }
 
+// How many directions stand for the environment in each sample of a pixel, which share them where each has
+// others.
+int Renderer::State::directionsOfSample(const scene::Scene& scene) const {
+    const int all = views::samplingOf(scene).directions;
+    return variesLight(scene) ? std::max(kFewestDirections, all / pixelSamples(scene)) : all;
+}
+
 void Renderer::State::startStage(const scene::Scene& scene) {
     next = 0;
     surveyed = false;
@@ -188,9 +197,9 @@ void Renderer::State::startStage(const scene::Scene& scene) {
     const scene::Scene used = chosen(scene);
     views::Sampling sampling = views::samplingOf(used);
     sampling.directions = stages[stage].directions;
-    const vec2 offset =
-        variesLight(used) ? views::lightOffset(stages[stage].sample, pixelSamples(used)) : vec2(0);
-    lights = views::lightSamples(used, sampling, offset);
+    const bool varies = variesLight(used);
+    lights = views::lightSamples(used, sampling, varies ? stages[stage].sample : 0,
+                                 varies ? pixelSamples(used) : 1);
     placed = int(std::count_if(lights.begin(), lights.end(),
                                [](const views::LampPoint& light) { return !light.isEnvironment; }));
     const Image table = views::sampleTable(lights);

@@ -159,12 +159,13 @@ struct Part {
     }
 };
 
-std::pair<Part, Part> cut(Part part) {
+// @param share  of its light in the first piece
+std::pair<Part, Part> cut(Part part, float share = 0.5f) {
     const int axis = part.widest();
     std::sort(part.cells.begin(), part.cells.end(),
               [&](const auto& a, const auto& b) { return a.direction[axis] < b.direction[axis]; });
     std::size_t split = 0;
-    for (float below = 0; split < part.cells.size() && below < part.light / 2; ++split)
+    for (float below = 0; split < part.cells.size() && below < share * part.light; ++split)
         below += Part::lightOf(part.cells[split]);
     split = std::clamp<std::size_t>(split, 1, part.cells.size() - 1);
     const auto middle = part.cells.begin() + std::ptrdiff_t(split);
@@ -209,10 +210,27 @@ std::vector<EnvironmentLight> environmentLights(const scene::Environment& enviro
 
 namespace {
 
-std::vector<EnvironmentLight> partsOf(const scene::Environment& environment, int count) {
+using Samples = std::vector<std::vector<EnvironmentLight>>;
+
+// Gives samples [first, end) their pieces of a part.
+void shareOut(Part part, std::size_t first, std::size_t end, Samples& samples) {
+    if (end - first > 1 && part.cells.size() > 1) {
+        const std::size_t middle = (first + end) / 2;
+        auto [low, high] = cut(std::move(part), float(middle - first) / float(end - first));
+        shareOut(std::move(low), first, middle, samples);
+        shareOut(std::move(high), middle, end, samples);
+        return;
+    }
+    EnvironmentLight light = lightOf(part);
+    light.weight *= float(samples.size()) / float(end - first);
+    for (std::size_t i = first; i < end; ++i)
+        samples[i].push_back(light);
+}
+
+Samples partsOf(const scene::Environment& environment, int count, int samples) {
     constexpr int kFineCells = 16384;
     const auto lessUrgent = [](const Part& a, const Part& b) { return a.urgency() < b.urgency(); };
-    std::vector<Part> parts{Part(environmentLights(environment, std::max(kFineCells, 4 * count)))};
+    std::vector<Part> parts{Part(environmentLights(environment, std::max(kFineCells, 4 * count * samples)))};
     while (int(parts.size()) < count && parts.front().urgency() > 0) {
         std::pop_heap(parts.begin(), parts.end(), lessUrgent);
         auto [low, high] = cut(std::move(parts.back()));
@@ -221,18 +239,20 @@ std::vector<EnvironmentLight> partsOf(const scene::Environment& environment, int
         parts.push_back(std::move(high));
         std::push_heap(parts.begin(), parts.end(), lessUrgent);
     }
-    std::vector<EnvironmentLight> lights;
-    for (const Part& part : parts)
-        lights.push_back(lightOf(part));
+    Samples lights{std::size_t(samples)};
+    for (Part& part : parts)
+        shareOut(std::move(part), 0, lights.size(), lights);
     return lights;
 }
 
 } // namespace
 
-std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count) {
-    return environment.kept.of<std::vector<EnvironmentLight>>(
-        std::tuple(environment.map, count, environment.rotation, environment.intensity),
-        [&] { return partsOf(environment, count); });
+std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count, int sample,
+                                               int samples) {
+    return environment.kept
+        .of<Samples>(std::tuple(environment.map, count, samples, environment.rotation, environment.intensity),
+                     [&] { return partsOf(environment, count, samples); })
+        .at(std::size_t(sample));
 }
 
 float brightestWhite(const scene::Environment& environment) {

@@ -30,8 +30,12 @@ std::vector<EnvironmentLight> environmentLights(const scene::Environment& enviro
 /// 2005). A light stands at the centre of its part's light, carries all of it, and its weight is the part's
 /// share of the sphere.
 ///
-/// @param count  > 0
-std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count);
+/// @param count    > 0
+/// @param sample   [0, samples)
+/// @param samples  > 1: every part is cut further, into a piece of equal light for each of them, which stands
+///                 for all of the part there: their mean has that many times as many lights
+std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count,
+                                               int sample = 0, int samples = 1);
 
 /// The most that a white matt surface sends under the environment alone, whichever way it faces, of the
 /// brightest colour: W/(m² sr), to some percent.

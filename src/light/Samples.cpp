@@ -161,9 +161,9 @@ const ParamTable& samplingParams() {
                  .high = 1024,
                  .logarithmic = true,
                  .group = Group::Environment,
-                 .doc = "About how many light samples stand for the environment, others for each sample of "
-                        "a pixel; each carries the mean of its part of the map. More make shadows under a "
-                        "sky smooth."}),
+                 .doc = "About how many light samples stand for the environment, shared out among the "
+                        "samples of a pixel, each of which has others; each carries the mean of its part of "
+                        "the map. More make shadows under a sky smooth."}),
         declare(&Sampling::environment,
                 {.id = "environmentSampling",
                  .label = "Environment sampling",
@@ -243,27 +243,29 @@ bool hasLargeLamp(const scene::Scene& scene) {
     return lampPoints(scene, 2).size() > lampPoints(scene, 1).size();
 }
 
-std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling, vec2 offset) {
-    std::vector<LampPoint> samples = lampPoints(scene, sampling.lamp, offset);
-    if (!hasEnvironment(scene) || sampling.directions == 0) return samples;
+std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling, int sample,
+                                    int samples) {
+    const vec2 offset = lightOffset(sample, samples);
+    std::vector<LampPoint> lights = lampPoints(scene, sampling.lamp, offset);
+    if (!hasEnvironment(scene) || sampling.directions == 0) return lights;
     const bool isEven =
         sampling.environment == EnvironmentSampling::Equal; // others stand for small lights, too
     const auto directions = sampling.environment == EnvironmentSampling::Importance
-                                ? importanceLights(*scene.environment, sampling.directions)
+                                ? importanceLights(*scene.environment, sampling.directions, sample, samples)
                                 : environmentLights(*scene.environment, sampling.directions, offset);
     for (const EnvironmentLight& light : directions) {
         const vec4 place(light.direction, 0);
         const float cosine = 1 - 2 * light.weight; // of a cone of that solid angle
-        samples.push_back({.place = place,
-                           .color = 4 * kPi * light.weight * light.radiance,
-                           .isPart = true,
-                           .source = {.place = place},
-                           .weight = light.weight,
-                           .isEnvironment = true,
-                           .extent = isEven ? std::sqrt(std::max(0.0f, 1 - cosine * cosine)) : 0,
-                           .spread = light.spread});
+        lights.push_back({.place = place,
+                          .color = 4 * kPi * light.weight * light.radiance,
+                          .isPart = true,
+                          .source = {.place = place},
+                          .weight = light.weight,
+                          .isEnvironment = true,
+                          .extent = isEven ? std::sqrt(std::max(0.0f, 1 - cosine * cosine)) : 0,
+                          .spread = light.spread});
     }
-    return samples;
+    return lights;
 }
 
 Image sampleTable(const std::vector<LampPoint>& samples) {

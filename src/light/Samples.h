@@ -65,8 +65,8 @@ enum class EnvironmentSampling : int { Equal, Importance };
 /// How finely the light of a scene is sampled, for all who shade alike.
 struct Sampling {
     int lamp = 16;        ///< of each lamp that has a size, > 0
-    int directions = 256; ///< of the environment, about; 0: leaves it out
-    EnvironmentSampling environment = EnvironmentSampling::Equal;
+    int directions = 256; ///< of the environment, about, in all samples of a pixel; 0: leaves it out
+    EnvironmentSampling environment = EnvironmentSampling::Importance;
     int shadowSize = 1024; ///< texels a side of a shadow view; of lamps with a size half as many
     int pixelSamples = 5;  ///< places over whose colours a pixel is the mean, > 0; 1: its middle alone
 };
@@ -79,7 +79,7 @@ struct Sampling {
 vec2 pixelOffset(int sample, int count);
 
 /// Offset of the light samples of one of so many samples of a pixel, a place of the same lattice: their mean
-/// is lit from that many times as many points and directions.
+/// is lit from that many times as many points and directions evenly all around.
 ///
 /// @return  [0,1)²; (0, 0) of the first
 vec2 lightOffset(int sample, int count);
@@ -99,9 +99,10 @@ bool hasLargeLamp(const scene::Scene& scene);
 /// All light of a scene: lampPoints(), then directions of its environment, whose irradiance on a surface that
 /// faces them is radiance times solid angle: together the integral over the sphere.
 ///
-/// @param offset  lightOffset(); directions by importance stay where they are
-std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling,
-                                    vec2 offset = vec2(0));
+/// @param sampling  its directions: of this sample alone
+/// @param sample    of a pixel, of so many, each of which has others
+std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& sampling, int sample = 0,
+                                    int samples = 1);
 
 /// The samples as shaders read them, and behind them the pictures that they project, RGBA32F.
 Image sampleTable(const std::vector<LampPoint>& samples);

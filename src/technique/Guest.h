@@ -88,8 +88,8 @@ public:
     virtual bool bakes(const scene::Scene&) const { return false; }
     /// Whether that is there already.
     virtual bool isBaked(const scene::Scene&) const { return false; }
-    /// Directions of the environment that are summed beside it.
-    virtual int directionsBesideBake(const scene::Scene&) const { return 0; }
+    /// Whether directions of the environment are summed beside it.
+    virtual bool sumsBesideBake(const scene::Scene&) const { return false; }
     /// Works on it for about so long. @return whether it is there
     virtual Result<bool> bake(const Picture&, double) { return true; }
     /// Finished part of that work, [0,1].

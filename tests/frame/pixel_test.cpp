@@ -143,6 +143,9 @@ TEST_F(Pixels, EachSampleIsLitByOthersOfTheLight) {
             sky->pixels[std::size_t(3 * i + c)] = i % 32 < 14 ? 1.5f : 0.3f;
     const auto errorOf = [&](int count, const Image& reference) {
         setSamples(count);
+        views::Sampling& sampling = views::samplingOf(scene);
+        sampling.lamp = 32;
+        sampling.directions = 32 * count; // which they share
         const Image found = picture();
         double square = 0;
         for (std::size_t i = 0; i < found.pixels.size(); i += 4)
@@ -159,7 +162,6 @@ TEST_F(Pixels, EachSampleIsLitByOthersOfTheLight) {
         sampling.directions = sampling.lamp = 2048;
         setSamples(1);
         const Image reference = picture();
-        sampling.directions = sampling.lamp = 32;
         // Of five independent sets 0.45.
         EXPECT_LT(errorOf(5, reference), 0.6 * errorOf(1, reference)) << isSky;
         scene.environment.reset();

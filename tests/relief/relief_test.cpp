@@ -44,6 +44,7 @@ TEST_F(Relief, ImportanceNeedsFewerDirectionsUnderASmallSun) {
     scene.environment->map = map;
     scene.environment->rotation = {60, 0, 0};
     views::Sampling& settings = views::samplingOf(scene);
+    settings.environment = views::EnvironmentSampling::Equal;
     settings.directions = 2000;
     const Image exact = render(scene, scene::Aov::Color);
     settings.directions = 64;

@@ -144,18 +144,21 @@ TEST(EnvironmentLights, DirectionsFollowTheMapConvention) {
     EXPECT_GT(glm::dot(glm::normalize(mean), vec3(0, 0, -1)), 0.99);
 }
 
-// The light samples of a pixel's samples stand for the same light from other directions.
-TEST(EnvironmentLights, OffsetSetsAreNearerToTheLightTogether) {
-    scene::Environment environment;
-    environment.map = mapOf({256, 128}, [](int x, int y) { return vec3(x < 100 && y < 40 ? 5 : 1); });
-    // Of a place that sees less than half of the sky, as shadows are: what reaches it.
-    const auto reaching = [&](const std::vector<EnvironmentLight>& lights, const vec3& normal) {
-        double sum = 0;
-        for (const EnvironmentLight& light : lights)
-            if (glm::dot(light.direction, normal) > 0.3f) sum += double(light.weight * light.radiance.g);
-        return sum;
-    };
+// Of a place that sees less than half of the sky, as shadows are: what reaches it.
+double reaching(const std::vector<EnvironmentLight>& lights, const vec3& normal) {
+    double sum = 0;
+    for (const EnvironmentLight& light : lights)
+        if (glm::dot(light.direction, normal) > 0.3f) sum += double(light.weight * light.radiance.g);
+    return sum;
+}
+
+// How far one of five sets of directions is from the light that reaches places, and how far their mean is.
+struct Apart {
     double alone = 0, together = 0;
+};
+Apart apart(const scene::Environment& environment,
+            const std::function<std::vector<EnvironmentLight>(int sample, int samples)>& lightsOf) {
+    Apart apart;
     constexpr int kNormals = 40, kSamples = 5;
     for (int i = 0; i < kNormals; ++i) {
         const float z = 1 - 2 * (float(i) + 0.5f) / kNormals, turn = 2.4f * float(i);
@@ -163,11 +166,45 @@ TEST(EnvironmentLights, OffsetSetsAreNearerToTheLightTogether) {
         const double exact = reaching(environmentLights(environment, 40000), normal);
         double mean = 0;
         for (int sample = 0; sample < kSamples; ++sample)
-            mean += reaching(environmentLights(environment, 256, lightOffset(sample, kSamples)), normal);
-        alone += std::abs(reaching(environmentLights(environment, 256), normal) - exact);
-        together += std::abs(mean / kSamples - exact);
+            mean += reaching(lightsOf(sample, kSamples), normal) / kSamples;
+        apart.alone += std::abs(reaching(lightsOf(0, 1), normal) - exact);
+        apart.together += std::abs(mean - exact);
     }
-    EXPECT_LT(together, 0.5 * alone); // of independent ones 1 / sqrt(5)
+    return apart;
+}
+
+// The light samples of a pixel's samples stand for the same light from other directions.
+TEST(EnvironmentLights, SetsAreNearerToTheLightTogether) {
+    scene::Environment environment;
+    environment.map = mapOf({256, 128}, [](int x, int y) { return vec3(x < 100 && y < 40 ? 5 : 1); });
+    const Apart evenly = apart(environment, [&](int sample, int samples) {
+        return environmentLights(environment, 256, lightOffset(sample, samples));
+    });
+    EXPECT_LT(evenly.together, 0.5 * evenly.alone); // of independent ones 1 / sqrt(5)
+    const Apart byImportance = apart(environment, [&](int sample, int samples) {
+        return importanceLights(environment, 64, sample, samples);
+    });
+    EXPECT_LT(byImportance.together, 0.5 * byImportance.alone);
+}
+
+// What is too small to be cut is the same in all; together they carry all light.
+TEST(EnvironmentLights, SetsByImportanceCarryTheLightTogether) {
+    constexpr int kSamples = 5;
+    scene::Environment environment;
+    environment.map = mapOf({64, 32}, [](int x, int y) { return vec3(x == 20 && y == 9 ? 1e4f : float(y)); });
+    const auto flux = [](const std::vector<EnvironmentLight>& lights) {
+        double sum = 0;
+        for (const EnvironmentLight& light : lights)
+            sum += double(light.weight) * double(light.radiance.g);
+        return sum;
+    };
+    double mean = 0;
+    for (int sample = 0; sample < kSamples; ++sample) {
+        const auto lights = importanceLights(environment, 20, sample, kSamples);
+        EXPECT_EQ(lights.size(), 20u);
+        mean += flux(lights) / kSamples;
+    }
+    EXPECT_NEAR(mean / flux(environmentLights(environment, 256)), 1, 1e-5);
 }
 
 TEST(EnvironmentLights, AFullTurnKeepsEveryLight) {

@@ -57,9 +57,7 @@ public:
         return transfers_->ready(scene, settingsOf(scene));
     }
     // Walls have no texels.
-    int directionsBesideBake(const scene::Scene& scene) const override {
-        return seesWalls(scene) ? views::samplingOf(scene).directions : 0;
-    }
+    bool sumsBesideBake(const scene::Scene& scene) const override { return seesWalls(scene); }
     Result<bool> bake(const technique::Picture& picture, double milliseconds) override {
         const Settings& settings = settingsOf(picture.scene);
         const std::vector<views::DrawnField> fields = fieldsOf(visible(picture.drawables));

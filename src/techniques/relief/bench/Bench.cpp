@@ -29,18 +29,19 @@ std::vector<Setting> reliefSettings(bool quick) {
 }
 
 std::vector<Setting> environmentSettings(bool quick) {
+    const std::pair<std::string, std::string> kEvenly{"sampling.environmentSampling", "equal"};
+    const std::pair<std::string, std::string> kByImportance{"sampling.environmentSampling", "importance"};
     std::vector<Setting> settings{
-        {"hierarchy", {{"sampling.directions", "16"}}},
-        {"hierarchy", {{"sampling.directions", "64"}}},
-        {"hierarchy", {{"sampling.directions", "256"}}},
-        {"hierarchy", {{"sampling.directions", "64"}, {"sampling.environmentSampling", "importance"}}},
+        {"hierarchy", {{"sampling.directions", "16"}, kEvenly}},
+        {"hierarchy", {{"sampling.directions", "64"}, kEvenly}},
+        {"hierarchy", {{"sampling.directions", "256"}, kEvenly}},
+        {"hierarchy", {{"sampling.directions", "64"}, kByImportance}},
         {.method = "transfer", .knobs = {{"terms", "16"}}, .bakes = true},
         {.method = "transfer", .knobs = {{"terms", "64"}}, .bakes = true},
     };
     if (quick) return settings;
-    settings.push_back({"hierarchy", {{"sampling.directions", "1024"}}});
-    settings.push_back(
-        {"hierarchy", {{"sampling.directions", "256"}, {"sampling.environmentSampling", "importance"}}});
+    settings.push_back({"hierarchy", {{"sampling.directions", "1024"}, kEvenly}});
+    settings.push_back({"hierarchy", {{"sampling.directions", "256"}, kByImportance}});
     settings.push_back({.method = "transfer", .knobs = {{"terms", "128"}}, .bakes = true});
     return settings;
 }
