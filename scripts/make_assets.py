@@ -4,8 +4,8 @@
     make_assets.py [--program PATH] [--first | --tests]
 
 --first makes only what the page needs to open: scenes, and what they name as far as no program makes it. --tests makes
-what tests use: of pictures and truths only those of single reliefs. The list of the gallery says what is missing, and
-is written anew as that comes.
+what tests use: pictures of single reliefs, and truths of those that stand under lamps. The list of the gallery says
+what is missing, and is written anew as that comes.
 
 A file is made again only when what it comes from has changed: its sources, or the code that makes or renders it.
 Everything is the same to the byte on every run on one machine.
@@ -199,8 +199,8 @@ def write_index(stamps: Stamps, scenes: list[Path]) -> None:
         stamps.made += 1
 
 
-def make_gallery(stamps: Stamps, all_scenes: list[Path], some: list[Path]) -> None:
-    """Pictures and truths of some of the scenes."""
+def make_gallery(stamps: Stamps, all_scenes: list[Path], drawn: list[Path], solved: list[Path]) -> None:
+    """Pictures of some of the scenes, and truths of some."""
     def draw(scene: Path) -> None:
         names = gallery.picture_names(scene)
         stamps.make_with_program(gallery.pictures_of, [scene],
@@ -214,8 +214,12 @@ def make_gallery(stamps: Stamps, all_scenes: list[Path], some: list[Path]) -> No
                                  gallery.files_of(scene), TRUTH)
         write_index(stamps, all_scenes)
 
-    solved = [scene for scene in some if gallery.has_truth(json.loads(scene.read_text()))]
-    at_once([(draw, scene) for scene in some] + [(solve, scene) for scene in solved])
+    at_once([(draw, scene) for scene in drawn] + [(solve, scene) for scene in solved])
+
+
+def is_solved(scene: Path, quick: bool) -> bool:
+    content = json.loads(scene.read_text())
+    return gallery.has_truth(content) and not (quick and "environment" in content)
 
 
 def main() -> int:
@@ -236,8 +240,8 @@ def main() -> int:
         if not options.first:
             make_more_data(stamps)
             write_index(stamps, scenes)
-            make_gallery(stamps, scenes, [scene for scene in scenes if gallery.is_single_relief(scene)]
-                         if options.tests else scenes)
+            drawn = [scene for scene in scenes if not options.tests or gallery.is_single_relief(scene)]
+            make_gallery(stamps, scenes, drawn, [scene for scene in drawn if is_solved(scene, options.tests)])
     except (FileNotFoundError, ValueError, subprocess.CalledProcessError) as error:
         print(f"assets: {error}", file=sys.stderr)
         return 1

@@ -12,11 +12,11 @@ THUMBNAIL = 256  # pixels, the longer side
 # Of truths: pixels of the longer side, directions that stand for an environment. Lamps are one question a pixel, light
 # from all around is one for each direction.
 TRUTH_UNDER_LAMPS = 192, 1
-TRUTH_UNDER_SKY = 128, 256
+TRUTH_UNDER_SKY = 128, 2048
 
 # Of truths with bent and mirrored light: pixels of the longer side, light rays, points of each pixel, of lamps that have
 # a size and of the environment.
-TRUTH_WITH_LIGHT_RAYS = 128, 4_000_000, 256
+TRUTH_WITH_LIGHT_RAYS = 128, 8_000_000, 1024
 
 # Of truths with light inside: pixels of the longer side, lines for each of them on which light may enter.
 TRUTH_OF_DIPOLES = 128, 512
