@@ -1,12 +1,8 @@
 // brdf/in_view.glsl: a ray from a mirror to what the camera sees.
 //
-// in    uShown  light of what is seen, but for mirrors
-//       uSolid  r: depth [m]; gb: octahedral normal towards the eye; a: 0 where there is nothing
+// in    views/pictured.glsl  what is seen, but for mirrors
 // The file that includes this defines environmentAt(direction).
 // not   what the camera does not see: the environment stands there
-uniform sampler2D uShown;
-uniform sampler2D uSolid;
-
 const int kMostSteps = 256;
 const float kPixelsAStep = 2.0;
 const int kHalvingSteps = 5;
@@ -61,8 +57,10 @@ vec4 lightInView(View view, vec3 origin, vec3 direction) {
             for (int side = 0; side < 2; ++side) {
                 float met = planeInView(view, origin, direction, from + (side == 0 ? high : low) * along);
                 if (met < 0.0) continue;
-                vec2 pixel = clamp(pixelOf(view, from + met * along), vec2(0.0), view.size - 1.0);
-                return texelFetch(uShown, ivec2(pixel), 0);
+                ivec2 pixel = ivec2(clamp(pixelOf(view, from + met * along), vec2(0.0), view.size - 1.0));
+                vec4 light = texelFetch(uShown, pixel, 0);
+                vec3 normal = fromOctahedral(texelFetch(uSolid, pixel, 0).yz);
+                return vec4(picturedAt(view, origin + met * direction, normal, light.rgb), light.a);
             }
         }
         isBefore = !isBehind;

@@ -38,41 +38,20 @@ vec4 environmentAt(vec3 direction) {
 #endif
 }
 
+#if defined(USE_AROUND) || defined(USE_VIEW)
+uniform sampler2D uShown;
+uniform sampler2D uSolid;
+#include "views/pictured.glsl"
+#endif
 #ifdef USE_AROUND
 #define AROUND mirror.around
 #define RADIANCE_OF radianceInView
 #include "views/surroundings.glsl"
-uniform sampler2D uShown;
-uniform sampler2D uSolid;
-
-// Cosine between normals of one surface and another that stands on it.
-const float kAlike = 0.7;
 
 // What a ray meets as the camera sees it, whose pixels are finer than a cube's, and show what lies on a surface that the
 // cube sees edge-on; as the cube does where it is hidden from the camera.
 vec3 radianceInView(Met met, vec3 place) {
-    vec3 v = inView(mirror.view, place - mirror.view.eye.xyz);
-    vec2 at = pixelOf(mirror.view, v) - 0.5;
-    if (v.z <= 0.0 || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, mirror.view.size - 1.0)))
-        return met.radiance;
-    vec2 low = floor(at), f = at - low;
-    float width = length(mirror.view.right.xyz) * (mirror.view.eye.w > 0.5 ? v.z : 1.0);
-    vec3 radiance = vec3(0.0);
-    float sum = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 corner = ivec2(i & 1, i >> 1), pixel = min(ivec2(low) + corner, ivec2(mirror.view.size) - 1);
-        vec4 solid = texelFetch(uSolid, pixel, 0);
-        vec3 shown = mirror.view.eye.xyz + placeFrom(mirror.view, vec2(pixel) + 0.5, solid.r);
-        vec4 light = texelFetch(uShown, pixel, 0);
-        bool isDrawn = solid.a > 0.0 && light.a > 0.0; // mirrors are not yet
-        bool isAlike = dot(fromOctahedral(solid.gb), met.normal) > kAlike;
-        if (!isDrawn || !isAlike || abs(dot(shown - place, met.normal)) > width) continue;
-        vec2 share = mix(1.0 - f, f, vec2(corner));
-        float weight = share.x * share.y + 1e-6;
-        radiance += weight * light.rgb;
-        sum += weight;
-    }
-    return sum == 0.0 ? met.radiance : radiance / sum;
+    return picturedAt(mirror.view, place - mirror.view.eye.xyz, met.normal, met.radiance);
 }
 #endif
 #ifdef USE_FLAT

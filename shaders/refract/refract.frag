@@ -2,7 +2,7 @@
 //
 // in    views/layers.glsl   all their surfaces; USE_BISECTION: the first one, the others by refract/bisection.glsl
 //       BESIDE              where there are none
-//       uOpaque             the shaded opaque surfaces and the background; a: coverage
+//       uShown              the shaded opaque surfaces and the background; a: coverage
 //       views/environment.glsl; ENVIRONMENT_ONLY: opaque surfaces are not seen through glass
 //       USE_AROUND          views/surroundings.glsl: what rays meet that leave the picture or pass behind what it shows
 // out   oColor  COLOR: linear Rec. 709; DIRECTION: the last direction of green light; a: coverage, of DIRECTION 0
@@ -44,7 +44,8 @@ layout(std140) uniform RefractBlock {
 #include "views/glass.glsl"
 #include "views/environment.glsl"
 #ifdef USE_SOLID
-uniform sampler2D uOpaque;
+uniform sampler2D uShown;
+#include "views/pictured.glsl"
 #endif
 layout(location = 0) out vec4 oColor;
 
@@ -118,7 +119,8 @@ vec4 opaqueAt(Beam beam, ivec2 pixel) {
 #ifdef ENVIRONMENT_ONLY
     return environmentAt(beam.direction);
 #else
-    return vec4(texelFetch(uOpaque, pixel, 0).rgb, 1.0);
+    vec3 normal = fromOctahedral(texelFetch(uSolid, pixel, 0).yz);
+    return vec4(picturedAt(layers.view, beam.origin, normal, texelFetch(uShown, pixel, 0).rgb), 1.0);
 #endif
 }
 #endif
@@ -224,7 +226,7 @@ void main() {
 #ifdef USE_SOLID
     vec4 solid = texelFetch(uSolid, pixel, 0);
     if (solid.a > 0.0 && (seen.texel.w == 0.0 || solid.r <= seen.texel.x)) {
-        oColor = beside(eye, vec4(texelFetch(uOpaque, pixel, 0).rgb, 1.0));
+        oColor = beside(eye, vec4(texelFetch(uShown, pixel, 0).rgb, 1.0));
         return;
     }
 #endif

@@ -275,7 +275,7 @@ Status Refract::record(graph::FrameGraph& graph, const Inputs& in, ivec2 size,
                     textures.push_back({"uEnvironment", environment});
                 textures.insert(textures.end(), around.begin(), around.end());
                 if (opaque && !counts) {
-                    textures.push_back({"uOpaque", resources[opaque]});
+                    textures.push_back({"uShown", resources[opaque]});
                     textures.push_back({"uSolid", resources[solid]});
                 }
                 graph::Draw draw{.program = program, .block = block, .textures = std::move(textures)};
