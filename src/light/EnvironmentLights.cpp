@@ -212,16 +212,20 @@ namespace {
 
 using Samples = std::vector<std::vector<EnvironmentLight>>;
 
-// Gives samples [first, end) their pieces of a part.
+// Gives samples [first, end) their pieces of a part, or all of them the part where something small and bright
+// in it would leave a piece of twice its share: few samples would have most of the light.
 void shareOut(Part part, std::size_t first, std::size_t end, Samples& samples) {
+    EnvironmentLight light = lightOf(part);
     if (end - first > 1 && part.cells.size() > 1) {
         const std::size_t middle = (first + end) / 2;
-        auto [low, high] = cut(std::move(part), float(middle - first) / float(end - first));
-        shareOut(std::move(low), first, middle, samples);
-        shareOut(std::move(high), middle, end, samples);
-        return;
+        const float all = part.light, share = float(middle - first) / float(end - first);
+        auto [low, high] = cut(std::move(part), share);
+        if (std::abs(low.light - share * all) < std::min(share, 1 - share) * all) {
+            shareOut(std::move(low), first, middle, samples);
+            shareOut(std::move(high), middle, end, samples);
+            return;
+        }
     }
-    EnvironmentLight light = lightOf(part);
     light.weight *= float(samples.size()) / float(end - first);
     for (std::size_t i = first; i < end; ++i)
         samples[i].push_back(light);

@@ -32,7 +32,7 @@ std::vector<EnvironmentLight> environmentLights(const scene::Environment& enviro
 ///
 /// @param count    > 0
 /// @param sample   [0, samples)
-/// @param samples  > 1: every part is cut further, into a piece of equal light for each of them, which stands
+/// @param samples  > 1: every part that can be is cut further, into an even piece for each, which stands
 ///                 for all of the part there: their mean has that many times as many lights
 std::vector<EnvironmentLight> importanceLights(const scene::Environment& environment, int count,
                                                int sample = 0, int samples = 1);
