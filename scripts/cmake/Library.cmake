@@ -1,7 +1,12 @@
-# lucent_library(NAME SOURCES ... LINKS ... [DEPENDS ...]): one folder of src/, one library.
+# lucent_library(NAME SOURCES ... [LOOPS ...] LINKS ...): one folder of src/, one library. LOOPS are sources that go over
+# all pixels, vertices or triangles of something: for the web they are made fast, all others small.
 function(lucent_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
-  add_library(lucent_${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LOOPS;LINKS" ${ARGN})
+  add_library(lucent_${name} STATIC ${ARG_SOURCES} ${ARG_LOOPS})
+  if(EMSCRIPTEN AND ARG_LOOPS)
+    set_property(SOURCE ${ARG_LOOPS} APPEND PROPERTY COMPILE_OPTIONS -O2 -sINLINING_LIMIT=0)
+    set_property(SOURCE ${ARG_LOOPS} PROPERTY SKIP_PRECOMPILE_HEADERS ON) # which are made to be small
+  endif()
   lucent_target(lucent_${name})
   target_include_directories(lucent_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
   foreach(link ${ARG_LINKS})
@@ -32,7 +37,7 @@ function(lucent_target target)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
   endif()
   if(EMSCRIPTEN)
-    target_compile_options(${target} PRIVATE -Oz -flto $<$<COMPILE_LANGUAGE:CXX>:-fno-rtti>)
+    target_compile_options(${target} PRIVATE ${LUCENT_SMALL} $<$<COMPILE_LANGUAGE:CXX>:-fno-rtti>)
   endif()
 endfunction()
 

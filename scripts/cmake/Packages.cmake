@@ -5,6 +5,10 @@ option(LUCENT_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
 set(LUCENT_LINKS ${CMAKE_BINARY_DIR}/include)
 file(MAKE_DIRECTORY ${LUCENT_LINKS})
 
+# For the web. With -Oz emcc lets nothing be inlined unless told otherwise: a vector's elements are made by a call each,
+# which is slow and no smaller.
+set(LUCENT_SMALL -Oz -sINLINING_LIMIT=0 -flto -mbulk-memory)
+
 # lucent_header(FILE PACKAGE TARGET [LINK...]): an interface library around headers of a package
 function(lucent_header target package)
   foreach(entry ${ARGN})
@@ -52,7 +56,7 @@ if(EMSCRIPTEN)
   add_library(zlib STATIC ${zlib_sources})
   target_include_directories(zlib SYSTEM PUBLIC ${LUCENT_PACKAGES}/zlib)
   foreach(target imgui zlib)
-    target_compile_options(${target} PRIVATE -Oz -flto)
+    target_compile_options(${target} PRIVATE ${LUCENT_SMALL})
   endforeach()
   target_compile_options(imgui PRIVATE -fno-exceptions -fno-rtti)
   include(${CMAKE_CURRENT_LIST_DIR}/Tiff.cmake)

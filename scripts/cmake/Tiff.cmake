@@ -27,4 +27,4 @@ list(TRANSFORM files APPEND .c)
 add_library(tiff STATIC ${files})
 target_include_directories(tiff SYSTEM PUBLIC ${configured} ${source})
 target_link_libraries(tiff PUBLIC zlib)
-target_compile_options(tiff PRIVATE -Oz -flto -w) # a package's own warnings are not ours
+target_compile_options(tiff PRIVATE ${LUCENT_SMALL} -w) # a package's own warnings are not ours
