@@ -59,24 +59,46 @@ struct Codes {
     std::unique_ptr<stbi_us, FreePixels> words{};
 };
 
-// Code values as floats in [0,1].
-template <class Sample>
-Image toFloat(const Codes& codes, const Sample* samples, Encoding encoding) {
-    constexpr std::size_t kLevels = std::size_t(std::numeric_limits<Sample>::max()) + 1;
-    std::vector<float> linear(kLevels);
-    for (std::size_t i = 0; i < kLevels; ++i)
-        linear[i] = float(i) / float(kLevels - 1);
-    std::vector<float> color = linear;
-    if (encoding == Encoding::Srgb)
-        std::transform(linear.begin(), linear.end(), color.begin(), linearFromSrgb);
-    Image frame(codes.width, codes.height, codes.channels);
-    const auto channels = std::size_t(frame.channels);
-    for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
-        const bool alpha = channels % 2 == 0 && i % channels == channels - 1;
-        frame.pixels[i] = (alpha ? linear : color)[samples[i]];
+// Code values as floats in [0,1], some rows at a time.
+class Floats {
+public:
+    Floats(Codes codes, Encoding encoding)
+        : codes_(std::move(codes)), image_(codes_.width, codes_.height, codes_.channels),
+          linear_(codes_.words ? 65536 : 256), color_(encoding == Encoding::Srgb ? linear_.size() : 0) {
+        for (std::size_t i = 0; i < linear_.size(); ++i)
+            linear_[i] = float(i) / float(linear_.size() - 1);
+        if (!color_.empty()) std::transform(linear_.begin(), linear_.end(), color_.begin(), linearFromSrgb);
     }
-    return frame;
-}
+    // @return the picture once it is whole
+    std::optional<Image> advance() {
+        const int rows = std::max(1, kSamples / (image_.width * image_.channels));
+        for (const int end = std::min(y_ + rows, image_.height); y_ < end; ++y_)
+            codes_.words ? row(codes_.words.get()) : row(codes_.bytes.get());
+        if (y_ < image_.height) return std::nullopt;
+        return std::move(image_);
+    }
+
+private:
+    // Apart: WebAssembly runs a function in its fast form only from a later call on.
+    template <class Sample>
+    [[gnu::noinline]] void row(const Sample* samples) {
+        const std::vector<float>& color = color_.empty() ? linear_ : color_;
+        const int length = image_.width * image_.channels, channels = image_.channels;
+        const std::size_t begin = std::size_t(y_) * std::size_t(length);
+        samples += begin;
+        float* const to = image_.pixels.data() + begin;
+        for (int i = 0; i < length; ++i)
+            to[i] = color[samples[i]];
+        for (int i = channels - 1; channels % 2 == 0 && i < length; i += channels) // alpha
+            to[i] = linear_[samples[i]];
+    }
+
+    static constexpr int kSamples = 200'000; // some milliseconds
+    Codes codes_;
+    Image image_;
+    std::vector<float> linear_, color_; // by code value; color_: empty where they are alike
+    int y_ = 0;
+};
 
 Error damaged(const std::string& name, std::string_view format, bool truncated) {
     const char* reason = truncated ? "the file ends too early" : stbi_failure_reason();
@@ -299,16 +321,52 @@ Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& n
     constexpr const char* kKinds = "; must be a PNG, JPEG, HDR or PFM image";
     if (bytes.empty()) return Error{name + ": is empty" + kKinds};
     if (isCoded(bytes)) {
-        const Result<Codes> codes = decodeCodes(bytes, name, 0);
+        Result<Codes> codes = decodeCodes(bytes, name, 0);
         if (!codes) return codes.error();
-        return codes->words ? toFloat(*codes, codes->words.get(), encoding)
-                            : toFloat(*codes, codes->bytes.get(), encoding);
+        Floats floats(std::move(*codes), encoding);
+        for (;;)
+            if (std::optional<Image> image = floats.advance()) return std::move(*image);
     }
     if (isHdr(bytes)) return decodeHdr(bytes, name);
     if (isPfm(bytes)) return decodePfm(bytes, name);
     if (startsWith(bytes, "\x76\x2f\x31\x01"))
         return Error{name + ": is an EXR file, whose reader is not here" + kKinds};
     return Error{name + ": is of an unknown kind" + kKinds};
+}
+
+struct ImageReading::State {
+    Bytes bytes;
+    std::string name;
+    Encoding encoding;
+    std::unique_ptr<HdrReading> rows{};
+    std::optional<Floats> floats{};
+
+    std::optional<Result<Image>> advance() {
+        if (rows) return rows->advance();
+        if (floats) {
+            std::optional<Image> image = floats->advance();
+            return image ? std::optional<Result<Image>>(std::move(*image)) : std::nullopt;
+        }
+        if (isHdr(bytes)) {
+            rows = std::make_unique<HdrReading>(std::move(bytes), name);
+            return std::nullopt;
+        }
+        if (!isCoded(bytes)) return decodeImage(bytes, name, encoding);
+        Result<Codes> codes = decodeCodes(bytes, name, 0);
+        if (!codes) return Result<Image>(codes.error());
+        floats.emplace(std::move(*codes), encoding);
+        return std::nullopt;
+    }
+};
+
+ImageReading::ImageReading(Bytes bytes, std::string name, Encoding encoding)
+    : state_(std::make_unique<State>(State{std::move(bytes), std::move(name), encoding})) {}
+ImageReading::~ImageReading() = default;
+
+std::optional<Result<Image>> ImageReading::advance() { return state_->advance(); }
+std::size_t ImageReading::bytes() const {
+    const bool isBegun = state_->rows || state_->floats;
+    return isBegun || isHdr(state_->bytes) ? 0 : state_->bytes.size();
 }
 
 Result<ByteImage> decodeBytes(std::span<const std::byte> bytes, const std::string& name) {

@@ -5,6 +5,8 @@
 #include "base/Math.h"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -43,6 +45,21 @@ float srgbFromLinear(float linear);
 /// @return          1 to 4 channels; integers scaled to [0,1]. Alpha is never decoded by the sRGB curve.
 ///                  Error: "NAME: what was found; what was expected" (truncated, empty, unknown, 0-sized).
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, Encoding encoding);
+
+/// The same piece by piece, for who must not wait.
+class ImageReading {
+public:
+    ImageReading(Bytes bytes, std::string name, Encoding encoding);
+    ~ImageReading();
+    /// One piece more; the picture once it is whole.
+    std::optional<Result<Image>> advance();
+    /// How much of the file the next piece decodes, which cannot be parted: bytes.
+    std::size_t bytes() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// Four bytes a pixel, red to alpha, row by row from the top.
 struct ByteImage {

@@ -28,26 +28,31 @@ struct HeightsMaking::State {
     HeightSource source;
     std::string name;
     ReadFile read;
+    std::unique_ptr<ImageReading> reading{};
     std::optional<Image> map{};
+    std::optional<Mesh> mesh{};
     std::unique_ptr<NormalsIntegration> normals{};
     std::optional<DepthMaking> depth{};
 
     // The file is the first piece.
     std::optional<Result<SourcedHeights>> begin() {
-        const Result<Bytes> bytes = read(name);
+        Result<Bytes> bytes = read(name);
         if (!bytes) return bytes.error();
-        return source.kind == HeightSource::Kind::Mesh ? beginDepth(*bytes) : beginPicture(*bytes);
-    }
-    std::optional<Result<SourcedHeights>> beginPicture(std::span<const std::byte> bytes) {
-        Result<Image> decoded = decodeImage(bytes, name, Encoding::Linear);
-        if (!decoded) return decoded.error();
-        map = std::move(*decoded);
+        if (source.kind == HeightSource::Kind::Mesh) return beginMesh(*bytes);
+        reading = std::make_unique<ImageReading>(std::move(*bytes), name, Encoding::Linear);
         return std::nullopt;
     }
-    std::optional<Result<SourcedHeights>> beginDepth(std::span<const std::byte> bytes) {
-        const Result<Mesh> mesh = decodeShape(bytes, name);
-        if (!mesh) return mesh.error();
-        depth.emplace(*mesh, source.meshRotate, source.resolution, source.margin, source.floorGap);
+    std::optional<Result<SourcedHeights>> readSome() {
+        std::optional<Result<Image>> decoded = reading->advance();
+        if (!decoded) return std::nullopt;
+        if (!*decoded) return Result<SourcedHeights>(decoded->error());
+        map = std::move(**decoded);
+        return std::nullopt;
+    }
+    std::optional<Result<SourcedHeights>> beginMesh(std::span<const std::byte> bytes) {
+        Result<Mesh> decoded = decodeShape(bytes, name);
+        if (!decoded) return decoded.error();
+        mesh = std::move(*decoded);
         return std::nullopt;
     }
     std::optional<Result<SourcedHeights>> advance() {
@@ -63,8 +68,15 @@ struct HeightsMaking::State {
         if (map) {
             normals = std::make_unique<NormalsIntegration>(*map, name);
             map.reset();
+            reading.reset();
             return std::nullopt;
         }
+        if (mesh) {
+            depth.emplace(*mesh, source.meshRotate, source.resolution, source.margin, source.floorGap);
+            mesh.reset();
+            return std::nullopt;
+        }
+        if (reading) return readSome();
         if (!depth) return begin();
         std::optional<Image> made = depth->advance();
         if (!made) return std::nullopt;

@@ -1,6 +1,5 @@
 #include "scene/ImageUse.h"
 
-#include "base/Hdr.h"
 #include "base/Log.h"
 #include "base/Text.h"
 #include "scene/Scene.h"
@@ -57,36 +56,38 @@ Image withThreeChannels(Image image) {
     return colors;
 }
 
+Result<SharedImage> sharedColors(Image image, const std::string& name) {
+    constexpr float kMost = std::numeric_limits<float>::max();
+    return share(withThreeChannels(std::move(image)), -kMost, kMost, name, "colours must be finite");
+}
+
 } // namespace
 
 Result<SharedImage> decodeColors(std::span<const std::byte> bytes, const std::string& name) {
     Result<Image> image = decodeImage(bytes, name, Encoding::Srgb);
     if (!image) return image.error();
-    constexpr float kMost = std::numeric_limits<float>::max();
-    return share(withThreeChannels(std::move(*image)), -kMost, kMost, name, "colours must be finite");
+    return sharedColors(std::move(*image), name);
 }
 
 struct ColorsMaking::State {
     std::string name;
     ReadFile read;
-    std::optional<Bytes> file = std::nullopt; // that is decoded in one piece
-    std::unique_ptr<HdrReading> rows = nullptr;
+    std::unique_ptr<ImageReading> reading{};
+    std::optional<Image> image{}; // as the file has it
 
     std::optional<Result<SharedImage>> advance() {
-        if (file) return decodeColors(*file, name);
-        if (!rows) return begin();
-        std::optional<Result<Image>> image = rows->advance();
-        if (!image) return std::nullopt;
-        if (!*image) return Result<SharedImage>(image->error());
-        return Result<SharedImage>(std::make_shared<const Image>(std::move(**image)));
+        if (image) return sharedColors(std::move(*image), name);
+        if (!reading) return begin();
+        std::optional<Result<Image>> read = reading->advance();
+        if (!read) return std::nullopt;
+        if (!*read) return Result<SharedImage>(read->error());
+        image = std::move(**read);
+        return std::nullopt;
     }
     std::optional<Result<SharedImage>> begin() {
         Result<Bytes> bytes = read(name);
         if (!bytes) return Result<SharedImage>(bytes.error());
-        if (isHdr(*bytes))
-            rows = std::make_unique<HdrReading>(std::move(*bytes), name);
-        else
-            file = std::move(*bytes);
+        reading = std::make_unique<ImageReading>(std::move(*bytes), name, Encoding::Srgb);
         return std::nullopt;
     }
 };
@@ -96,7 +97,7 @@ ColorsMaking::ColorsMaking(std::string name, ReadFile read)
 ColorsMaking::~ColorsMaking() = default;
 
 std::optional<Result<SharedImage>> ColorsMaking::advance() { return state_->advance(); }
-std::size_t ColorsMaking::bytes() const { return state_->file ? state_->file->size() : 0; }
+std::size_t ColorsMaking::bytes() const { return state_->reading ? state_->reading->bytes() : 0; }
 
 namespace {
 

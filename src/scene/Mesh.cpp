@@ -129,7 +129,7 @@ DepthMaking::DepthMaking(const Mesh& source, vec3 rotation, ivec2 size, float ma
 }
 
 std::optional<Image> DepthMaking::advance() {
-    constexpr std::size_t kTriangles = 20'000; // and so many texels: some milliseconds
+    constexpr std::size_t kTriangles = 10'000; // and so many texels: some milliseconds
     std::size_t texels = 0;
     for (std::size_t i = 0; i < kTriangles && texels < kTriangles && next_ + 2 < indices_.size();
          ++i, next_ += 3)
