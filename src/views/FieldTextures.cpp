@@ -25,36 +25,47 @@ int levelCount(ivec2 cells) {
     return levels;
 }
 
+// Heights as 16-bit numbers over a map's range.
+struct Steps {
+    explicit Steps(HeightRange range)
+        : lowest(range.lowest), unit((double(range.highest) - range.lowest) / 65535.0) {}
+    std::uint16_t below(float height) const { return std::uint16_t(std::floor(of(height))); }
+    std::uint16_t above(float height) const { return std::uint16_t(std::ceil(of(height))); }
+    double of(float height) const {
+        return unit == 0 ? 0 : std::clamp((double(height) - lowest) / unit, 0.0, 65535.0);
+    }
+    double lowest, unit;
+};
+
+// One row of blocks. Apart: WebAssembly runs a function in its fast form only from a later call on.
+[[gnu::noinline]] void finestRow(const Image& heights, const Steps& steps, int y, int blocks,
+                                 std::uint16_t* pairs) {
+    const int top = std::max(2 * y - 1, 0), bottom = std::min(2 * y + 1, heights.height - 1);
+    for (int x = 0; x < blocks; ++x, pairs += 2) {
+        float low = 1e38f, high = -1e38f;
+        for (int j = top; j <= bottom; ++j)
+            for (int i = std::max(2 * x - 1, 0); i <= std::min(2 * x + 1, heights.width - 1); ++i) {
+                const float height = *heights.at(i, j);
+                low = std::min(low, height);
+                high = std::max(high, height);
+            }
+        if (low > high) continue;
+        pairs[0] = steps.below(low);
+        pairs[1] = steps.above(high);
+    }
+}
+
 // The finest level: blocks of 2 x 2 cells, that is 3 x 3 samples, clamped at the border.
 PyramidLevel finestLevel(const Image& heights, int levels) {
-    const HeightRange range = heightRange(heights);
-    const double unit = (double(range.highest) - range.lowest) / 65535.0;
-    const auto quantised = [&](float height, bool up) -> std::uint16_t {
-        if (unit == 0) return 0;
-        const double steps = (double(height) - range.lowest) / unit;
-        return std::uint16_t(std::clamp(up ? std::ceil(steps) : std::floor(steps), 0.0, 65535.0));
-    };
+    const Steps steps(heightRange(heights));
     const ivec2 cells = heights.size() + 1;
     const int multiple = std::max(2, 1 << (levels - 1)); // even: the atlas is one and a half as wide
     PyramidLevel level;
     level.size = ((cells + 1) / 2 + multiple - 1) / multiple * multiple;
     level.pairs.assign(std::size_t(level.size.x) * level.size.y * 2, 0);
     const ivec2 blocks = (cells + 1) / 2;
-    for (int y = 0; y < blocks.y; ++y) {
-        for (int x = 0; x < blocks.x; ++x) {
-            float low = 1e38f, high = -1e38f;
-            for (int j = std::max(2 * y - 1, 0); j <= std::min(2 * y + 1, heights.height - 1); ++j) {
-                for (int i = std::max(2 * x - 1, 0); i <= std::min(2 * x + 1, heights.width - 1); ++i) {
-                    low = std::min(low, *heights.at(i, j));
-                    high = std::max(high, *heights.at(i, j));
-                }
-            }
-            const std::size_t at = (std::size_t(y) * level.size.x + x) * 2;
-            if (low > high) continue;
-            level.pairs[at] = quantised(low, false);
-            level.pairs[at + 1] = quantised(high, true);
-        }
-    }
+    for (int y = 0; y < blocks.y; ++y)
+        finestRow(heights, steps, y, blocks.x, &level.pairs[std::size_t(y) * level.size.x * 2]);
     return level;
 }
 
@@ -118,6 +129,10 @@ FieldTextures::FieldTextures(gl::Context& context, std::shared_ptr<const Image> 
     gl::Device& device = context.device();
     heights_ = graph::Texture(device, {.size = source_->size(), .format = Format::R32F}, "views.heights");
     device.upload(heights_.handle(), 0, source_->pixels);
+}
+
+void FieldTextures::addPyramid(gl::Context& context) {
+    gl::Device& device = context.device();
     const std::vector<PyramidLevel> levels = buildPyramid(*source_);
     levels_ = int(levels.size());
     const Atlas atlas = packPyramid(levels);
@@ -166,15 +181,21 @@ Status ImageCache::checkSize(const Image& image) const {
                  Fault::Machine};
 }
 
-Result<const FieldTextures*> ImageCache::field(const std::shared_ptr<const Image>& heights) {
-    Entry<FieldTextures>& entry = fields_[heights.get()];
-    if (!entry.value) {
-        if (Status fits = checkSize(*heights); !fits) return fits.error();
-        entry.value = std::make_unique<FieldTextures>(context_, heights);
-        entry.source = heights;
+Result<FieldTextures*> ImageCache::heights(const std::shared_ptr<const Image>& image) {
+    if (!fields_.contains(image.get())) {
+        if (Status fits = checkSize(*image); !fits) return fits.error();
+        fields_[image.get()] = {std::make_unique<FieldTextures>(context_, image), image};
     }
+    Entry<FieldTextures>& entry = fields_.at(image.get());
     entry.used = true;
     return entry.value.get();
+}
+
+Result<const FieldTextures*> ImageCache::field(const std::shared_ptr<const Image>& image) {
+    const Result<FieldTextures*> field = heights(image);
+    if (!field) return field.error();
+    if (!(*field)->isWhole()) (*field)->addPyramid(context_);
+    return *field;
 }
 
 Result<const MeshTextures*> ImageCache::mesh(const std::shared_ptr<const scene::Mesh>& mesh,
@@ -216,6 +237,7 @@ graph::TextureHandle ImageCache::texture(const std::shared_ptr<const scene::Text
 }
 
 bool ImageCache::takePart(const scene::Object& object) {
+    if (object.isField()) return takePartOf(object.field(), object.material);
     const bool isMesh = !object.isField() && !object.isDisplaced() && !isPainted(object); // of its own
     if (isMesh && !meshes_.contains(scene::meshOf(object).get()))
         return mesh(scene::meshOf(object), false).ok();
@@ -232,6 +254,15 @@ bool ImageCache::takePart(const scene::Object& object) {
         texture(image);
         return true;
     }
+    return false;
+}
+
+bool ImageCache::takePartOf(const scene::HeightField& shape, const scene::Material& material) {
+    const auto begun = fields_.find(shape.heights.get());
+    if (begun == fields_.end()) return heights(shape.heights).ok();
+    if (!begun->second.value->isWhole()) return field(shape.heights).ok();
+    for (const auto* map : {&shape.alpha, &material.baseMap, &material.diffuseMap, &material.specularMap})
+        if (*map && !images_.contains(map->get())) return image(*map).ok();
     return false;
 }
 

@@ -35,17 +35,20 @@ std::vector<PyramidLevel> buildPyramid(const Image& heights);
 /// A height map and its pyramid as textures.
 class FieldTextures {
 public:
+    /// Heights alone.
     FieldTextures(gl::Context& context, std::shared_ptr<const Image> heights);
+    void addPyramid(gl::Context& context);
+    bool isWhole() const { return bool(pyramid_); }
 
     FieldBlock block(const scene::HeightField& field) const;
     std::vector<graph::Binding> bindings() const;
-    std::size_t bytes() const { return heights_.desc().bytes() + pyramid_.desc().bytes(); }
+    std::size_t bytes() const { return heights_.desc().bytes() + (isWhole() ? pyramid_.desc().bytes() : 0); }
 
 private:
     std::shared_ptr<const Image> source_; // its address is the cache's key: it must not be reused
     graph::Texture heights_, pyramid_;
     HeightRange range_;
-    int levels_;
+    int levels_ = 0;
 };
 
 /// Textures of the images of a scene, each made once and dropped when no scene image needs it.
@@ -62,8 +65,8 @@ public:
     Result<const Prisms*> prisms(const std::shared_ptr<const scene::DisplacedBase>& base);
     /// What a mesh that mesh() knows is drawn with, of whose images these are.
     Textured textured(const scene::Mesh& mesh, const scene::Textures& textures);
-    /// Takes one part of what an object is drawn with to the GPU: its vertices, one of its pictures. @return
-    /// false: all are there, or it has no such parts
+    /// Takes one part of what an object is drawn with to the GPU: its heights or vertices, one of its
+    /// pictures. @return false: all are there, or it has no such parts
     bool takePart(const scene::Object& object);
     /// A colour map or alpha: 1 channel becomes R32F, 3 become RGBA16F filtered.
     Result<graph::TextureHandle> image(const std::shared_ptr<const Image>& image);
@@ -85,6 +88,8 @@ private:
         bool used = true;
     };
     Status checkSize(const Image& image) const;
+    bool takePartOf(const scene::HeightField& field, const scene::Material& material);
+    Result<FieldTextures*> heights(const std::shared_ptr<const Image>& image); // and a pyramid, or none yet
     Result<const PaintMap*> paintMap(const std::shared_ptr<const Image>& image);
     graph::TextureHandle texture(const std::shared_ptr<const scene::TextureImage>& image);
     gl::Context& context_;

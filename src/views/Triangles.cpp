@@ -19,35 +19,71 @@ struct Side {
     int side;
 };
 
+// What is done for each triangle stands apart: WebAssembly runs a function in its fast form only from a later
+// call on.
+[[gnu::noinline]] void addSides(const TriangleTable& table, const std::vector<std::uint32_t>& places,
+                                const std::uint32_t* corner, std::vector<Side>& sides) {
+    const auto place = [&](int k) { return places[table.sources[corner[k % 3]]]; };
+    if (place(0) == place(1) || place(1) == place(2) || place(2) == place(0)) return;
+    for (int k = 0; k < 3; ++k)
+        sides.push_back({place(k), place(k + 1), corner[2], k});
+}
+
+// Sides by where they begin.
+struct SidesFrom {
+    SidesFrom(const std::vector<Side>& sides, std::size_t places)
+        : begin(places + 1, 0), slots(sides.size()) {
+        for (const Side& one : sides)
+            ++begin[one.from + 1];
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+        for (std::size_t i = 0; i < sides.size(); ++i)
+            slots[next[sides[i].from]++] = std::uint32_t(i);
+    }
+    std::vector<std::uint32_t> begin, slots;
+};
+
+// A neighbour's side begins where this one ends.
+[[gnu::noinline]] void join(TriangleTable& table, const std::vector<Side>& sides, const SidesFrom& from,
+                            const Side& one) {
+    const auto across = [&](const Side& side) -> std::uint32_t& {
+        return table.triangles[side.number].across[std::size_t(side.side)];
+    };
+    for (std::uint32_t i = from.begin[one.to]; i < from.begin[one.to + 1] && across(one) == kNone; ++i) {
+        const Side& other = sides[from.slots[i]];
+        if (other.to != one.from || across(other) != kNone) continue;
+        across(one) = other.number;
+        across(other) = one.number;
+    }
+}
+
 void joinNeighbours(TriangleTable& table, const std::vector<vec3>& positions) {
     const std::vector<std::uint32_t> places = scene::weldedVertices(positions);
     std::vector<Side> sides;
     sides.reserve(table.indices.size());
-    for (std::size_t i = 0; i < table.indices.size(); i += 3) {
-        const std::uint32_t* corner = &table.indices[i];
-        const auto place = [&](int k) { return places[table.sources[corner[k % 3]]]; };
-        if (place(0) == place(1) || place(1) == place(2) || place(2) == place(0)) continue;
-        for (int k = 0; k < 3; ++k)
-            sides.push_back({place(k), place(k + 1), corner[2], k});
+    for (std::size_t i = 0; i < table.indices.size(); i += 3)
+        addSides(table, places, &table.indices[i], sides);
+    const SidesFrom from(sides, positions.size());
+    for (const Side& one : sides)
+        join(table, sides, from, one);
+}
+
+// A triangle's number is that of its last corner: one that no other has, or a copy.
+[[gnu::noinline]] void addTriangle(TriangleTable& table, std::vector<bool>& taken,
+                                   std::array<std::uint32_t, 3> corners) {
+    const auto free =
+        std::find_if(corners.begin(), corners.end(), [&](std::uint32_t c) { return !taken[c]; });
+    if (free != corners.end()) {
+        taken[*free] = true;
+        std::rotate(corners.begin(), free + 1, corners.end()); // the free one comes last
+    } else {
+        const auto copy = std::uint32_t(table.sources.size());
+        table.sources.push_back(corners[2]);
+        table.triangles.emplace_back();
+        corners[2] = copy;
     }
-    // Sides by where they begin; a neighbour's begins where this one ends.
-    std::vector<std::uint32_t> begin(positions.size() + 1, 0), slots(sides.size());
-    for (const Side& one : sides)
-        ++begin[one.from + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::size_t i = 0; i < sides.size(); ++i)
-        slots[next[sides[i].from]++] = std::uint32_t(i);
-    const auto across = [&](const Side& one) -> std::uint32_t& {
-        return table.triangles[one.number].across[std::size_t(one.side)];
-    };
-    for (const Side& one : sides)
-        for (std::uint32_t i = begin[one.to]; i < begin[one.to + 1] && across(one) == kNone; ++i) {
-            const Side& other = sides[slots[i]];
-            if (other.to != one.from || across(other) != kNone) continue;
-            across(one) = other.number;
-            across(other) = one.number;
-        }
+    table.triangles[corners[2]].corners = {corners[0], corners[1]};
+    table.indices.insert(table.indices.end(), corners.begin(), corners.end());
 }
 
 // Five numbers of three bytes in four of four: the last one is spread over the others' highest bytes.
@@ -66,22 +102,8 @@ TriangleTable tableOf(const scene::Mesh& mesh) {
     table.triangles.resize(mesh.positions.size());
     table.indices.reserve(mesh.indices.size());
     std::vector<bool> taken(mesh.positions.size());
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        std::array<std::uint32_t, 3> corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
-        const auto free =
-            std::find_if(corners.begin(), corners.end(), [&](std::uint32_t c) { return !taken[c]; });
-        if (free != corners.end()) {
-            taken[*free] = true;
-            std::rotate(corners.begin(), free + 1, corners.end()); // the free one comes last
-        } else {
-            const auto copy = std::uint32_t(table.sources.size());
-            table.sources.push_back(corners[2]);
-            table.triangles.emplace_back();
-            corners[2] = copy;
-        }
-        table.triangles[corners[2]].corners = {corners[0], corners[1]};
-        table.indices.insert(table.indices.end(), corners.begin(), corners.end());
-    }
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        addTriangle(table, taken, {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
     joinNeighbours(table, mesh.positions);
     return table;
 }
