@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 namespace lucent::views {
@@ -94,9 +95,12 @@ void addPixel(Sums& sums, const Rings& rings, int ring, const Row& row, std::siz
     }
 }
 
-} // namespace
-
-namespace {
+// Apart: WebAssembly runs a function in its fast form only from a later call on.
+[[gnu::noinline]] void addRow(Sums& sums, const Rings& rings, int ring, const Row& row, const Band& band,
+                              const float* colors) {
+    for (std::size_t x = 0; x < row.across.size(); ++x, colors += 3)
+        addPixel(sums, rings, ring, row, x, band, {colors[0], colors[1], colors[2]});
+}
 
 // The cells of a map, before it is turned: radiance and area of each.
 std::vector<EnvironmentLight> cellsOf(const Image& map, int count, vec2 offset) {
@@ -112,10 +116,7 @@ std::vector<EnvironmentLight> cellsOf(const Image& map, int count, vec2 offset) 
             // Area of a band of the unit sphere: difference of cosines times the azimuth.
             const double above = std::cos(low * std::numbers::pi), below = std::cos(high * std::numbers::pi);
             const Band band(above, below, map.width);
-            for (int x = 0; x < map.width; ++x) {
-                const float* color = map.at(x, y);
-                addPixel(sums, rings, row, pixels, std::size_t(x), band, {color[0], color[1], color[2]});
-            }
+            addRow(sums, rings, row, pixels, band, map.at(0, y));
         }
     }
     std::vector<EnvironmentLight> cells;
@@ -159,14 +160,34 @@ struct Part {
     }
 };
 
+// Parts the cells along an axis where those below first have so much light. @return how many those are
+std::size_t partAt(std::vector<EnvironmentLight>& cells, int axis, float light) {
+    const auto below = [&](const EnvironmentLight& a, const EnvironmentLight& b) {
+        const auto place = [&](const vec3& at) { // a ring has one height
+            return std::tuple(at[axis], at[(axis + 1) % 3], at[(axis + 2) % 3]);
+        };
+        return place(a.direction) < place(b.direction);
+    };
+    auto first = cells.begin(), end = cells.end(); // the border is between them
+    for (float left = light; end - first > 1;) {
+        const auto middle = first + (end - first) / 2;
+        std::nth_element(first, middle, end, below);
+        const float half = std::accumulate(first, middle, 0.0f, [](float sum, const EnvironmentLight& cell) {
+            return sum + Part::lightOf(cell);
+        });
+        if (half < left) {
+            left -= half;
+            first = middle;
+        } else {
+            end = middle;
+        }
+    }
+    return std::size_t(end - cells.begin());
+}
+
 // @param share  of its light in the first piece
 std::pair<Part, Part> cut(Part part, float share = 0.5f) {
-    const int axis = part.widest();
-    std::sort(part.cells.begin(), part.cells.end(),
-              [&](const auto& a, const auto& b) { return a.direction[axis] < b.direction[axis]; });
-    std::size_t split = 0;
-    for (float below = 0; split < part.cells.size() && below < share * part.light; ++split)
-        below += Part::lightOf(part.cells[split]);
+    std::size_t split = partAt(part.cells, part.widest(), share * part.light);
     split = std::clamp<std::size_t>(split, 1, part.cells.size() - 1);
     const auto middle = part.cells.begin() + std::ptrdiff_t(split);
     return {Part({part.cells.begin(), middle}), Part({middle, part.cells.end()})};
