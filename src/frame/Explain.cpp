@@ -66,6 +66,7 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     }
     const Result<State::Moment> moment = s.readyMoment(scene);
     if (!moment) return moment.error();
+    s.placeLights(*s.pictured);
     s.cubesFor.reset();
     s.flatFor.reset();
     if (Status r = s.survey(*moment); !r) return r.error();

@@ -173,7 +173,8 @@ struct Renderer::State {
     std::optional<views::SurfaceKey> shownKey;       // what shownSurface was drawn for
     std::vector<Stage> stages;
     std::size_t stage = 0;
-    std::vector<views::LampPoint> lights; // of this stage
+    std::vector<views::LampPoint> lights; // of this stage, once
+    bool placedLights = false;            // they are there
     int placed = 0;                       // so many of them have a place or a direction of their own
     int next = 0;                         // light
     technique::Guest* carrier = nullptr;  // that carried light in this sum
@@ -193,7 +194,8 @@ struct Renderer::State {
     void makeTargets();
     bool variesLight(const scene::Scene& scene) const;
     int directionsOfSample(const scene::Scene& scene) const;
-    void startStage(const scene::Scene& scene);
+    void startStage();
+    void placeLights(const scene::Scene& scene);
     Status slice(const scene::Scene& scene);
     Result<bool> ready(const Moment& moment);
     Status begin(std::unique_ptr<Running> made, Running::Work work,

@@ -69,7 +69,7 @@ Status Renderer::State::plan(const scene::Scene& scene) {
     planning = !budget.done();
     if (planning) return Done{};
     addStages(scene, Effort::Final, true);
-    startStage(scene);
+    startStage();
     return Done{};
 }
 
@@ -115,7 +115,7 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
         addStages(scene, effort, previewed);
     else if (effort == Effort::Progressive && !previewed)
         stages.push_back({kFirstStage, false, true});
-    startStage(scene);
+    startStage();
 }
 
 // Who works out the environment's light once for all pictures.
@@ -190,10 +190,14 @@ int Renderer::State::directionsOfSample(const scene::Scene& scene) const {
     return variesLight(scene) ? std::max(kFewestDirections, all / pixelSamples(scene)) : all;
 }
 
-void Renderer::State::startStage(const scene::Scene& scene) {
+void Renderer::State::startStage() {
     next = 0;
-    surveyed = false;
-    if (stage >= stages.size()) return;
+    surveyed = placedLights = false;
+}
+
+// The light samples of a stage.
+void Renderer::State::placeLights(const scene::Scene& scene) {
+    placedLights = true;
     const scene::Scene used = chosen(scene);
     views::Sampling sampling = views::samplingOf(used);
     sampling.directions = stages[stage].directions;
@@ -294,6 +298,8 @@ Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
 Status Renderer::State::slice(const scene::Scene& scene) {
     const double begins = now();
     if (next == 0) sample = stages[stage].sample;
+    if (!placedLights) placeLights(scene);
+    if (rests(0, begins)) return Done{};
     const double beforeWater = now();
     const Result<bool> still = waters.advance(scene);
     workMs += now() - beforeWater;
@@ -310,7 +316,7 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     if (!*areThere) return Done{};
     Result<Moment> moment = momentOf(scene);
     if (!moment) return moment.error();
-    if (rests(0, begins)) return Done{};
+    if (rests(1, begins)) return Done{};
     auto made = std::make_unique<Running>(*this, std::move(*moment));
     const bool geometric = views::isGeometric(scene.view.show);
     if (next == 0 && !geometric) {
@@ -325,7 +331,7 @@ Status Renderer::State::slice(const scene::Scene& scene) {
         const Result<bool> prepared = prepare(made->picture);
         if (!prepared) return prepared.error();
         if (!*prepared) return Done{};
-        if (rests(1, begins)) return Done{};
+        if (rests(2, begins)) return Done{};
     }
     made->end = geometric ? int(lights.size()) : sliceEnd();
     if ((made->end < int(lights.size()) || next > 0) && !scratch)
@@ -496,7 +502,7 @@ Status Renderer::State::finishStage(const Moment& moment) {
     else if (Status kept = keepPreview(moment.scene); !kept)
         return kept;
     ++stage;
-    startStage(moment.scene);
+    startStage();
     if (stage < stages.size() && !whole) return Done{};
     stats.milliseconds = workMs;
     stats.technique = moment.scene.technique;
@@ -559,13 +565,13 @@ Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64
     const double begins = now();
     if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
         start(asked, newRevision, newSize, effort);
-    const bool isLate = !atOnce && now() - begins > 0.5 * kSliceMs; // the scene's shapes were made
+    const bool isLate = !atOnce && now() - begins > 0.25 * kSliceMs; // the scene's shapes were made
     const scene::Scene& scene = *pictured;
     if (dragged && effort != Effort::Coarse) { // the preview was the picture already
         const bool over = complete();
         dragged = false;
         addSamples(scene);
-        if (over) startStage(scene);
+        if (over) startStage();
     }
     if (!isLate && (running || !complete() || whole || !settled(effort))) {
         Status status = Done{};
