@@ -2,6 +2,8 @@
  * The panel's controls once more as HTML, made from the same descriptors: what a screen reader reads, what the
  * keyboard walks through, and what is seen where the drawn panel has no room.
  */
+import { kPageSlice } from './answering.js';
+import { nextTask } from './task.js';
 import { hexOfLinear, valueOf } from './values.js';
 
 const kSteps = 200; // of a slider: half a percent a key press
@@ -139,6 +141,8 @@ export class Controls {
   #actions;
   #shows = new Map(); // path -> show(value)
   #built = ''; // what there are controls for
+  #latest = []; // of which the values are shown
+  #number = 0; // of times that all were made
   element = make('div', {
     className: 'twin',
     role: 'group',
@@ -176,31 +180,55 @@ export class Controls {
   }
 
   /**
-   * Makes all controls anew.
+   * Makes all controls anew, a few at a time.
    * @param controls  descriptors in the order of the panel; those without a group are left out
    */
-  build(controls) {
+  async buildLater(controls) {
+    const mine = this.#begin(controls);
+    const making = this.#making(controls);
+    for (let start = performance.now(); !making.next().done; ) {
+      if (performance.now() - start < kPageSlice) continue;
+      await nextTask();
+      if (mine !== this.#number) return; // others are made
+      start = performance.now();
+    }
+    this.update(this.#latest);
+  }
+
+  #build(controls) {
+    this.#begin(controls);
+    for (const making = this.#making(controls); !making.next().done; );
+  }
+
+  #begin(controls) {
     this.#built = contentOf(controls);
-    this.#shows.clear();
+    this.#latest = controls;
+    return ++this.#number;
+  }
+
+  // Yields after each control; shows all of them in the end.
+  *#making(controls) {
+    const shows = new Map();
     const groups = new Map();
     for (const control of controls.filter(({ group }) => group)) {
       if (!groups.has(control.group))
         groups.set(control.group, make('fieldset', {}, make('legend', { textContent: control.group })));
-      const row = control.kind === 'action' ? this.#button(control) : this.#row(control);
+      const row = control.kind === 'action' ? this.#button(control) : this.#row(control, shows);
       ownerPart(groups.get(control.group), control.owner).append(row);
+      yield;
     }
     for (const group of groups.values()) this.#rove(stopsOf(group)[0]);
+    this.#shows = shows;
     this.element.replaceChildren(...groups.values());
-    this.update(controls);
   }
 
   /** Shows the values as they are now; where there are other controls than before, the focus stays on its own. */
   update(controls) {
+    this.#latest = controls;
     if (contentOf(controls) !== this.#built) {
       const focused = this.element.getRootNode().activeElement?.closest('[data-path]')?.dataset.path;
-      this.build(controls);
+      this.#build(controls);
       if (focused) this.#focus(focused);
-      return;
     }
     for (const control of controls) this.#shows.get(control.path)?.(valueOf(control, control.value));
   }
@@ -235,12 +263,12 @@ export class Controls {
     return row;
   }
 
-  #row(control) {
+  #row(control, shows) {
     const commit = (text) => {
       if (!this.#actions.set(control.path, text)) show(valueOf(control, this.#actions.get(control.path)));
     };
     const { nodes, show } = kEditors[control.kind](control, commit);
-    this.#shows.set(control.path, show);
+    shows.set(control.path, show);
     const unit = make('small', { textContent: control.unit });
     const label = make(
       'span',

@@ -125,6 +125,7 @@ export class LucentViewer extends HTMLElement {
   #size = { width: 0, height: 0, scale: 1 };
   #controls = []; // descriptors with values
   #profilesLater;
+  #controlsLater = 0;
   #revision = -1;
   #properties = []; // names that the scene's parameters have here
   #settled = []; // resolve functions that wait for the finished picture
@@ -761,10 +762,8 @@ export class LucentViewer extends HTMLElement {
     if (given.length > 0) this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#warnOfNames();
     this.#revision = this.#runtime.call('viewer_revision', this.#handle);
-    this.#twin.build(this.#controls);
-    this.#showProfilesLater();
+    this.#showControlsLater();
     this.#showPlay();
-    this.#showUndrawn();
     if (this.autoplay && !kCalm.matches) this.play();
     this.#layout();
     this.#request();
@@ -883,6 +882,17 @@ export class LucentViewer extends HTMLElement {
     const profiles = this.#profilesSoFar(false);
     this.#twin.describe(profiles.filter(({ pending }) => !pending));
     if (profiles.some(({ pending }) => pending)) this.#showProfilesLater();
+  }
+
+  // Of another scene: there may be a hundred.
+  #showControlsLater() {
+    clearTimeout(this.#controlsLater);
+    this.#controlsLater = setTimeout(async () => {
+      if (!this.loaded) return;
+      this.#showUndrawn();
+      await this.#twin.buildLater(this.#controls);
+      this.#showProfilesLater();
+    });
   }
 
   #showProfilesLater() {

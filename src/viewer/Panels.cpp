@@ -2,6 +2,8 @@
 #include "viewer/State.h"
 
 #include <algorithm>
+#include <cstring>
+#include <utility>
 
 namespace lucent::viewer {
 
@@ -34,10 +36,12 @@ int textKey(std::string_view key) {
     return -1;
 }
 
-std::uint64_t mixed(std::uint64_t hash, const void* data, int bytes) { // FNV-1a
+std::uint64_t mixed(std::uint64_t hash, const void* data, int bytes) { // FNV-1a, of words in place of bytes
     const auto* at = static_cast<const unsigned char*>(data);
-    for (int i = 0; i < bytes; ++i)
-        hash = (hash ^ at[i]) * 1099511628211u;
+    for (std::uint32_t word = 0; bytes > 0; at += sizeof word, bytes -= int(sizeof word)) {
+        std::memcpy(&word, at, std::min(sizeof word, std::size_t(bytes)));
+        hash = (hash ^ word) * 1099511628211u;
+    }
     return hash;
 }
 
@@ -78,7 +82,7 @@ void Viewer::State::frame() {
     panel.setCanvas(canvas());
 
     const bool isSeen = scene && shownScene == sceneNumber; // the preview comes first
-    if (isSeen && !figuresWait && (figuresAt != revision || figuresPend)) {
+    if (isSeen && !pictureNext && (figuresAt != revision || figuresPend)) {
         figures = allFigures();
         figuresAt = revision;
         figuresPend = std::erase_if(figures, [](const Figure& figure) { return figure.isPending; }) > 0;
@@ -133,17 +137,19 @@ std::uint64_t Viewer::State::frameHash() const {
     return ImGui::GetDrawData() ? hashOf(*ImGui::GetDrawData()) : 0;
 }
 
-// ImGui lays out after what it measured in the frame before: frames until two are alike.
-void Viewer::State::settle() {
+// ImGui lays out after what it measured in the frame before: frames until two are alike, or the panel's time
+// is up.
+void Viewer::State::settle(double until) {
     constexpr int kMostFrames = 5;
-    std::uint64_t before = 0;
-    for (int i = 0; i < kMostFrames; ++i) {
+    while (settling++ < kMostFrames) {
         frame();
-        const std::uint64_t now = frameHash();
-        if (now == before || figuresPend) break; // each frame works some of them out
-        before = now;
+        const std::uint64_t before = std::exchange(lastFrame, frameHash());
+        if (lastFrame == before || figuresPend) break; // each frame works some of them out
+        if (secondsNow() > until) return;
     }
     settled = !figuresPend;
+    settling = 0;
+    lastFrame = 0;
 }
 
 void Viewer::State::typeKey(const std::string& key, Modifiers modifiers) {

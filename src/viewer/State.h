@@ -87,11 +87,13 @@ struct Viewer::State {
     std::vector<Figure> figures;
     std::uint64_t figuresAt = 0; // revision whose they are
     bool figuresPend = false;    // some are still to come
-    bool figuresWait = false;    // it is the picture's turn
+    bool pictureNext = false;    // the panel's turn took its time
     int shownScene = 0;          // sceneNumber of what is shown
     std::vector<Figure> allFigures() const;
     bool settled = true; // ImGui has nothing new to say
-    std::uint64_t shownHash = 0;
+    int settling = 0;    // frames since it had
+    std::uint64_t shownHash = 0,
+                  lastFrame = 0; // of frames of ImGui: what is shown; the last one of those that settle
     int drawCount = 0;
     double frameTime = 0, hoverTime = 0;
     std::string hovered, tooltip;
@@ -278,7 +280,7 @@ struct Viewer::State {
     // --- ImGui
     void frame();
     void overlays();
-    void settle();
+    void settle(double until);
     void mouse(vec2 position) { ImGui::GetIO().MousePos = {position.x, position.y}; }
     void typeKey(const std::string& key, Modifiers modifiers);
     void useImGui(Modifiers modifiers);

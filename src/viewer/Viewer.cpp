@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kWheelFactor = 0.0015f;         // a wheel step of 100 pixels: 16 %
 constexpr float kWheelLine = 5 * layout::kText; // CSS pixels that ImGui scrolls for one unit of its wheel
-constexpr double kFiguresSeconds = 0.02;        // after which figures leave the picture no time in one call
+constexpr double kPanelSeconds = 0.02; // after which the panel leaves the picture no time in one call
 
 } // namespace
 
@@ -152,13 +152,16 @@ bool Viewer::draw(double nowSeconds) {
     s.tick(nowSeconds);
     double wait = s.tooltipWait(nowSeconds);
     const double begin = secondsNow();
-    if (!s.settled) s.settle(); // the panel decides the picture's size
-    s.figuresWait = !s.figuresWait && s.figuresPend && secondsNow() - begin > kFiguresSeconds;
-    if (s.figuresWait) return true; // the picture has the next turn
+    const auto settle = [&] {
+        if (!s.settled) s.settle(begin + kPanelSeconds);
+    };
+    if (!s.pictureNext) settle(); // the panel decides the picture's size
+    s.pictureNext = !s.pictureNext && secondsNow() - begin > kPanelSeconds;
+    if (s.pictureNext) return true;
     const bool isNew = s.advance();
     s.drawSides();
     s.measureEnergy();
-    if (!s.settled) s.settle();
+    if (secondsNow() - begin < kPanelSeconds) settle();
     wait = std::max(wait, s.tooltipWait(nowSeconds));
     const std::uint64_t hash = s.frameHash();
     // A new size waits for its first picture, and no picture is shown that is being drawn into.

@@ -226,7 +226,7 @@ int viewer_load(int viewer, const char* path) {
 }
 
 int viewer_load_on(int viewer, int number) {
-    constexpr double kSliceMs = 30;
+    constexpr double kSliceMs = 16; // and what a piece takes that has begun by then
     Page::Load& load = page().loads[viewer];
     if (!page().viewers.contains(viewer) || load.number != number) return 0;
     const std::optional<Status> done = viewerOf(viewer).advanceLoad(kSliceMs);
