@@ -111,7 +111,7 @@ void main() {
 #else
     if (lost) return;
     oPlace = vec4(layers.view.eye.xyz + beam.origin, float(way | 1));
-    oDirection = vec4(beam.direction, inGlass ? 1.0 : 0.0);
+    oDirection = vec4(beam.direction, inGlass ? 1.0 : -float(1 + mediumOf(beam.inside)));
     oFlux = vec4(flux * beam.weight, markOf(start.coverage, start.sixths));
 #endif
 }

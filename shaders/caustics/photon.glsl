@@ -21,7 +21,8 @@ layout(location = 3) out vec4 oLost;
 void clearOutputs() { oMet = oAbsorbed = oReflected = oLost = vec4(0.0); }
 #else
 layout(location = 0) out vec4 oPlace;     // world; w: the way it took as a number, 0: no ray
-layout(location = 1) out vec4 oDirection; // unit; w: 1 where the place is already on an opaque object, inside glass
+layout(location = 1) out vec4 oDirection; // unit; w: 1 where the place is already on an opaque object, inside glass; where
+                                          // it goes on in water: -1 - the object's number
 layout(location = 2) out vec4 oFlux;      // [W]; a: coverage; VERTICES: 1 + sixths (caustics/sixths.glsl), or below 0
                                           // where a cell has no ray, but pixels that show what bends light
 void clearOutputs() { oPlace = oDirection = oFlux = vec4(0.0); }

@@ -128,7 +128,7 @@ void main() {
     // Rays in the shadow go on without light: between them and their neighbours it fades as it does on the water.
     bool shines = mirrored < 1.0;
     oPlace = vec4(place, shines ? 1.0 : 0.0);
-    oDirection = vec4(direction, 0.0);
+    oDirection = vec4(direction, -1.0);
     oFlux = shines ? vec4((1.0 - mirrored) * passed * flux, 64.0) : vec4(0.0); // all sixths are full
 #endif
 }

@@ -258,6 +258,36 @@ TEST_F(Caustics, FlatWaterBetweenWallsLightsTheFloorEvenlyUpToTheShadowOfTheirTo
         }
 }
 
+TEST_F(Caustics, WaterAbsorbsALowSunWhereverItsLightLands) {
+    // Its rays do not begin on the water, and the lamp sees no floor left of x = -0.16 past the wall's top.
+    scene::Scene scene = floorUnder(glass(scene::Water{.size = {2, 2}}, 1.33f, {0, 0.5f, 0}), 2.5f);
+    scene.objects[1].material.clear().absorption = vec3(0.5f);
+    scene.lights = {scene::DistantLight{.direction = {1.4f, -1, 0}}};
+    scene.objects.push_back(matt(scene::Box{{1, 0.6f, 4}}, {-1.5f, 0.3f, 0}));
+    scene.objects.push_back(matt(scene::Box{{1, 0.6f, 4}}, {1.5f, 0.3f, 0}));
+    ASSERT_FALSE(planOf(scene).lights.at(0).water);
+    const Shown shown = show(scene, {160, 160});
+    expectClosed(shown.energy);
+    const double incident = std::atan(1.4), refracted = std::asin(std::sin(incident) / 1.33);
+    const double wanted = (1 - test::fresnel(incident, 1 / 1.33)) * std::cos(incident) *
+                          std::exp(-0.5 * 0.5 / std::cos(refracted));
+    const double dark = -1 + 0.1 * 1.4 + 0.5 * std::tan(refracted); // the edge of the shadow
+    double sum = 0;
+    int count = 0, off = 0;
+    for (int x = 0; x < 160; ++x) {
+        const double place = -1.25 + (x + 0.5) / 64, found = double(shown.light.at(x, 80)[1]);
+        if (place < dark + 0.03 || place > 0.97) continue;
+        sum += found / wanted;
+        ++count;
+        if (std::abs(found / wanted - 1) > 0.01) ++off;
+    }
+    // 0.35 of a pixel's light is missing at -0.16, where the lamp's view goes over from the wall's top to the
+    // floor.
+    EXPECT_NEAR(sum / count, 1, 0.01);
+    EXPECT_LE(off, 6);
+    EXPECT_GT(count, 85);
+}
+
 TEST_F(Caustics, ASlabLightsTheFloorEvenlyUpToTheEdgeOfThePicture) {
     const scene::Scene scene = floorUnder(glass(scene::Box{{2, 0.2f, 2}}, 1.5f, {0, 1, 0}), 1);
     const Image light = lightOf(scene, {32, 32});

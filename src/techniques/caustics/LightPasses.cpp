@@ -218,14 +218,16 @@ Result<LightPasses::Photons> LightPasses::send(Part part, const Cells& cells, co
     const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
     photons.place = targets_.make("caustics.place", desc);
     photons.direction = targets_.make("caustics.direction", desc);
-    photons.flux =
-        mirrors_.view ? graph_.create("caustics.sent", desc) : targets_.make("caustics.flux", desc);
+    const bool isLast = !mirrors_.view && (!absorbs() || isInPicture());
+    photons.flux = isLast ? targets_.make("caustics.flux", desc) : graph_.create("caustics.sent", desc);
     if (Status s = trace({part, cells, {photons.place, photons.direction, photons.flux}}); !s)
         return s.error();
     if (mirrors_.view)
         if (Status s = bounce(photons); !s) return s.error();
     if (isInPicture()) return photons; // they land there
     if (Status s = land(photons, part, cells); !s) return s.error();
+    if (absorbs())
+        if (Status s = absorb(photons); !s) return s.error();
     return photons;
 }
 
@@ -246,7 +248,8 @@ Status LightPasses::bounce(Photons& photons) {
     const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
     photons.place = targets_.make("caustics.bounced", desc);
     photons.direction = targets_.make("caustics.bouncedDirection", desc);
-    photons.flux = targets_.make("caustics.flux", desc);
+    photons.flux = absorbs() && !isInPicture() ? graph_.create("caustics.bouncedFlux", desc)
+                                               : targets_.make("caustics.flux", desc);
     photons.sent = before.flux;
     BounceBlock block{.view = views::viewBlock(mirrors_.view->eye, viewSize()),
                       .mirrors = {},

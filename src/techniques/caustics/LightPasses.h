@@ -184,7 +184,8 @@ private:
     WaterRaysBlock waterBlock(const Tint& tint, ivec2 rays) const;
     Status beginOnWater(const Tint& tint, ivec2 rays, graph::TextureId shadow,
                         const std::vector<graph::TextureId>& targets, bool book);
-    Status absorb(const Photons& photons, graph::TextureId target);
+    bool absorbs() const;
+    Status absorb(Photons& photons);
     Status leaveAlone(Sheet& sheet);
     Status carryFromWater(const Tint& tint);
 

@@ -2,6 +2,7 @@
 #include "views/Glass.h"
 #include "views/Meshes.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lucent::caustics {
@@ -91,20 +92,34 @@ Status LightPasses::beginOnWater(const Tint& tint, ivec2 rays, TextureId shadow,
     return Done{};
 }
 
-Status LightPasses::absorb(const Photons& photons, TextureId target) {
+// Whether light of rays that have left what bends them may still be absorbed: in water, of which a sheet is
+// all that there is.
+bool LightPasses::absorbs() const {
+    return std::any_of(in_.glass.begin(), in_.glass.end(), [](const auto& one) {
+        return std::holds_alternative<scene::Water>(one->object->shape) &&
+               vec3(views::glassBlock(one->object->material).absorption) != vec3(0);
+    });
+}
+
+Status LightPasses::absorb(Photons& photons) {
+    const TextureDesc desc{.size = photons.count, .format = Format::RGBA32F};
+    const TextureId before = photons.flux, target = targets_.make("caustics.flux", desc);
+    if (!photons.sent) photons.sent = before;
+    photons.flux = target;
+    SoakBlock block{};
+    for (std::size_t i = 0; i < in_.glass.size(); ++i)
+        block.absorption[i] = views::glassBlock(in_.glass[i]->object->material).absorption;
     const gl::Program* soaking = program("caustics/absorb");
     graph_.addPass("caustics.absorb", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("what the water leaves of their light until they land");
-        pass.sample(photons.place);
-        pass.sample(photons.landing);
-        pass.sample(photons.sent);
+        for (const TextureId image : {photons.place, photons.direction, photons.landing, before})
+            pass.sample(image);
         pass.write(target);
-        const views::GlassBlock glass = views::glassBlock(in_.glass.front()->object->material);
-        return [=, program = soaking, block = SoakBlock{glass.absorption}](const graph::Resources& resources,
-                                                                           graph::Commands& commands) {
+        return [=, program = soaking](const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uPlace", resources[photons.place]},
+                                                 {"uDirection", resources[photons.direction]},
                                                  {"uLanding", resources[photons.landing]},
-                                                 {"uFlux", resources[photons.sent]}};
+                                                 {"uFlux", resources[before]}};
             commands.draw({.program = program, .block = block, .textures = std::move(textures)});
         };
     });
@@ -157,20 +172,20 @@ Status LightPasses::carryFromWater(const Tint& tint) {
     sheet.grid.count = desc.size;
     sheet.grid.place = targets_.make("caustics.place", desc);
     sheet.grid.direction = targets_.make("caustics.direction", desc);
-    sheet.grid.sent = graph_.create("caustics.sent", desc);
+    sheet.grid.flux = absorbs() ? graph_.create("caustics.sent", desc) : targets_.make("caustics.flux", desc);
     Status s = beginOnWater(tint, desc.size, shadow,
-                            {sheet.grid.place, sheet.grid.direction, sheet.grid.sent}, false);
+                            {sheet.grid.place, sheet.grid.direction, sheet.grid.flux}, false);
     if (s) s = land(sheet.grid, Part::Cells, {});
     if (!s) return s;
-    sheet.grid.flux = targets_.make("caustics.flux", desc);
-    if (s = absorb(sheet.grid, sheet.grid.flux); !s) return s;
+    if (absorbs())
+        if (s = absorb(sheet.grid); !s) return s;
     if (targets_.keeps()) {
         std::vector<TextureId> book;
         for (const char* label :
              {"caustics.incident", "caustics.absorbed", "caustics.reflected", "caustics.lost"})
             book.push_back(targets_.make(label, desc));
         s = beginOnWater(tint, desc.size, shadow, book, true);
-        if (s) s = keepAbsorbed(sheet.grid, book.front());
+        if (s && sheet.grid.sent) s = keepAbsorbed(sheet.grid, book.front());
         if (!s) return s;
     }
     const float reach = light_.lamp.place.w == 0
