@@ -7,6 +7,7 @@
 #include "tests/truth/scenes.h"
 
 #include <functional>
+#include <numeric>
 
 namespace lucent::truth {
 namespace {
@@ -477,6 +478,33 @@ TEST(LightTracer, ThroughGlassAFloorOfTwoPartsIsAsBrightWhereTheyMeet) {
         // Rays count in up to four pixels, so errors of a sum are up to twice as large; areas are known to 2
         // %.
         EXPECT_NEAR(sum, shown, 0.02 * shown + 4 * 2 * std::sqrt(squares)) << column;
+    }
+}
+
+// The sun shines far beneath a black plate that hovers less than a pixel's width over a floor, where the
+// camera sees some of it too: what stands close over a place takes none of its light.
+TEST(LightTracer, ThroughGlassAFloorBeneathAnOverhangIsAsBrightAsElsewhere) {
+    scene::Scene scene = floorUnder(glass(scene::Box{{20, 0.5f, 2}}, 1.5f, {0, 2, 0}), 1);
+    scene.objects[1].visible = true;
+    scene.camera.eye = {-20, 8, 0};
+    scene.camera.up = {0, 1, 0};
+    scene.lights = {scene::DistantLight{.direction = {1, -0.3f, 0}, .irradiance = 2}};
+    scene.objects.push_back(matt(scene::Box{{1, 0.1f, 2}}));
+    scene.objects.back().material.diffuse = vec3(0);
+    const float row = 1 / 16.0f / std::sin(std::atan(0.4f)); // m of the floor
+    for (const float shift : {0.0f, 0.25f, 0.5f, 0.75f}) {
+        scene.objects.back().transform.translate = {0.5f + shift * row, 0.1f, 0}; // 0.05 m over the floor
+        const Picture picture = traced(scene, {16, 16}, {.aov = scene::Aov::Color, .photons = 4'000'000});
+        std::vector<double> rows;
+        for (int y = 0; y < 16; ++y) {
+            rows.push_back(0);
+            for (int x = 0; x < 16; ++x)
+                rows.back() += double(picture.values.at(x, y)[1]) / 16;
+        }
+        const double open = std::accumulate(rows.begin() + 4, rows.end(), 0.0) / 12;
+        for (int y = 0; y < 16; ++y) // of some 600 rays a pixel, which count in their neighbours too
+            EXPECT_TRUE(rows[std::size_t(y)] == 0 || std::abs(rows[std::size_t(y)] / open - 1) < 0.1)
+                << shift << ", row " << y << ": " << rows[std::size_t(y)] / open;
     }
 }
 
