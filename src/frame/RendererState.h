@@ -173,8 +173,8 @@ struct Renderer::State {
     std::optional<views::SurfaceKey> shownKey;       // what shownSurface was drawn for
     std::vector<Stage> stages;
     std::size_t stage = 0;
-    std::vector<views::LampPoint> lights; // of this stage, once
-    bool placedLights = false;            // they are there
+    std::vector<views::LampPoint> lights; // of this stage, where hasLights;
+    bool hasLights = false;               // else of one before
     int placed = 0;                       // so many of them have a place or a direction of their own
     int next = 0;                         // light
     technique::Guest* carrier = nullptr;  // that carried light in this sum

@@ -192,12 +192,12 @@ int Renderer::State::directionsOfSample(const scene::Scene& scene) const {
 
 void Renderer::State::startStage() {
     next = 0;
-    surveyed = placedLights = false;
+    surveyed = hasLights = false;
 }
 
 // The light samples of a stage.
 void Renderer::State::placeLights(const scene::Scene& scene) {
-    placedLights = true;
+    hasLights = true;
     const scene::Scene used = chosen(scene);
     views::Sampling sampling = views::samplingOf(used);
     sampling.directions = stages[stage].directions;
@@ -298,7 +298,7 @@ Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
 Status Renderer::State::slice(const scene::Scene& scene) {
     const double begins = now();
     if (next == 0) sample = stages[stage].sample;
-    if (!placedLights) placeLights(scene);
+    if (!hasLights) placeLights(scene);
     if (rests(0, begins)) return Done{};
     const double beforeWater = now();
     const Result<bool> still = waters.advance(scene);

@@ -238,7 +238,7 @@ graph::TextureHandle ImageCache::texture(const std::shared_ptr<const scene::Text
 
 bool ImageCache::takePart(const scene::Object& object) {
     if (object.isField()) return takePartOf(object.field(), object.material);
-    const bool isMesh = !object.isField() && !object.isDisplaced() && !isPainted(object); // of its own
+    const bool isMesh = !object.isDisplaced() && !isPainted(object); // of its own
     if (isMesh && !meshes_.contains(scene::meshOf(object).get()))
         return mesh(scene::meshOf(object), false).ok();
     if (isPainted(object))
