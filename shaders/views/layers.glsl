@@ -233,6 +233,17 @@ float meetSolid(View view, Ray ray, ivec2 pixel) {
     float width = length(view.right.xyz) * (view.eye.w > 0.5 ? solid.x : 1.0);
     return abs(ray.from.z + t * ray.along.z - solid.x) > kSolidDepth * width ? -1.0 : t;
 }
+
+// Whether what a pixel's plane is met at beside the pixel is there: beside an outline there is nothing of the plane.
+bool isSolidBeside(View view, Ray ray, ivec2 pixel, float t) {
+    ivec2 there = clamp(ivec2(floor(pixelAt(view, ray, t))), ivec2(0), ivec2(view.size) - 1);
+    if (there == pixel) return true;
+    vec4 solid = texelFetch(uSolid, there, 0);
+    vec3 v = ray.origin + t * ray.direction - placeFrom(view, vec2(there) + 0.5, solid.x);
+    float width = length(view.right.xyz) * (view.eye.w > 0.5 ? solid.x : 1.0);
+    float over = dot(v, fromOctahedral(solid.yz));
+    return solid.a > 0.0 && over <= width && over >= -0.1 * width;
+}
 #endif
 
 // What the ray crossed of these objects on the mesh around the pixel that it comes from, whatever planes say: from the
@@ -398,7 +409,8 @@ Crossing march(View view, Ray ray, int inside) {
             pierceCandidates(view, ray, pixel, candidates, inside, nearest);
             meets = nearest.piercing.triangle != kNoTriangle;
 #ifdef USE_SOLID
-            if (there >= max(0.0, t - slack) && there <= end + slack && there < nearest.t) {
+            if (there >= max(0.0, t - slack) && there <= end + slack && there < nearest.t &&
+                isSolidBeside(view, ray, pixel, there)) {
                 crossing = Crossing(kSolid, there, 0, false, vec3(0.0), pixel);
                 goesOn = meets = false;
                 break;
