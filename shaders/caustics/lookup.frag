@@ -7,8 +7,9 @@
 //       uPlaces  OF_PLACES: world places of the pixels, of what is unfolded
 //       uBefore  USE_BEFORE: the sum so far
 // out   oSum.rgb [W/m²]
-// model mean flux of the texels that the pixel covers, each by how much of it, over the area that a texel covers on the
-//       surface: a focus may be smaller than a pixel. Where a pixel is smaller than a texel that is bilinear
+// model mean flux of the texels that a sample of the pixel covers, each by how much of it, over the area that a texel
+//       covers on the surface: a focus may be smaller than a pixel. Where the sample's part of a pixel is smaller than a
+//       texel that is bilinear
 // not   light on the side that is turned away from the lamp
 #pragma variants - PARABOLOIDS ONE_VIEW
 #pragma variants - USE_BEFORE
@@ -21,6 +22,7 @@ layout(std140) uniform LookupBlock {
     int faceCount;
     float unit; // [W] that the map counts as 1
     float extent; // OF_PLACES: [m] that a pixel covers along a side
+    float part;   // of a pixel's side that one of its samples covers
 } light;
 #include "lib/octahedral.glsl"
 #ifdef FROM_SOLID
@@ -139,7 +141,8 @@ vec3 irradianceAt(vec3 place, vec3 normal) {
 
     float margin = texelWidth(face, middle, v) * (kMargin + kSteepMargin * sqrt(1.0 - cosine * cosine) / max(cosine, 1e-6));
     ivec2 corner = ivec2(number % 3, number / 3) * ivec2(face.size);
-    Patch patch_ = patchOf(acrossMap(number, place, normal, vec2(0.5, 0.0)), acrossMap(number, place, normal, vec2(0.0, 0.5)));
+    float half_ = 0.5 * light.part;
+    Patch patch_ = patchOf(acrossMap(number, place, normal, vec2(half_, 0.0)), acrossMap(number, place, normal, vec2(0.0, half_)));
     vec2 across = vec2(-patch_.along.y, patch_.along.x);
     vec2 most = 0.5 * (patch_.size + 1.0); // from the middle of a texel that it touches
     vec2 reach = most.x * abs(patch_.along) + most.y * abs(across);

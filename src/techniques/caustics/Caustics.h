@@ -44,6 +44,7 @@ struct Inputs {
     views::Drawables solids;   ///< opaque objects and mirrors, hidden or not
     graph::TextureId surface;  ///< views.surface; none: nothing is looked up
     ivec2 size;                ///< of the camera's picture
+    int samples = 1;           ///< of each of its pixels, of which this is one
     graph::TextureId solid{};  ///< record() makes it, where there are height fields
     graph::TextureId places{}; ///< views::LitView::places
     float extent = 0;          ///< and extent

@@ -1,6 +1,7 @@
 #include "techniques/caustics/LightPasses.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lucent::caustics {
 
@@ -240,7 +241,8 @@ Status LightPasses::lookUp(const Map& from, TextureId& sum) {
                                 .faces = views::facesOf(mapViews()),
                                 .faceCount = int(mapViews().faces.size()),
                                 .unit = unit(),
-                                .extent = in_.extent};
+                                .extent = in_.extent,
+                                .part = 1 / std::sqrt(float(in_.samples))};
         return [=, program = looking, places = in_.places](const graph::Resources& resources,
                                                            graph::Commands& commands) {
             std::vector<graph::Binding> textures{{name, resources[pixels]},

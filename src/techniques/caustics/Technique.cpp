@@ -195,12 +195,15 @@ private:
     }
 
     static Inputs inputs(const technique::Passes& passes, TextureId surface) {
-        return {.scene = passes.picture.scene,
+        const scene::Scene& scene = passes.picture.scene;
+        const bool isMean = scene.view.show == Aov::Color;
+        return {.scene = scene,
                 .eye = passes.picture.eye,
-                .glass = refractive(changingLight(passes.picture.scene, passes.posed)),
+                .glass = refractive(changingLight(scene, passes.posed)),
                 .solids = opaque(passes.posed),
                 .surface = surface,
-                .size = passes.picture.size};
+                .size = passes.picture.size,
+                .samples = isMean ? views::samplingOf(scene).pixelSamples : 1};
     }
 
     technique::Store store_;
