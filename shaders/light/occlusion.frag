@@ -6,9 +6,12 @@
 // out   oOcclusion  1 - visibility, in one channel; added to what the others hold
 //
 // OF_FIELD: of one height field, whose shadow on itself is left to whoever walks through it: the plane that its point is
-// compared by faces the light. Else of all other shapes.
+// compared by faces the light. Else of all other shapes. OVER_WATER, BELOW_WATER: of light by way of a sheet of water, where
+// it reaches a place so: before it enters, and from there on.
 #pragma variants - OF_FIELD OF_PLACES
+#pragma variants - OVER_WATER BELOW_WATER
 #include "views/view.glsl"
+#include "light/flat_water.glsl"
 layout(std140) uniform OcclusionBlock {
     View view;
     View faces[6];
@@ -20,6 +23,7 @@ layout(std140) uniform OcclusionBlock {
     float texelSize;
     int object;
     int faceCount;
+    FlatWater water;      // OVER_WATER, BELOW_WATER
 } light;
 #include "lib/octahedral.glsl"
 #include "views/surface_pixel.glsl"
@@ -36,7 +40,7 @@ void main() {
     if (pixel.object != light.object) discard;
     vec2 p = (pixel.g - 0.5 - 0.5 * light.texels) * light.texelSize;
     vec3 place = (light.worldFromObject * vec4(p.x, -p.y, pixel.z, 1.0)).xyz;
-    vec3 normal = normalize(light.source.xyz - (light.source.w == 0.0 ? vec3(0.0) : place));
+    vec3 normal = vec3(0.0);
 #else
     if (pixel.face != kMeshFace) discard;
 #ifdef OF_PLACES
@@ -45,8 +49,25 @@ void main() {
     vec3 place = light.view.eye.xyz + placeFrom(light.view, at, pixel.z);
 #endif
     vec3 normal = fromOctahedral(pixel.g);
+#endif
     vec3 toLight = light.source.xyz - (light.source.w == 0.0 ? vec3(0.0) : place);
+#if defined(OVER_WATER) || defined(BELOW_WATER)
+    vec3 entry, bent;
+    bool enters = entersWater(light.water, place, light.source.xyz, entry, bent);
+    if (enters) toLight = bent;
+#endif
+#ifdef BELOW_WATER
+    if (!enters) discard;
+#endif
+#ifdef OF_FIELD
+    normal = normalize(toLight);
+#endif
     if (dot(normal, toLight) <= 0.0) discard; // faces away
+#ifdef OVER_WATER
+    if (enters) {
+        place = entry;
+        normal = light.water.up.xyz;
+    }
 #endif
     oOcclusion = (1.0 - lightReaching(place, normal)) * light.channel;
 }

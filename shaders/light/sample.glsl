@@ -3,13 +3,16 @@
 // in    uLights   128 samples a row, five texels each:
 //                 world position, 1; or unit direction to the light, 0
 //                 centre of the lamp [m] | 1: its light falls off with the square of the distance
-//                 irradiance on what faces it [W/m²], or that at 1 m | exponent of the cone
+//                 irradiance on what faces it [W/m²], or that at 1 m | exponent of the cone; of a direction: where the
+//                 water begins that it comes through, 0: none
 //                 unit direction of the cone's axis | share in means over the light
 //                 scale and offset of the cosine to the axis | extent; of a place: where its picture begins, 0: none | part
 //           and pictures behind them, each with two texels before it: to its right edge, and its width; to its upper edge,
-//           and its height (scene::PictureFrame)
+//           and its height (scene::PictureFrame); and a sheet of water, texel by texel a FlatWater
 // model the disc of a lamp faces what it lights, so each of its samples counts as the one beside the lamp's middle that is
 //       seen in its place
+#include "lib/fresnel.glsl"
+#include "light/flat_water.glsl"
 uniform sampler2D uLights;
 
 struct LightSample {
@@ -44,13 +47,34 @@ vec3 projectedBy(int picture, vec3 axis, vec3 direction) {
                part.y);
 }
 
+// The same light where it comes by way of a sheet of water, if it does: a beam of it is as wide on the surface beneath as
+// above, and narrower or wider across.
+void passWater(int first, vec3 place, inout LightSample light) {
+    FlatWater water = FlatWater(lightTexel(first), lightTexel(first + 1), lightTexel(first + 2), lightTexel(first + 3),
+                                lightTexel(first + 4));
+    vec3 entry, bent;
+    if (entersWater(water, place, light.toLight, entry, bent)) {
+        float cosine = dot(light.toLight, water.up.xyz);
+        float passed = water.absorption.a * cosine / dot(bent, water.up.xyz);
+        if (water.up.w > 0.5) passed *= 1.0 - fresnelReflectance(cosine, 1.0 / water.middle.w);
+        light.irradiance *= passed * exp(-water.absorption.rgb * distance(place, entry));
+        light.toLight = bent;
+    } else if (crossesWater(water, place, light.toLight)) {
+        light.irradiance = vec3(0.0);
+    }
+}
+
 LightSample lightSampleAt(int index, vec3 place) {
     ivec2 at = ivec2(5 * (index % 128), index / 128);
     vec4 source = texelFetch(uLights, at, 0);
     vec4 color = texelFetch(uLights, at + ivec2(2, 0), 0);
     vec4 axis = texelFetch(uLights, at + ivec2(3, 0), 0);
     vec4 cone = texelFetch(uLights, at + ivec2(4, 0), 0);
-    if (source.w == 0.0) return LightSample(source.xyz, 1e30, color.rgb, axis.w, cone.z, cone.w);
+    if (source.w == 0.0) {
+        LightSample light = LightSample(source.xyz, 1e30, color.rgb, axis.w, cone.z, cone.w);
+        if (color.a > 0.0) passWater(int(color.a), place, light);
+        return light;
+    }
     vec4 centre = texelFetch(uLights, at + ivec2(1, 0), 0);
     vec3 way = centre.xyz - place;
     vec3 towards = way / max(length(way), 1e-30);

@@ -3,10 +3,12 @@
 // in    uFirst  BEHIND: depths of the nearest ones; what is drawn are the nearest behind those that face the light, or
 //               BACK: that are turned away from it, at which solid things end
 //       uColor  HOLES: views/holes.glsl
+//       CUT: without what the view's plane cuts off
 // out   oDepth  [m]  along the view's forward: evenly spaced, which a depth buffer of a perspective view is not
 #pragma variants - BEHIND
 #pragma variants - BACK if BEHIND
 #pragma variants - HOLES
+#pragma variants - CUT unless BEHIND
 #include "views/mesh_block.glsl"
 #ifdef HOLES
 #include "views/holes.glsl"
@@ -19,6 +21,9 @@ const float kSame = 1e-5; // of a depth: what rounding may part
 #endif
 
 void main() {
+#ifdef CUT
+    if (isCut(mesh.view, placeFrom(mesh.view, gl_FragCoord.xy, vDepth))) discard;
+#endif
 #ifdef HOLES
     if (isHole(vDepth)) discard;
 #endif

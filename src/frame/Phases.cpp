@@ -1,6 +1,7 @@
 // One picture's passes: what the guests draw, phase by phase.
 #include "frame/RendererState.h"
 
+#include "light/FlatWater.h"
 #include "shaders/frame/Blocks.h"
 #include "views/Surface.h"
 
@@ -107,6 +108,18 @@ Result<bool> Renderer::State::prepare(const Picture& picture) {
     return true;
 }
 
+// Whether guests carry the environment's light past what bends it.
+bool Renderer::State::carriesEnvironment(const scene::Scene& scene) const {
+    const std::vector<Guest*> guests = needed(scene);
+    return std::any_of(guests.begin(), guests.end(),
+                       [&](const Guest* guest) { return guest->carriesEnvironment(scene); });
+}
+
+// The water that bends it else.
+std::optional<light::FlatWaterBlock> Renderer::State::bendingWater(const scene::Scene& scene) const {
+    return carriesEnvironment(scene) ? std::nullopt : views::flatWater(scene);
+}
+
 // Triangles stay where they are while their objects do, for the last phases: rays are traced there.
 Result<views::Drawables> Renderer::State::poseKeeping(graph::FrameGraph& graph, const Picture& picture) {
     std::vector<views::ObjectKey> standing;
@@ -158,9 +171,6 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
         flux = *carried;
         carrier = guest;
     }
-    const bool carriesEnvironment = std::any_of(guests.begin(), guests.end(), [&](const Guest* guest) {
-        return guest->carriesEnvironment(picture.scene);
-    });
     views::Bounds beside;
     for (const Guest* guest : shading)
         beside.add(guest->lit(picture));
@@ -168,8 +178,9 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
                          .size = size,
                          .surface = passes.surface,
                          .drawables = changingLight(picture.scene, passes.posed),
+                         .water = bendingWater(picture.scene),
                          .shadowSize = views::samplingOf(picture.scene).shadowSize,
-                         .carriesEnvironment = carriesEnvironment,
+                         .carriesEnvironment = carriesEnvironment(picture.scene),
                          .beside = beside,
                          .allAround = allAround,
                          .kept = repeats(picture.scene) ? &shadows : nullptr,

@@ -261,6 +261,8 @@ struct Renderer::State {
     std::vector<technique::Guest*> needed(const scene::Scene& scene) const;
     technique::Guest* replacing(const technique::Picture& picture) const;
     bool replaces(const technique::Picture& picture) const;
+    bool carriesEnvironment(const scene::Scene& scene) const;
+    std::optional<light::FlatWaterBlock> bendingWater(const scene::Scene& scene) const;
     Result<bool> prepare(const technique::Picture& picture);
     Status recordSlice(graph::FrameGraph& graph, const technique::Picture& picture, int end);
     Status recordLight(const technique::Passes& passes, graph::TextureId target, int end);

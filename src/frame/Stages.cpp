@@ -206,7 +206,7 @@ void Renderer::State::placeLights(const scene::Scene& scene) {
                                  varies ? pixelSamples(used) : 1);
     placed = int(std::count_if(lights.begin(), lights.end(),
                                [](const views::LampPoint& light) { return !light.isEnvironment; }));
-    const Image table = views::sampleTable(lights);
+    const Image table = views::sampleTable(lights, bendingWater(used));
     const TextureDesc desc{.size = table.size(), .format = Format::RGBA32F};
     if (!lightTable || lightTable.desc() != desc)
         lightTable = graph::Texture(context.device(), desc, "light.samples");

@@ -1,5 +1,6 @@
 #include "light/Occlusion.h"
 
+#include "light/FlatWater.h"
 #include "shaders/light/Blocks.h"
 #include "views/Fields.h"
 
@@ -62,12 +63,13 @@ struct Target {
     TextureId places{};      // as LitView's
 };
 
-light::OcclusionBlock blockOf(const Target& target, const LampPoint& sample, const ShadowViews& views,
+light::OcclusionBlock blockOf(const Target& target, const LampPoint& sample, const Shadow& shadow,
                               ivec2 corner, int channel, float share) {
     light::OcclusionBlock block{.view = viewBlock(target.eye, target.size),
-                                .faces = facesOf(views),
+                                .faces = facesOf(shadow.views),
                                 .source = sample.place,
-                                .faceCount = int(views.faces.size())};
+                                .faceCount = int(shadow.views.faces.size()),
+                                .water = shadow.water};
     block.channel[channel] = share;
     block.corner = vec2(corner);
     if (!target.field) return block;
@@ -92,6 +94,8 @@ Status add(graph::FrameGraph& graph, gl::Context& context, const Target& target,
     std::vector<std::string> defines;
     if (target.field) defines.push_back("OF_FIELD");
     if (target.places) defines.push_back("OF_PLACES");
+    if (shadow.way == Way::OverWater) defines.push_back("OVER_WATER");
+    if (shadow.way == Way::BelowWater) defines.push_back("BELOW_WATER");
     const gl::Program* program = context.program("light/occlusion", defines);
     const int copy = int(number) / kSamplesPerTexel, copies = copiesOf(samples), columns = occlusion.columns;
     const ivec2 corner = ivec2(copy % columns, copy / columns) * target.size;
@@ -109,7 +113,7 @@ Status add(graph::FrameGraph& graph, gl::Context& context, const Target& target,
         if (isFirst) pass.clear(occlusion.texture, vec4(0));
         return [surface = target.surface, places = target.places, map = shadow.map, program,
                 region = ivec4(corner, target.size),
-                block = blockOf(target, sample, shadow.views, corner, int(number) % kSamplesPerTexel, share)](
+                block = blockOf(target, sample, shadow, corner, int(number) % kSamplesPerTexel, share)](
                    const graph::Resources& resources, graph::Commands& commands) {
             std::vector<graph::Binding> textures{{"uSurface", resources[surface]},
                                                  {"uShadow", resources[map]}};
@@ -143,6 +147,36 @@ int thresholdsFor(const LampPoint& sample, const Drawables& casters) {
     return isAlone && std::any_of(casters.begin(), casters.end(), isBlended) ? kThresholds : 1;
 }
 
+// A shadow without its map, and around what may lie in it.
+struct Casting {
+    Shadow shadow;
+    Bounds receivers;
+};
+// What a sample sees of what stands in its way: straight on; or where water bends it, over the water and
+// beside that, and from where it entered on.
+std::vector<Casting> castingsOf(const Lit& in, const LampPoint& sample, const Bounds& casters,
+                                const Bounds& receivers) {
+    const int size = shadowSizeFor(sample, in.shadowSize);
+    const auto casting = [&](const ShadowSource& source, const Bounds& reached) {
+        return Casting{{shadowViews(source, casters, reached, size)}, reached};
+    };
+    const vec3 toLight(sample.place);
+    if (!sample.isEnvironment || !in.water || glm::dot(toLight, vec3(in.water->up)) <= 0)
+        return {casting(sample.source, receivers)};
+    Bounds over = surfaceOf(*in.water);
+    over.add(receivers);
+    const vec3 up(in.water->up), bent = bentBy(*in.water, toLight);
+    std::vector<Casting> both{casting(sample.source, over),
+                              casting({.place = vec4(bent, 0)}, reachedBelow(*in.water, bent, receivers))};
+    for (Casting& one : both)
+        one.shadow.water = *in.water;
+    both[0].shadow.way = Way::OverWater;
+    both[1].shadow.way = Way::BelowWater;
+    for (Eye& face : both[1].shadow.views.faces)
+        face.cut = vec4(-up, glm::dot(up, vec3(in.water->middle)));
+    return both;
+}
+
 // The same views with thresholds beside those of other samples, of the same one and of the same pixel.
 void setThreshold(ShadowViews& views, const Lit& in, const Drawables& casters, std::size_t number, int i,
                   int of) {
@@ -166,36 +200,39 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
             const LampPoint& sample = samples[i];
             const bool passes = sample.isEnvironment && !in.carriesEnvironment;
             const Drawables casters = passes ? opaque(group.casters) : group.casters;
-            Shadow shadow{shadowViews(sample.source, boundsOfAll(casters), group.bounds,
-                                      shadowSizeFor(sample, in.shadowSize)),
-                          {}};
-            const int thresholds = shadow.views.faces.empty() ? 0 : thresholdsFor(sample, casters);
-            for (int threshold = 0; threshold < thresholds; ++threshold) {
-                setThreshold(shadow.views, in, casters, i, threshold, thresholds);
-                KeptShadows* const kept = sample.isPart && !in.keepsParts ? nullptr : in.kept;
-                Result<TextureId> map = shadowOf(graph, context, kept, shadow.views, casters, group.bounds);
-                if (!map) return map.error();
-                shadow.map = *map;
-                const Target target{in.eye, in.size, in.surface, group.field};
-                if (Status s = add(graph, context, target, sample, shadow, i, samples.size(), occlusion,
-                                   1 / float(thresholds));
-                    !s)
-                    return s.error();
+            std::vector<Shadow> shadows;
+            for (auto& [shadow, receivers] : castingsOf(in, sample, boundsOfAll(casters), group.bounds)) {
+                const int thresholds = shadow.views.faces.empty() ? 0 : thresholdsFor(sample, casters);
+                for (int threshold = 0; threshold < thresholds; ++threshold) {
+                    setThreshold(shadow.views, in, casters, i, threshold, thresholds);
+                    KeptShadows* const kept = sample.isPart && !in.keepsParts ? nullptr : in.kept;
+                    Result<TextureId> map = shadowOf(graph, context, kept, shadow.views, casters, receivers);
+                    if (!map) return map.error();
+                    shadow.map = *map;
+                    const Target target{in.eye, in.size, in.surface, group.field};
+                    if (Status s = add(graph, context, target, sample, shadow, i, samples.size(), occlusion,
+                                       1 / float(thresholds));
+                        !s)
+                        return s.error();
+                }
+                shadows.push_back(std::move(shadow));
             }
-            if (!group.field) occlusion.shadows.push_back(std::move(shadow));
+            if (!group.field) occlusion.shadows.push_back(std::move(shadows));
         }
     return occlusion;
 }
 
 Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const LitView& view,
-                                  std::span<const LampPoint> samples, std::span<const Shadow> shadows) {
+                                  std::span<const LampPoint> samples,
+                                  std::span<const std::vector<Shadow>> shadows) {
     Occlusion occlusion = emptyFor(context, view.size, samples.size());
     const Target target{view.eye, view.size, view.surface, nullptr, view.places};
     for (std::size_t i = 0; i < samples.size(); ++i)
-        if (shadows[i].map)
-            if (Status s = add(graph, context, target, samples[i], shadows[i], i, samples.size(), occlusion);
-                !s)
-                return s.error();
+        for (const Shadow& shadow : shadows[i])
+            if (shadow.map)
+                if (Status s = add(graph, context, target, samples[i], shadow, i, samples.size(), occlusion);
+                    !s)
+                    return s.error();
     return occlusion;
 }
 

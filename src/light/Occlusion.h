@@ -17,25 +17,31 @@ struct Lit {
     /// All that stands in the way of light, hidden or not; what is visible and opaque is lit. What lamps send
     /// through what bends light is light of caustics; light of an environment passes straight on.
     Drawables drawables;
-    int shadowSize;                  ///< texels a side of a lamp's shadow view
-    bool carriesEnvironment = false; ///< unless caustics hold that as well
-    Bounds beside{};                 ///< box around what else the shadows on meshes shall reach
-    bool allAround = false;          ///< shadows reach what the view does not show, too
-    KeptShadows* kept = nullptr;     ///< null: no picture that follows needs them
+    std::optional<light::FlatWaterBlock> water{}; ///< but for this, which bends it; none: no water does
+    int shadowSize;                               ///< texels a side of a lamp's shadow view
+    bool carriesEnvironment = false;              ///< unless caustics hold that as well
+    Bounds beside{};                              ///< box around what else the shadows on meshes shall reach
+    bool allAround = false;                       ///< shadows reach what the view does not show, too
+    KeptShadows* kept = nullptr;                  ///< null: no picture that follows needs them
     bool keepsParts = true; ///< those of lamps with a size and of environments, too: they stay the same
 };
+
+/// The part of its way on which something may keep a light sample from places.
+enum class Way : int { Straight, OverWater, BelowWater };
 
 /// What a light sample sees of all that stands in its way.
 struct Shadow {
     ShadowViews views;
-    graph::TextureId map; ///< none: nothing does
+    graph::TextureId map{}; ///< none: nothing does
+    Way way = Way::Straight;
+    light::FlatWaterBlock water{}; ///< of ways that are not
 };
 
 /// 1 - visibility of some samples at each pixel; see shaders/light/occlusion.glsl.
 struct Occlusion {
     graph::TextureId texture; ///< none: nothing stands in the way of any
     int columns = 1;
-    std::vector<Shadow> shadows{}; ///< of each sample, on all but height fields
+    std::vector<std::vector<Shadow>> shadows{}; ///< of each sample, on all but height fields
 };
 
 /// Samples that one recordOcclusion() can take.
@@ -64,6 +70,7 @@ struct LitView {
 ///
 /// @param shadows  of the samples
 Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const LitView& view,
-                                  std::span<const LampPoint> samples, std::span<const Shadow> shadows);
+                                  std::span<const LampPoint> samples,
+                                  std::span<const std::vector<Shadow>> shadows);
 
 } // namespace lucent::views

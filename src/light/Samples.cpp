@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 namespace lucent::views {
@@ -268,7 +269,7 @@ std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& s
     return lights;
 }
 
-Image sampleTable(const std::vector<LampPoint>& samples) {
+Image sampleTable(const std::vector<LampPoint>& samples, const std::optional<light::FlatWaterBlock>& water) {
     constexpr std::size_t kTexels = 5, kSamplesPerRow = 128, kPerRow = kTexels * kSamplesPerRow;
     std::size_t end =
         std::max<std::size_t>(1, (samples.size() + kSamplesPerRow - 1) / kSamplesPerRow) * kPerRow;
@@ -277,6 +278,8 @@ Image sampleTable(const std::vector<LampPoint>& samples) {
         pictures.push_back(sample.picture ? end : 0);
         if (sample.picture) end += 2 + sample.picture->pixels.size() / 3;
     }
+    const std::size_t waterAt = water ? end : 0;
+    if (water) end += sizeof(*water) / sizeof(vec4);
     Image table(int(kPerRow), int((end + kPerRow - 1) / kPerRow), 4);
     float* texel = table.pixels.data();
     const auto write = [&](const vec4& value) {
@@ -287,7 +290,9 @@ Image sampleTable(const std::vector<LampPoint>& samples) {
         const LampPoint& sample = samples[i];
         write(sample.place);
         write(vec4(sample.centre, sample.fades ? 1 : 0));
-        write(vec4(sample.color, sample.exponent));
+        write(vec4(sample.color, sample.isEnvironment  ? float(waterAt)
+                                 : sample.place.w == 0 ? 0
+                                                       : sample.exponent));
         write(vec4(sample.axis, sample.weight));
         write(vec4(sample.cone, sample.picture ? float(pictures[i]) : sample.extent, sample.part));
     }
@@ -300,6 +305,7 @@ Image sampleTable(const std::vector<LampPoint>& samples) {
         for (std::size_t at = 0; at < picture.pixels.size(); at += 3)
             write(vec4(picture.pixels[at], picture.pixels[at + 1], picture.pixels[at + 2], 1));
     }
+    if (water) std::memcpy(table.pixels.data() + 4 * waterAt, &*water, sizeof(*water));
     return table;
 }
 

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace lucent::views {
@@ -105,6 +106,9 @@ std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& s
                                     int samples = 1);
 
 /// The samples as shaders read them, and behind them the pictures that they project, RGBA32F.
-Image sampleTable(const std::vector<LampPoint>& samples);
+///
+/// @param water  by way of which an environment lights what lies beneath; nothing: it passes straight on
+Image sampleTable(const std::vector<LampPoint>& samples,
+                  const std::optional<light::FlatWaterBlock>& water = {});
 
 } // namespace lucent::views

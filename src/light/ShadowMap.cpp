@@ -191,7 +191,8 @@ Result<graph::TextureId> recordShadow(graph::FrameGraph& graph, gl::Context& con
                          std::to_string(imageSize.y) + " texels; must be at most " + std::to_string(most) +
                          " a side on this GPU",
                      Fault::Machine};
-    const std::vector<std::string> defines(first ? 1 : 0, "BEHIND");
+    std::vector<std::string> defines(first ? 1 : 0, "BEHIND");
+    if (!views.faces.empty() && views.faces.front().isCut()) defines.push_back("CUT");
     std::vector<Bounds> bounds;
     for (const auto& caster : casters)
         bounds.push_back(caster->bounds());

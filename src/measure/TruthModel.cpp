@@ -13,8 +13,11 @@ std::optional<std::string> causticOf(const scene::Scene& scene) {
     const auto& objects = scene.objects;
     const auto thrower = std::find_if(objects.begin(), objects.end(), bends);
     const auto receiver = std::find_if_not(objects.begin(), objects.end(), bends);
+    const bool hasWater = std::any_of(objects.begin(), objects.end(), [](const scene::Object& one) {
+        return std::holds_alternative<scene::Water>(one.shape); // which bends all light
+    });
     const bool isLit = !scene.lights.empty() || (scene.environment && scene.environment->enabled &&
-                                                 technique::modelOf(scene).environmentCaustics);
+                                                 (hasWater || technique::modelOf(scene).environmentCaustics));
     if (!isLit || thrower == objects.end() || receiver == objects.end()) return std::nullopt;
     return "object \"" + thrower->name + "\" casts a caustic on \"" + receiver->name + "\"";
 }

@@ -3,10 +3,13 @@
 #include "technique/Technique.h"
 #include "tests/support/Fields.h"
 #include "tests/support/Gl.h"
+#include "tests/truth/scenes.h"
 #include "truth/Glass.h"
+#include "truth/LightTracer.h"
 #include "truth/Picture.h"
 
 #include <atomic>
+#include <functional>
 
 namespace lucent::frame {
 namespace {
@@ -18,6 +21,25 @@ scene::Object boxAt(vec3 place) {
     box.material.diffuse = {0.7f, 0.4f, 0.2f};
     box.transform.translate = place;
     return box;
+}
+
+// Half the summed absolute difference over the light there is.
+double misplaced(const Image& found, const Image& wanted) {
+    double apart = 0, all = 0;
+    for (std::size_t i = 0; i < wanted.pixels.size(); ++i) {
+        if (i % 4 == 3) continue;
+        apart += std::abs(double(found.pixels[i]) - double(wanted.pixels[i])) / 2;
+        all += double(wanted.pixels[i]);
+    }
+    return apart / all;
+}
+
+std::shared_ptr<const Image> skyOf(const std::function<float(ivec2)>& radiance) {
+    auto map = std::make_shared<Image>(64, 32, 3);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x)
+            std::fill_n(map->at(x, y), 3, radiance({x, y}));
+    return map;
 }
 
 struct OneLight : support::GlTest {
@@ -49,16 +71,6 @@ struct OneLight : support::GlTest {
         const auto exact =
             truth::GlassEstimator::create(scene, scene.size, scene::Aov::Color, {.samples = samples});
         return truth::render(*exact, scene.size, {}, {}, goOn)->values;
-    }
-    // Half the summed absolute difference over the light there is.
-    static double misplaced(const Image& found, const Image& wanted) {
-        double apart = 0, all = 0;
-        for (std::size_t i = 0; i < wanted.pixels.size(); ++i) {
-            if (i % 4 == 3) continue;
-            apart += std::abs(double(found.pixels[i]) - double(wanted.pixels[i])) / 2;
-            all += double(wanted.pixels[i]);
-        }
-        return apart / all;
     }
 };
 
@@ -110,11 +122,8 @@ TEST_F(OneLight, EveryLampLightsAReliefAFloorAndABoxBehindEachOther) {
 
 TEST_F(OneLight, AnEnvironmentIsOccludedByEverything) {
     scene.environment.emplace();
-    auto map = std::make_shared<Image>(64, 32, 3);
-    for (int y = 0; y < 32; ++y)
-        for (int x = 0; x < 64; ++x)
-            std::fill_n(map->at(x, y), 3, y < 16 && x > 40 && x < 50 ? 4.0f : 0.5f);
-    scene.environment->map = map;
+    scene.environment->map =
+        skyOf([](ivec2 at) { return at.y < 16 && at.x > 40 && at.x < 50 ? 4.0f : 0.5f; });
     const double apart = misplaced(picture(), truth(2048));
     EXPECT_LT(apart, 0.01);
     std::printf("environment: %.2f %% of the light misplaced\n", 100 * apart);
@@ -199,6 +208,100 @@ TEST_F(OneLight, ShadowViewsAndCausticMapsAreDrawnOnceForAllSamplesOfThePixels) 
     scene.objects.back().material.kind = scene::Clear{};
     const int withGlass = passes(1);
     EXPECT_LT(passes(3), 2 * withGlass); // most of the first one's are the caustic's
+}
+
+// --- the sky by way of water
+
+struct SkyOverWater : support::GlTest {
+    static constexpr float kIor = 1.33f, kDepth = 0.5f, kAbsorption = 0.8f;
+    // A floor under water that lies still and is not seen, seen from above.
+    scene::Scene scene;
+    SkyOverWater() {
+        scene = test::sceneOf({test::matt(scene::Plane{{40, 40}}),
+                               test::glass(scene::Water{.size = {20, 20}}, kIor, {0, kDepth, 0})});
+        scene.objects[1].visible = false;
+        scene.objects[1].material.clear().absorption = vec3(kAbsorption);
+        scene.size = {64, 64};
+        scene.camera.eye = {0, 20, 0};
+        scene.camera.up = {0, 0, -1};
+        scene.camera.height = 1;
+        scene.lights.clear();
+        scene.environment.emplace();
+        scene.environment->map = skyOf([](ivec2) { return 1.0f; });
+        technique::addSettings(scene);
+        views::samplingOf(scene).directions = 4096;
+        views::samplingOf(scene).pixelSamples = 1;
+        scene.view.show = scene::Aov::Irradiance;
+    }
+    Image picture() {
+        Renderer renderer(*context);
+        const Status finished = renderer.finish(scene, 1, scene.size);
+        EXPECT_TRUE(finished.ok()) << finished.error().message;
+        return *renderer.read(scene, scene.view.show);
+    }
+    // On a horizontal surface under an even sky of radiance 1 and so much water, W/m²; what it lets in of it,
+    // where it has an index of refraction.
+    static double under(double depth, double surfaceIor = 1) {
+        constexpr int kSteps = 4096;
+        double sum = 0;
+        for (int i = 0; i < kSteps; ++i) {
+            const double angle = (i + 0.5) / kSteps * double(kPi) / 2;
+            const double bent = depth > 0 ? std::asin(std::sin(angle) / double(kIor)) : angle;
+            const double passed = depth > 0 ? (1 - test::fresnel(angle, 1 / double(kIor))) *
+                                                  std::exp(-double(kAbsorption) * depth / std::cos(bent))
+                                            : 1;
+            const double let = surfaceIor > 1 ? 1 - test::fresnel(bent, 1 / surfaceIor) : 1;
+            sum += passed * let * std::sin(angle) * std::cos(angle);
+        }
+        return 2 * double(kPi) * sum * double(kPi) / 2 / kSteps;
+    }
+};
+
+TEST_F(SkyOverWater, AnEvenSkyLightsTheFloorByWhatTheSurfaceLetsInAndTheWaterLeaves) {
+    const Image light = picture();
+    const double wanted = under(double(kDepth));
+    for (int i = 0; i < 64 * 64; ++i)
+        ASSERT_NEAR(light.pixels[4 * std::size_t(i) + 1], wanted, 0.002 * wanted) << i;
+}
+
+TEST_F(SkyOverWater, WhatStandsOverItBesideItAndInItHidesWhatItHides) {
+    // A basin whose walls rise above the water, a block on its floor, and a lid over a part of it.
+    std::get<scene::Water>(scene.objects[1].shape).size = {1.2f, 1};
+    scene.camera.height = 2;
+    const std::pair<vec3, vec3> boxes[] = {
+        {{0.4f, 0.6f, 2}, {-0.8f, 0.3f, 0}},       {{0.4f, 0.6f, 2}, {0.8f, 0.3f, 0}},
+        {{2, 0.6f, 0.4f}, {0, 0.3f, -0.7f}},       {{2, 0.6f, 0.4f}, {0, 0.3f, 0.7f}},
+        {{0.25f, 0.2f, 0.3f}, {0.2f, 0.1f, 0.1f}}, {{0.5f, 0.02f, 0.5f}, {-0.3f, 0.8f, -0.2f}}};
+    for (const auto& [size, place] : boxes)
+        scene.objects.push_back(test::matt(scene::Box{size}, place));
+    scene.objects.back().visible = false; // the lid
+    scene.environment->map = skyOf([](ivec2 at) { return at.x > 24 && at.x < 40 ? 3.0f : 0.5f; });
+    const std::atomic<bool> goOn = false;
+    const Image truth =
+        truth::traceLight(scene, scene.size, {.photons = 4000000, .samples = 1024}, {}, {}, goOn)->values;
+    const double apart = misplaced(picture(), truth);
+    EXPECT_LT(apart, 0.02);
+    std::printf("sky over water: %.2f %% of the light misplaced\n", 100 * apart);
+}
+
+TEST_F(SkyOverWater, WhatScattersLightInItHasTheSameLight) {
+    scene.view.show = scene::Aov::Radiosity; // without what its surface mirrors of the sky
+    scene.size = {32, 32};
+    views::samplingOf(scene).directions = 64;
+    for (const bool precomputed : {false, true}) {
+        scene::Object slab = test::matt(scene::Box{{0.8f, 0.2f, 0.8f}}, {0, 0.1f, 0});
+        slab.material.kind = scene::Translucent{.precomputed = precomputed};
+        const double ior = double(slab.material.translucent().surfaceIor());
+        const scene::Scene empty = scene;
+        scene.objects.push_back(slab);
+        const Image wet = picture();
+        scene.objects.erase(scene.objects.begin() + 1);
+        const Image dry = picture();
+        scene = empty;
+        const double wanted = under(double(kDepth) - 0.2, ior) / under(0, ior);
+        // A hundredth: so few directions.
+        EXPECT_NEAR(double(wet.at(16, 16)[1] / dry.at(16, 16)[1]), wanted, 0.01 * wanted) << precomputed;
+    }
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "technique/Technique.h"
 
+#include "light/FlatWater.h"
 #include "technique/Guest.h"
 #include "techniques/caustics/Caustics.h"
 #include "techniques/caustics/MapView.h"
@@ -251,6 +252,16 @@ bool hasDisplacedMirror(const scene::Scene& scene) {
 bool scatters(const scene::Scene& scene) {
     return any(scene, [](const scene::Material& material) { return material.isScattering(); });
 }
+bool leavesEnvironment(const scene::Scene& scene) {
+    return views::hasEnvironment(scene) && !carriesEnvironment(scene) && Caustics::bends(scene);
+}
+bool bendsBesideWater(const scene::Scene& scene) {
+    const auto bending =
+        std::count_if(scene.objects.begin(), scene.objects.end(), [](const scene::Object& object) {
+            return !object.isField() && (object.material.isRefractive() || object.material.isMirror());
+        });
+    return bending > (views::flatWater(scene) ? 1 : 0);
+}
 const technique::NotDrawn kLimits[] = {
     {"caustics by reflection on glass and water", "their light is followed through, not back", hasGlass},
     {"caustics by way of a mirror and then glass, or of displaced mirrors twice",
@@ -261,9 +272,13 @@ const technique::NotDrawn kLimits[] = {
     {"caustics of the environment",
      "environmentDirections is 0: its light passes glass straight on, at most as much as falls beneath it is "
      "misplaced",
-     [](const scene::Scene& scene) {
-         return views::hasEnvironment(scene) && !carriesEnvironment(scene) && Caustics::bends(scene);
-     },
+     [](const scene::Scene& scene) { return leavesEnvironment(scene) && bendsBesideWater(scene); },
+     {},
+     "environmentDirections",
+     "32"},
+    {"caustics of the environment by waves",
+     "environmentDirections is 0: its light comes through the water as if that lay still",
+     [](const scene::Scene& scene) { return leavesEnvironment(scene) && views::flatWater(scene); },
      {},
      "environmentDirections",
      "32"},

@@ -64,12 +64,12 @@ struct Arriving {
     const views::Eye& eye;
     graph::TextureId table; ///< views::sampleTable()
     std::span<const views::LampPoint> samples;
-    int first, end;                              ///< those that are added
-    std::span<const views::Shadow> shadows;      ///< of these
-    bool irradiance = false;                     ///< all that arrives counts
-    ivec2 size{0};                               ///< of the picture, which shows
-    graph::TextureId surface{};                  ///< these, and whose pixels
-    const views::Occlusion* occlusion = nullptr; ///< keeps the samples from
+    int first, end;                                      ///< those that are added
+    std::span<const std::vector<views::Shadow>> shadows; ///< of these
+    bool irradiance = false;                             ///< all that arrives counts
+    ivec2 size{0};                                       ///< of the picture, which shows
+    graph::TextureId surface{};                          ///< these, and whose pixels
+    const views::Occlusion* occlusion = nullptr;         ///< keeps the samples from
     int placed = 0;       ///< [0, placed) are lamps', of which surfaces show a mirror image
     bool mirrors = false; ///< if this is so
     /// technique::Slice::fluxOn

@@ -1,0 +1,28 @@
+#pragma once
+/// Parallel light by way of a sheet of water, as if that lay still (shaders/light/flat_water.glsl).
+
+#include "light/ShadowMap.h"
+#include "scene/Scene.h"
+#include "shaders/light/Blocks.h"
+
+#include <optional>
+
+namespace lucent::views {
+
+/// The first sheet of water of a scene, at rest; nothing where there is none.
+std::optional<light::FlatWaterBlock> flatWater(const scene::Scene& scene);
+
+/// From beneath the water to where light enters it.
+///
+/// @param toLight  unit, above the surface
+vec3 bentBy(const light::FlatWaterBlock& water, const vec3& toLight);
+
+/// Around the water's surface.
+Bounds surfaceOf(const light::FlatWaterBlock& water);
+
+/// Around what light that enters a sheet of water may reach of a box.
+///
+/// @param bent  bentBy()
+Bounds reachedBelow(const light::FlatWaterBlock& water, const vec3& bent, const Bounds& box);
+
+} // namespace lucent::views
