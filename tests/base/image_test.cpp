@@ -278,5 +278,29 @@ TEST(Image, HdrComesPieceByPiece) {
     EXPECT_NEAR((*read)->at(699, 399)[2], image.at(699, 399)[2], 8 / 256.0); // of the largest channel
 }
 
+TEST(Image, ALargePngComesPieceByPieceAndIsTheSame) {
+    Image image(400, 300, 4);
+    std::uint32_t state = 1;
+    for (float& sample : image.pixels)
+        sample = float((state = state * 1664525 + 1013904223) >> 24) / 255; // noise, which is not packed well
+    const Bytes file = *encodeImage(image, "a.png");
+    ASSERT_GT(file.size(), 400'000u);
+    const auto readIn = [](const Bytes& bytes, int& pieces) {
+        ImageReading reading(bytes, "a.png", Encoding::Linear);
+        std::optional<Result<Image>> read;
+        for (pieces = 1; !(read = reading.advance()); ++pieces) {
+        }
+        return std::move(*read);
+    };
+    int pieces = 0;
+    const Result<Image> read = readIn(file, pieces);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->pixels, decodeImage(file, "a.png", Encoding::Linear)->pixels);
+    EXPECT_GE(pieces, 5); // its checksums, what unpacks it, its rows, and their samples twice
+    const Result<Image> bad = readIn(flipped(file, 1000), pieces);
+    ASSERT_FALSE(bad);
+    EXPECT_EQ(bad.error().message, messageOf(flipped(file, 1000), "a.png"));
+}
+
 } // namespace
 } // namespace lucent
