@@ -239,8 +239,13 @@ graph::TextureHandle ImageCache::texture(const std::shared_ptr<const scene::Text
 bool ImageCache::takePart(const scene::Object& object) {
     if (object.isField()) return takePartOf(object.field(), object.material);
     const bool isMesh = !object.isDisplaced() && !isPainted(object); // of its own
-    if (isMesh && !meshes_.contains(scene::meshOf(object).get()))
-        return mesh(scene::meshOf(object), false).ok();
+    if (isMesh) {
+        const std::shared_ptr<const scene::Mesh> source = scene::meshOf(object);
+        const auto begun = meshes_.find(source.get());
+        if (begun == meshes_.end()) return mesh(source, false).ok();
+        const bool isTraced = object.material.isRefractive() || object.material.isMirror();
+        if (isTraced && begun->second.value->addTrianglesPart(context_)) return true;
+    }
     if (isPainted(object))
         for (const auto& map : {object.painting->entering, object.painting->leaving})
             if (!paints_.contains(map.get())) return paintMap(map).ok();

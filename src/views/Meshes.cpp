@@ -10,6 +10,9 @@ namespace {
 
 bool isWaved(const scene::Object& object) { return object.wave.amplitude != vec3(0); }
 
+// A copy of all its vertices would be the same.
+bool hasNoPose(const scene::Mesh& mesh) { return mesh.joints.empty() && mesh.rig.targets.empty(); }
+
 Bounds boundsOfPoints(const std::vector<vec3>& points) {
     Bounds bounds;
     for (const vec3& point : points)
@@ -26,6 +29,7 @@ bool isFlat(const scene::Object& object) {
 
 Bounds meshBounds(const scene::Mesh& mesh) {
     constexpr int kTimes = 16;
+    if (hasNoPose(mesh)) return boundsOfPoints(mesh.positions);
     Bounds bounds;
     const int times = mesh.moves() ? kTimes : 1;
     for (int i = 0; i < times; ++i) {
@@ -43,20 +47,36 @@ Bounds meshBounds(const scene::Mesh& mesh) {
 MeshTextures::MeshTextures(gl::Context& context, std::shared_ptr<const scene::Mesh> mesh)
     : source_(std::move(mesh)), indices_(context.device(), source_->indices, "views.indices") {
     gl::Device& device = context.device();
-    const auto take = [&](const scene::Mesh& bound) {
-        positions_ = vertexTexture(device, bound.positions, "views.positions");
-        normals_ = vertexTexture(device, bound.normals, "views.normals");
+    const auto take = [&](const std::vector<vec3>& positions, const std::vector<vec3>& normals) {
+        positions_ = vertexTexture(device, positions, "views.positions");
+        normals_ = vertexTexture(device, normals, "views.normals");
     };
     if (source_->moves()) {
-        take(*source_);
+        take(source_->positions, source_->normals);
         pose_.emplace(device, *source_);
+    } else if (hasNoPose(*source_)) {
+        scene::Mesh standing; // whose positions need not be copied
+        standing.normals = source_->normals;
+        take(source_->positions, scene::posed(standing, {}).normals);
     } else {
-        take(scene::posed(*source_, scene::poseAt(source_->rig, 0)));
+        const scene::Mesh standing = scene::posed(*source_, scene::poseAt(source_->rig, 0));
+        take(standing.positions, standing.normals);
     }
 }
 
 void MeshTextures::addTriangles(gl::Context& context) {
-    if (!triangles_) triangles_.emplace(context, *source_);
+    while (addTrianglesPart(context)) {
+    }
+}
+
+bool MeshTextures::addTrianglesPart(gl::Context& context) {
+    if (triangles_) return false;
+    if (!making_) making_ = std::make_unique<TriangleMaking>(source_);
+    if (std::optional<TriangleTable> table = making_->advance()) {
+        triangles_.emplace(context, std::move(*table));
+        making_.reset();
+    }
+    return true;
 }
 
 void MeshTextures::addCoordinates(gl::Context& context) {

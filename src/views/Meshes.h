@@ -35,6 +35,8 @@ public:
     const PoseTextures* pose() const { return pose_ ? &*pose_ : nullptr; }
     /// Makes triangles() once: only refractive objects need them.
     void addTriangles(gl::Context& context);
+    /// The same piece by piece. @return whether there was more to do
+    bool addTrianglesPart(gl::Context& context);
     const TriangleTextures* triangles() const { return triangles_ ? &*triangles_ : nullptr; }
     std::size_t bytes() const;
 
@@ -44,6 +46,7 @@ private:
     graph::Indices indices_;
     std::optional<PoseTextures> pose_;
     std::optional<TriangleTextures> triangles_;
+    std::unique_ptr<TriangleMaking> making_; // of those, begun
 };
 
 /// A mesh of the scene; water is one whose vertices a sheet moves.

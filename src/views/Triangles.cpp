@@ -57,17 +57,6 @@ struct SidesFrom {
     }
 }
 
-void joinNeighbours(TriangleTable& table, const std::vector<vec3>& positions) {
-    const std::vector<std::uint32_t> places = scene::weldedVertices(positions);
-    std::vector<Side> sides;
-    sides.reserve(table.indices.size());
-    for (std::size_t i = 0; i < table.indices.size(); i += 3)
-        addSides(table, places, &table.indices[i], sides);
-    const SidesFrom from(sides, positions.size());
-    for (const Side& one : sides)
-        join(table, sides, from, one);
-}
-
 // A triangle's number is that of its last corner: one that no other has, or a copy.
 [[gnu::noinline]] void addTriangle(TriangleTable& table, std::vector<bool>& taken,
                                    std::array<std::uint32_t, 3> corners) {
@@ -95,22 +84,66 @@ glm::uvec4 packed(const TriangleTable::Triangle& triangle) {
 
 } // namespace
 
+struct TriangleMaking::State {
+    explicit State(std::shared_ptr<const scene::Mesh> of)
+        : mesh(std::move(of)), taken(mesh->positions.size()) {
+        table.sources.resize(mesh->positions.size());
+        std::iota(table.sources.begin(), table.sources.end(), 0u);
+        table.triangles.resize(mesh->positions.size());
+        table.indices.reserve(mesh->indices.size());
+    }
+    // Numbers the triangles, then joins those that share a side.
+    std::optional<TriangleTable> advance() {
+        const std::size_t corners = mesh->indices.size() / 3 * 3;
+        const auto goOn = [&](std::size_t& next, std::size_t end, std::size_t step, const auto& work) {
+            for (std::size_t left = kPiece; left > 0 && next < end; --left, next += step)
+                work(next);
+        };
+        if (numbered < corners) {
+            const std::vector<std::uint32_t>& of = mesh->indices;
+            goOn(numbered, corners, 3, [&](std::size_t i) {
+                addTriangle(table, taken, {of[i], of[i + 1], of[i + 2]});
+            });
+        } else if (places.empty() && !mesh->positions.empty()) {
+            places = scene::weldedVertices(mesh->positions);
+            sides.reserve(table.indices.size());
+        } else if (sided < table.indices.size()) {
+            goOn(sided, table.indices.size(), 3,
+                 [&](std::size_t i) { addSides(table, places, &table.indices[i], sides); });
+        } else if (!from) {
+            from.emplace(sides, mesh->positions.size());
+        } else if (joined < sides.size()) {
+            goOn(joined, sides.size(), 1, [&](std::size_t i) { join(table, sides, *from, sides[i]); });
+        } else {
+            return std::move(table);
+        }
+        return std::nullopt;
+    }
+
+    static constexpr std::size_t kPiece = 20'000; // some milliseconds
+    std::shared_ptr<const scene::Mesh> mesh;
+    std::vector<bool> taken;
+    TriangleTable table{};
+    std::vector<std::uint32_t> places{};
+    std::vector<Side> sides{};
+    std::optional<SidesFrom> from{};
+    std::size_t numbered = 0, sided = 0, joined = 0;
+};
+
+TriangleMaking::TriangleMaking(std::shared_ptr<const scene::Mesh> mesh)
+    : state_(std::make_unique<State>(std::move(mesh))) {}
+TriangleMaking::~TriangleMaking() = default;
+
+std::optional<TriangleTable> TriangleMaking::advance() { return state_->advance(); }
+
 TriangleTable tableOf(const scene::Mesh& mesh) {
-    TriangleTable table;
-    table.sources.resize(mesh.positions.size());
-    std::iota(table.sources.begin(), table.sources.end(), 0u);
-    table.triangles.resize(mesh.positions.size());
-    table.indices.reserve(mesh.indices.size());
-    std::vector<bool> taken(mesh.positions.size());
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-        addTriangle(table, taken, {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
-    joinNeighbours(table, mesh.positions);
-    return table;
+    TriangleMaking making(std::shared_ptr<const scene::Mesh>(&mesh, [](const auto*) {}));
+    for (;;)
+        if (std::optional<TriangleTable> table = making.advance()) return std::move(*table);
 }
 
-TriangleTextures::TriangleTextures(gl::Context& context, const scene::Mesh& mesh) {
+TriangleTextures::TriangleTextures(gl::Context& context, TriangleTable table) {
     gl::Device& device = context.device();
-    TriangleTable table = tableOf(mesh);
     count_ = int(table.sources.size());
     indices_ = graph::Indices(device, table.indices, "views.triangleIndices");
     const ivec2 size = vertexImageSize(table.sources.size());

@@ -10,6 +10,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace lucent::views {
@@ -35,10 +37,23 @@ struct TriangleTable {
 };
 TriangleTable tableOf(const scene::Mesh& mesh);
 
+/// The same piece by piece, for who must not wait.
+class TriangleMaking {
+public:
+    explicit TriangleMaking(std::shared_ptr<const scene::Mesh> mesh);
+    ~TriangleMaking();
+    /// One piece more, of some milliseconds; the table once it is whole.
+    std::optional<TriangleTable> advance();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
 /// The table of one mesh as textures in rows of kVerticesPerRow.
 class TriangleTextures {
 public:
-    TriangleTextures(gl::Context& context, const scene::Mesh& mesh);
+    TriangleTextures(gl::Context& context, TriangleTable table);
 
     const graph::Indices& indices() const { return indices_; }
     const graph::Texture& sources() const { return sources_; } ///< R32UI
