@@ -114,6 +114,7 @@ export class LucentViewer extends HTMLElement {
   #leaving = null; // that of a load of another scene, for which the one that is shown is not refined any more
   #src = null; // what is loaded or on its way
   #shown = null; // what is loaded
+  #adopting = false; // the module has a scene whose parameters are still to come
   #brought = null; // {path, files} of the scene that is shown, where it is made of a person's files
   #sources = new Map(); // by name what was read for each file of the scene: see collect() in files.js
   #openedFiles = new Set(); // names of files that the person opened into the scene
@@ -530,7 +531,7 @@ export class LucentViewer extends HTMLElement {
 
   /** @return {boolean}  true while another frame is wanted */
   render(seconds) {
-    if (!this.#handle || !this.#size.width) return false;
+    if (!this.#handle || !this.#size.width || this.#adopting) return false;
     if (!this.#near && !this.#settled.length) return false;
     const { width, height } = this.#size;
     const { more, drawn } = this.#runtime.draw(this.#handle, width, height, seconds);
@@ -630,6 +631,7 @@ export class LucentViewer extends HTMLElement {
   async #load(seat, task, { name, own = null, opened = own !== null, moved = false }, load) {
     const moves = seat.runtime !== this.#runtime;
     const before = moves ? 0 : this.#sceneNumber();
+    const src = this.#src;
     let sources;
     let isThere = false;
     try {
@@ -639,6 +641,11 @@ export class LucentViewer extends HTMLElement {
       if (moves && !isThere) seat.runtime.drop(seat.handle);
     }
     if (!isThere) return false;
+    this.#adopting = true;
+    await nextTask(); // the module has taken the scene; what the page makes of it takes as long again
+    this.#adopting = false;
+    if (moves && task !== this.#task) seat.runtime.drop(seat.handle);
+    if (moves ? task !== this.#task : !this.#handle) return false;
     if (moves) this.#moveTo(seat);
     if (own && own.path !== this.#brought?.path) {
       this.truth = '';
@@ -648,7 +655,7 @@ export class LucentViewer extends HTMLElement {
     this.#photos.clear();
     const into = this.#sceneNumber() === before;
     this.#takeSources(sources, into);
-    this.#takeScene(name, { opened, moved, into });
+    this.#takeScene(name, src, { opened, moved, into });
     return true;
   }
 
@@ -750,10 +757,10 @@ export class LucentViewer extends HTMLElement {
   }
 
   // A new scene is there: its parameters become attributes, properties and controls.
-  #takeScene(name, how) {
+  #takeScene(name, src, how) {
     this.#status.textContent = 'Drawing…';
     this.#complete = false;
-    this.#shown = this.#src;
+    this.#shown = src;
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#defineProperties();
     this.#root.querySelector('.question')?.remove();
@@ -902,7 +909,7 @@ export class LucentViewer extends HTMLElement {
 
   // Takes over what changed in the module, by whatever road.
   #sync() {
-    if (!this.loaded) return;
+    if (!this.loaded || this.#adopting) return;
     const revision = this.#runtime.call('viewer_revision', this.#handle);
     if (revision === this.#revision) return;
     this.#revision = revision;

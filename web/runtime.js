@@ -8,6 +8,7 @@
  * which draws all that is loaded from then on.
  */
 import createRelief from 'lucent-relief-wasm'; // the build names the files
+import { nextTask } from './task.js';
 import { callWasm, isAbort } from './wasm.js';
 
 /** An error with a code that pages can test and a message that people can read. */
@@ -61,6 +62,7 @@ export class Runtime {
   }
 
   static async #start(kind) {
+    await nextTask(); // a context takes as long to make as a page's scripts to begin
     const { canvas, gl } = makeContext();
     const locateFile = (name) => new URL(name, import.meta.url).href;
     const name = kNames[kind];

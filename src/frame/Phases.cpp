@@ -19,6 +19,13 @@ namespace {
 
 using views::hasEnvironment;
 
+const gl::Program* meanProgram(gl::Context& context, bool isComposed, bool isFirst) {
+    std::vector<std::string> defines;
+    if (isComposed) defines.push_back("COMPOSED");
+    if (isFirst) defines.push_back("FIRST");
+    return context.program("frame/mean", defines);
+}
+
 } // namespace
 
 Renderer::State::State(gl::Context& gl, Supplies* of)
@@ -217,6 +224,7 @@ Status Renderer::State::recordRest(graph::FrameGraph& graph, const Picture& pict
     const TextureId shownId = import(graph, shown);
     const Passes passes{picture, graph, *posed, import(graph, shownSurface)};
     graph.keep(shownId);
+    if (pixelSamples(picture.scene) > 1) meanProgram(context, composed, sample == 0); // it is made meanwhile
     Guest* const last = replacing(picture);
     if (!isNumbered(picture.scene.view.show)) {
         const std::vector<Guest*> guests = needed(picture.scene);
@@ -256,10 +264,7 @@ Status Renderer::State::recordBackground(const Passes& passes, TextureId shownId
 
 // The mean of the samples so far, with the picture of the last one.
 Status Renderer::State::recordMean(graph::FrameGraph& graph, TextureId target) {
-    std::vector<std::string> defines;
-    if (composed) defines.push_back("COMPOSED");
-    if (sample == 0) defines.push_back("FIRST");
-    const gl::Program* program = context.program("frame/mean", defines);
+    const gl::Program* program = meanProgram(context, composed, sample == 0);
     const TextureId surfaceId = import(graph, shownSurface), shownId = import(graph, picture());
     const TextureId meanId = sample > 0 ? import(graph, mean) : TextureId{};
     graph.addPass("frame.mean", [&](graph::PassBuilder& pass) -> graph::Execute {

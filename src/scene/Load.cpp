@@ -815,11 +815,13 @@ Loading::~Loading() = default;
 std::optional<Result<Scene>> Loading::advance(double ms) {
     using Clock = std::chrono::steady_clock;
     State& s = *state_;
-    if (!s.root) s.root = s.parse();
+    const bool begins = !s.root;
+    if (begins) s.root = s.parse();
     if (!*s.root) return s.root->error();
     const std::chrono::duration<double, std::milli> patience(std::min(ms, 1e9));
     s.decoded.until = Clock::now() + std::chrono::duration_cast<Clock::duration>(patience);
-    s.decoded.pauses = s.decoded.isNew = false;
+    s.decoded.pauses = false;
+    s.decoded.isNew = begins; // the tree, which takes its time, too
     Result<Scene> scene = Loader(s.path, s.read, s.techniques, s.decoded).load(**s.root);
     if (s.decoded.pauses || s.decoded.isOver()) return std::nullopt; // whoever takes it has work, too
     return scene;
