@@ -13,6 +13,7 @@
 //       caustics, whose directions are not known, the matt share of light from straight above. A sample of a lamp that has
 //       a size is seen as large as its part of the lamp, so that highlights have less grain
 #pragma variants - USE_OCCLUSION
+#pragma variants - USE_WATER
 #pragma variants - USE_FLUX
 #pragma variants - SHOW_IRRADIANCE GLOSSY MEASURED
 #pragma variants - USE_MIRRORED if GLOSSY

@@ -1,5 +1,7 @@
 // light/sample.glsl: the light samples that stand for all lamps and the environment.
 //
+// USE_WATER: some of the samples come by way of water.
+//
 // in    uLights   128 samples a row, five texels each:
 //                 world position, 1; or unit direction to the light, 0
 //                 centre of the lamp [m] | 1: its light falls off with the square of the distance
@@ -12,7 +14,9 @@
 // model the disc of a lamp faces what it lights, so each of its samples counts as the one beside the lamp's middle that is
 //       seen in its place
 #include "lib/fresnel.glsl"
+#ifdef USE_WATER
 #include "light/flat_water.glsl"
+#endif
 uniform sampler2D uLights;
 
 struct LightSample {
@@ -47,6 +51,7 @@ vec3 projectedBy(int picture, vec3 axis, vec3 direction) {
                part.y);
 }
 
+#ifdef USE_WATER
 // The same light where it comes by way of a sheet of water, if it does: a beam of it is as wide on the surface beneath as
 // above, and narrower or wider across.
 void passWater(int first, vec3 place, inout LightSample light) {
@@ -63,6 +68,7 @@ void passWater(int first, vec3 place, inout LightSample light) {
         light.irradiance = vec3(0.0);
     }
 }
+#endif
 
 LightSample lightSampleAt(int index, vec3 place) {
     ivec2 at = ivec2(5 * (index % 128), index / 128);
@@ -72,7 +78,9 @@ LightSample lightSampleAt(int index, vec3 place) {
     vec4 cone = texelFetch(uLights, at + ivec2(4, 0), 0);
     if (source.w == 0.0) {
         LightSample light = LightSample(source.xyz, 1e30, color.rgb, axis.w, cone.z, cone.w);
+#ifdef USE_WATER
         if (color.a > 0.0) passWater(int(color.a), place, light);
+#endif
         return light;
     }
     vec4 centre = texelFetch(uLights, at + ivec2(1, 0), 0);

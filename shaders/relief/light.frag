@@ -19,6 +19,7 @@
 #pragma variants - USE_DIFFUSE_MAP
 #pragma variants - USE_SPECULAR_MAP
 #pragma variants - USE_OCCLUSION
+#pragma variants - USE_WATER
 #pragma variants - USE_FLUX
 #pragma variants - LIGHTLESS
 #include "relief/model.glsl"

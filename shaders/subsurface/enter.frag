@@ -13,6 +13,7 @@
 //       whose points are of no size
 #pragma variants - OF_LAYER
 #pragma variants - USE_OCCLUSION
+#pragma variants - USE_WATER
 #pragma variants - USE_FLUX
 #pragma variants - USE_SUM
 #include "views/view.glsl"

@@ -9,6 +9,7 @@
 // model share F_t(cos) V E cos. SCHLICK: 1 - F_t as (1 - cos)^5 from its value straight on (Schlick 1994), as the paper
 //       has it
 #pragma variants - USE_OCCLUSION
+#pragma variants - USE_WATER
 #pragma variants - USE_SUM
 #pragma variants - SCHLICK
 #pragma variants - USE_FLUX

@@ -192,9 +192,17 @@ int mostSamplesAtOnce(const gl::Context& context, ivec2 size) {
     return std::clamp(kSamplesPerTexel * copies.x * copies.y, 1, kMostSamples);
 }
 
+std::vector<std::string> Occlusion::defines() const {
+    std::vector<std::string> list;
+    if (texture) list.push_back("USE_OCCLUSION");
+    if (byWater) list.push_back("USE_WATER");
+    return list;
+}
+
 Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const Lit& in,
                                   std::span<const LampPoint> samples) {
     Occlusion occlusion = emptyFor(context, in.size, samples.size());
+    occlusion.byWater = in.water.has_value();
     for (const Group& group : groupsOf(in))
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const LampPoint& sample = samples[i];
@@ -228,11 +236,12 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
     Occlusion occlusion = emptyFor(context, view.size, samples.size());
     const Target target{view.eye, view.size, view.surface, nullptr, view.places};
     for (std::size_t i = 0; i < samples.size(); ++i)
-        for (const Shadow& shadow : shadows[i])
-            if (shadow.map)
-                if (Status s = add(graph, context, target, samples[i], shadow, i, samples.size(), occlusion);
-                    !s)
-                    return s.error();
+        for (const Shadow& shadow : shadows[i]) {
+            occlusion.byWater |= shadow.way != Way::Straight;
+            if (!shadow.map) continue;
+            if (Status s = add(graph, context, target, samples[i], shadow, i, samples.size(), occlusion); !s)
+                return s.error();
+        }
     return occlusion;
 }
 

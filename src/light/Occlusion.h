@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace lucent::views {
 
@@ -42,6 +43,9 @@ struct Occlusion {
     graph::TextureId texture; ///< none: nothing stands in the way of any
     int columns = 1;
     std::vector<std::vector<Shadow>> shadows{}; ///< of each sample, on all but height fields
+    bool byWater = false; ///< samples come by way of water: USE_WATER of shaders/light/sample.glsl
+    /// What shaders that read samples are made with.
+    std::vector<std::string> defines() const;
 };
 
 /// Samples that one recordOcclusion() can take.

@@ -195,8 +195,7 @@ Status Brdf::record(graph::FrameGraph& graph, const Inputs& in) {
     const graph::TextureId occlusion = in.occlusion.texture;
     const graph::TextureId flux = in.flux;
     const graph::TextureId sum = in.first > 0 ? in.sum : graph::TextureId{};
-    std::vector<std::string> defines;
-    if (occlusion) defines.push_back("USE_OCCLUSION");
+    std::vector<std::string> defines = in.occlusion.defines();
     if (flux) defines.push_back("USE_FLUX");
     if (in.show == scene::Aov::Irradiance) defines.push_back("SHOW_IRRADIANCE");
     if (isGlossy) defines.push_back("GLOSSY");

@@ -12,7 +12,7 @@ constexpr std::string_view kAttenuations[] = {"ratio", "exponential"};
 
 std::vector<std::string> defines(const views::DrawnField& drawn, const Settings& settings, const Inputs& in) {
     constexpr auto none = graph::TextureHandle::None;
-    std::vector<std::string> list;
+    std::vector<std::string> list = in.occlusion.defines();
     if (!in.transferred.empty()) list.push_back("USE_TRANSFER");
     const bool shines = !in.transferred.empty() && drawn.object->material.relief().specularity > 0;
     if (in.first == in.end && !shines && !in.flux) list.push_back("LIGHTLESS");
@@ -24,7 +24,6 @@ std::vector<std::string> defines(const views::DrawnField& drawn, const Settings&
     if (in.show == scene::Aov::Iterations) list.push_back("SHOW_ITERATIONS");
     if (in.show == scene::Aov::Visibility) list.push_back("SHOW_VISIBILITY");
     if (in.show == scene::Aov::Irradiance) list.push_back("SHOW_IRRADIANCE");
-    if (in.occlusion.texture) list.push_back("USE_OCCLUSION");
     if (in.flux) list.push_back("USE_FLUX");
     return list;
 }

@@ -50,9 +50,8 @@ Status recordEnter(graph::FrameGraph& graph, gl::Context& context, Entered& sum,
                    TextureId table, const views::Occlusion& occlusion, TextureId flux,
                    const std::vector<EnterBlock>& blocks, bool ofLayer, const char* reason) {
     const int first = blocks.front().firstLight;
-    std::vector<std::string> defines;
+    std::vector<std::string> defines = occlusion.defines();
     if (ofLayer) defines.push_back("OF_LAYER");
-    if (occlusion.texture) defines.push_back("USE_OCCLUSION");
     if (flux) defines.push_back("USE_FLUX");
     if (first > 0) defines.push_back("USE_SUM");
     const gl::Program* program = context.program("subsurface/enter", defines);

@@ -180,8 +180,7 @@ Status Throughput::addTo(graph::FrameGraph& graph, const Arriving& in, const vie
             views::recordOcclusion(graph, context_, view, in.samples.subspan(from, count),
                                    in.shadows.subspan(from - std::size_t(in.first), count));
         if (!occlusion) return occlusion.error();
-        std::vector<std::string> defines;
-        if (occlusion->texture) defines.push_back("USE_OCCLUSION");
+        std::vector<std::string> defines = occlusion->defines();
         if (first > 0) defines.push_back("USE_SUM");
         const TextureId carried = first == in.first ? *flux : TextureId{};
         if (carried) defines.push_back("USE_FLUX");
