@@ -224,7 +224,8 @@ Status Renderer::State::recordRest(graph::FrameGraph& graph, const Picture& pict
     const TextureId shownId = import(graph, shown);
     const Passes passes{picture, graph, *posed, import(graph, shownSurface)};
     graph.keep(shownId);
-    if (pixelSamples(picture.scene) > 1) meanProgram(context, composed, sample == 0); // it is made meanwhile
+    if (pixelSamples(picture.scene) > 1 && !stages[stage].coarse) // it is made meanwhile
+        meanProgram(context, composed, sample == 0);
     Guest* const last = replacing(picture);
     if (!isNumbered(picture.scene.view.show)) {
         const std::vector<Guest*> guests = needed(picture.scene);

@@ -298,10 +298,8 @@ Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
 Status Renderer::State::slice(const scene::Scene& scene) {
     const double begins = now();
     if (next == 0) sample = stages[stage].sample;
-    if (!hasLights) {
-        placeLights(scene);
-        if (!atOnce && now() - begins > kSliceMs / 2) return Done{};
-    }
+    if (!hasLights) placeLights(scene);
+    if (rests(0, begins)) return Done{};
     const double beforeWater = now();
     const Result<bool> still = waters.advance(scene);
     workMs += now() - beforeWater;
@@ -318,7 +316,7 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     if (!*areThere) return Done{};
     Result<Moment> moment = momentOf(scene);
     if (!moment) return moment.error();
-    if (rests(0, begins)) return Done{};
+    if (rests(1, begins)) return Done{};
     auto made = std::make_unique<Running>(*this, std::move(*moment));
     const bool geometric = views::isGeometric(scene.view.show);
     if (next == 0 && !geometric) {
@@ -333,7 +331,7 @@ Status Renderer::State::slice(const scene::Scene& scene) {
         const Result<bool> prepared = prepare(made->picture);
         if (!prepared) return prepared.error();
         if (!*prepared) return Done{};
-        if (rests(1, begins)) return Done{};
+        if (rests(2, begins)) return Done{};
     }
     made->end = geometric ? int(lights.size()) : sliceEnd();
     if ((made->end < int(lights.size()) || next > 0) && !scratch)
