@@ -2,6 +2,7 @@
 // other.
 #include "tests/support/Fields.h"
 #include "tests/support/Gl.h"
+#include "tests/support/Misplaced.h"
 #include "truth/Glass.h"
 #include "truth/LightTracer.h"
 #include "truth/Picture.h"
@@ -57,7 +58,7 @@ struct HardComposed : support::GlTest {
         const std::atomic<bool> goOn = false;
         const auto exact =
             truth::GlassEstimator::create(scene, scene.size, scene::Aov::Color, {.samples = 256});
-        return misplaced(picture(), truth::render(*exact, scene.size, {}, {}, goOn)->values);
+        return support::misplaced(picture(), truth::render(*exact, scene.size, {}, {}, goOn)->values);
     }
     /// Over squares of 4 x 4 pixels: within them caustics may lie where they like.
     static Image meansOf(const Image& image) {
@@ -67,15 +68,6 @@ struct HardComposed : support::GlTest {
                 for (int c = 0; c < 4; ++c)
                     means.at(x / 4, y / 4)[c] += image.at(x, y)[c] / 16;
         return means;
-    }
-    static double misplaced(const Image& found, const Image& wanted) {
-        double apart = 0, all = 0;
-        for (std::size_t i = 0; i < wanted.pixels.size(); ++i) {
-            if (i % 4 == 3) continue;
-            apart += std::abs(double(found.pixels[i]) - double(wanted.pixels[i])) / 2;
-            all += double(wanted.pixels[i]);
-        }
-        return apart / all;
     }
 };
 
@@ -88,7 +80,7 @@ TEST_F(HardComposed, AReliefInsideGlassIsLitAndSeenThroughIt) {
     const std::atomic<bool> goOn = false;
     const auto exact =
         truth::traceLight(scene, scene.size, {.aov = scene::Aov::Color, .photons = 2'000'000}, {}, {}, goOn);
-    EXPECT_LT(misplaced(meansOf(picture()), meansOf(exact->values)), 0.02);
+    EXPECT_LT(support::misplaced(meansOf(picture()), meansOf(exact->values)), 0.02);
 }
 
 TEST_F(HardComposed, ABoxThatStandsOnAReliefTouchesItsShadow) {
@@ -117,7 +109,7 @@ TEST_F(HardComposed, ACausticRunsAcrossTheSeamOfAReliefAndAFloor) {
     scene.objects.push_back(relief(1e-4f, flat));
     scene.objects.back().transform.translate.x = 0.5f;
     scene.objects.back().material.relief().depth = 1e-6f;
-    EXPECT_LT(misplaced(picture(), onFloor), 0.01);
+    EXPECT_LT(support::misplaced(picture(), onFloor), 0.01);
 }
 
 TEST_F(HardComposed, EveryMaterialAtOnceInAnyOrderIsOnePicture) {
@@ -134,7 +126,7 @@ TEST_F(HardComposed, EveryMaterialAtOnceInAnyOrderIsOnePicture) {
     const Image first = picture();
     std::reverse(scene.objects.begin(), scene.objects.end());
     // Splats and caustic maps add up in another order, rounded to half floats.
-    EXPECT_LT(misplaced(picture(), first), 1e-3);
+    EXPECT_LT(support::misplaced(picture(), first), 1e-3);
 }
 
 TEST_F(HardComposed, SixtyFourLampsAreOneOfTheirSum) {

@@ -3,6 +3,7 @@
 #include "technique/Technique.h"
 #include "tests/support/Fields.h"
 #include "tests/support/Gl.h"
+#include "tests/support/Misplaced.h"
 #include "tests/truth/scenes.h"
 #include "truth/Glass.h"
 #include "truth/LightTracer.h"
@@ -23,17 +24,6 @@ scene::Object boxAt(vec3 place) {
     return box;
 }
 
-// Half the summed absolute difference over the light there is.
-double misplaced(const Image& found, const Image& wanted) {
-    double apart = 0, all = 0;
-    for (std::size_t i = 0; i < wanted.pixels.size(); ++i) {
-        if (i % 4 == 3) continue;
-        apart += std::abs(double(found.pixels[i]) - double(wanted.pixels[i])) / 2;
-        all += double(wanted.pixels[i]);
-    }
-    return apart / all;
-}
-
 std::shared_ptr<const Image> skyOf(const std::function<float(ivec2)>& radiance) {
     auto map = std::make_shared<Image>(64, 32, 3);
     for (int y = 0; y < 32; ++y)
@@ -41,6 +31,8 @@ std::shared_ptr<const Image> skyOf(const std::function<float(ivec2)>& radiance) 
             std::fill_n(map->at(x, y), 3, radiance({x, y}));
     return map;
 }
+
+using support::misplaced;
 
 struct OneLight : support::GlTest {
     // A relief that lies on a floor, seen from above, and a box over both.

@@ -11,6 +11,17 @@
 
 namespace lucent::support {
 
+/// Half the summed difference of two pictures of 4 channels over the light of the second, pixel by pixel.
+inline double misplaced(const Image& found, const Image& wanted) {
+    double apart = 0, all = 0;
+    for (std::size_t i = 0; i < wanted.pixels.size(); ++i) {
+        if (i % 4 == 3) continue;
+        apart += std::abs(double(found.pixels[i]) - double(wanted.pixels[i])) / 2;
+        all += double(wanted.pixels[i]);
+    }
+    return apart / all;
+}
+
 /// Share of the light that lies elsewhere than in the exact picture of a scene: summed differences over the
 /// sum of what is exact, 3x3 pixels at a time.
 ///
