@@ -17,8 +17,9 @@ bool entersWater(FlatWater water, vec3 place, vec3 toLight, out vec3 entry, out 
     vec3 up = water.up.xyz;
     float depth = dot(water.middle.xyz - place, up);
     bent = -refract(-toLight, up, 1.0 / water.middle.w);
-    entry = place + depth / max(dot(bent, up), 1e-6) * bent;
-    return depth > 0.0 && dot(toLight, up) > 0.0 && isOnWater(water, entry);
+    float rise = dot(bent, up); // 0: all of it is mirrored, by what is thinner than air
+    entry = place + depth / max(rise, 1e-6) * bent;
+    return depth > 0.0 && rise > 0.0 && dot(toLight, up) > 0.0 && isOnWater(water, entry);
 }
 
 // Whether the straight way there passes through the surface from beneath: no light comes along it.

@@ -15,6 +15,7 @@ std::optional<light::FlatWaterBlock> flatWater(const scene::Scene& scene);
 /// From beneath the water to where light enters it.
 ///
 /// @param toLight  unit, above the surface
+/// @return         unit; 0 where all of it is mirrored, by what is thinner than air
 vec3 bentBy(const light::FlatWaterBlock& water, const vec3& toLight);
 
 /// Around the water's surface.

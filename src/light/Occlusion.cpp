@@ -166,15 +166,17 @@ std::vector<Casting> castingsOf(const Lit& in, const LampPoint& sample, const Bo
     Bounds over = surfaceOf(*in.water);
     over.add(receivers);
     const vec3 up(in.water->up), bent = bentBy(*in.water, toLight);
-    std::vector<Casting> both{casting(sample.source, over),
-                              casting({.place = vec4(bent, 0)}, reachedBelow(*in.water, bent, receivers))};
-    for (Casting& one : both)
+    std::vector<Casting> ways{casting(sample.source, over)};
+    ways[0].shadow.way = Way::OverWater;
+    if (bent != vec3(0)) {
+        ways.push_back(casting({.place = vec4(bent, 0)}, reachedBelow(*in.water, bent, receivers)));
+        ways[1].shadow.way = Way::BelowWater;
+        for (Eye& face : ways[1].shadow.views.faces)
+            face.cut = vec4(-up, glm::dot(up, vec3(in.water->middle)));
+    }
+    for (Casting& one : ways)
         one.shadow.water = *in.water;
-    both[0].shadow.way = Way::OverWater;
-    both[1].shadow.way = Way::BelowWater;
-    for (Eye& face : both[1].shadow.views.faces)
-        face.cut = vec4(-up, glm::dot(up, vec3(in.water->middle)));
-    return both;
+    return ways;
 }
 
 // The same views with thresholds beside those of other samples, of the same one and of the same pixel.

@@ -256,6 +256,22 @@ TEST_F(SkyOverWater, AnEvenSkyLightsTheFloorByWhatTheSurfaceLetsInAndTheWaterLea
         ASSERT_NEAR(light.pixels[4 * std::size_t(i) + 1], wanted, 0.002 * wanted) << i;
 }
 
+TEST_F(SkyOverWater, WhatIsThinnerThanAirLetsInWhatItDoesNotMirror) {
+    scene.objects[1].material.clear() = {.ior = 0.7f};
+    scene.size = {16, 16};
+    views::samplingOf(scene).directions = 16384; // what is let in falls steeply near the critical angle
+    double wanted = 0;
+    constexpr int kSteps = 4096;
+    for (int i = 0; i < kSteps; ++i) {
+        const double angle = (i + 0.5) / kSteps * double(kPi) / 2;
+        wanted += (1 - test::fresnel(angle, 1 / 0.7)) * std::sin(angle) * std::cos(angle);
+    }
+    wanted *= double(kPi * kPi) / kSteps;
+    const Image light = picture();
+    EXPECT_NEAR(light.at(8, 8)[1], wanted, 0.01 * wanted);
+    EXPECT_EQ(findNonFinite(light), ivec2(-1));
+}
+
 TEST_F(SkyOverWater, WhatStandsOverItBesideItAndInItHidesWhatItHides) {
     // A basin whose walls rise above the water, a block on its floor, and a lid over a part of it.
     std::get<scene::Water>(scene.objects[1].shape).size = {1.2f, 1};

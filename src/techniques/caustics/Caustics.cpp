@@ -120,7 +120,7 @@ const ParamTable& Caustics::params() {
                  .doc =
                      "How many directions, more of them where the map is bright, stand for the environment "
                      "whose light glass, water and mirrors throw, each blurred by how much of the map it "
-                     "stands for; 0: it passes glass straight on."}),
+                     "stands for; 0: it passes glass straight on, and water as if that lay still."}),
     };
     static const ParamTable table = tableOf<Settings>("caustics", list, "Caustics");
     return table;
