@@ -202,8 +202,8 @@ void Renderer::State::placeLights(const scene::Scene& scene) {
     views::Sampling sampling = views::samplingOf(used);
     sampling.directions = stages[stage].directions;
     const bool varies = variesLight(used);
-    lights = views::lightSamples(used, sampling, varies ? stages[stage].sample : 0,
-                                 varies ? pixelSamples(used) : 1);
+    const ivec2 of = varies ? ivec2(stages[stage].sample, pixelSamples(used)) : lightOf;
+    lights = views::lightSamples(used, sampling, of.x, of.y);
     placed = int(std::count_if(lights.begin(), lights.end(),
                                [](const views::LampPoint& light) { return !light.isEnvironment; }));
     const Image table = views::sampleTable(lights, bendingWater(used));

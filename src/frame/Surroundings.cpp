@@ -214,6 +214,7 @@ scene::Scene Renderer::State::sceneFor(const Moment& moment, const Aside& aside)
         const views::FlatMirror& mirror = surroundings.flat[std::size_t(aside.flat)];
         hideBehind(scene, mirror);
         scene.camera = views::mirrored(scene.camera, mirror);
+        views::samplingOf(scene).directions = directionsOfSample(moment.scene);
     } else {
         const views::Probe& cube = surroundings.cubes[std::size_t(aside.cube)];
         hide(scene, cube.hidden);
@@ -241,8 +242,10 @@ Result<bool> Renderer::State::lookAround(const Moment& moment) {
     elsewhere->shift = vec2(0);
     elsewhere->threshold = moment.eye.threshold;
     elsewhere->second = aside.second;
+    elsewhere->lightOf = {0, 1};
     if (isFlat) {
         elsewhere->shift = moment.eye.shift * vec2(-1, 1);
+        if (variesLight(moment.scene)) elsewhere->lightOf = {sample, pixelSamples(moment.scene)};
         const views::FlatMirror& mirror = surroundings.flat[std::size_t(aside.flat)];
         elsewhere->cut = vec4(mirror.normal, -glm::dot(mirror.normal, mirror.place));
     }
