@@ -110,7 +110,7 @@ void main() {
     for (int i = matt.firstLight; i < matt.endLight; ++i) {
         LightSample light = lightSampleAt(i, place);
         float cosine = cosineOf(dot(normal, light.toLight), light.extent);
-        if (cosine <= 0.0) continue;
+        if (cosine <= 0.0 || light.weight == 0.0) continue;
         float seen = visibilityOf(i - matt.firstLight, ivec2(matt.view.size), matt.columns);
 #ifdef GLOSSY
         if (isGlossy) {

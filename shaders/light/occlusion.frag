@@ -53,21 +53,16 @@ void main() {
     vec3 toLight = light.source.xyz - (light.source.w == 0.0 ? vec3(0.0) : place);
 #if defined(OVER_WATER) || defined(BELOW_WATER)
     vec3 entry, bent;
-    bool enters = entersWater(light.water, place, light.source.xyz, entry, bent);
-    if (enters) toLight = bent;
-#endif
-#ifdef BELOW_WATER
-    if (!enters) discard;
+    if (!entersWater(light.water, place, light.source.xyz, entry, bent)) discard;
+    toLight = bent;
 #endif
 #ifdef OF_FIELD
     normal = normalize(toLight);
 #endif
     if (dot(normal, toLight) <= 0.0) discard; // faces away
 #ifdef OVER_WATER
-    if (enters) {
-        place = entry;
-        normal = light.water.up.xyz;
-    }
+    place = entry;
+    normal = light.water.up.xyz;
 #endif
     oOcclusion = (1.0 - lightReaching(place, normal)) * light.channel;
 }

@@ -6,7 +6,7 @@
 //                 world position, 1; or unit direction to the light, 0
 //                 centre of the lamp [m] | 1: its light falls off with the square of the distance
 //                 irradiance on what faces it [W/m²], or that at 1 m | exponent of the cone; of a direction: where the
-//                 water begins that it comes through, 0: none
+//                 water begins that it comes through, less than 0, or passes beside; 0: none
 //                 unit direction of the cone's axis | share in means over the light
 //                 scale and offset of the cosine to the axis | extent; of a place: where its picture begins, 0: none | part
 //           and pictures behind them, each with two texels before it: to its right edge, and its width; to its upper edge,
@@ -23,7 +23,7 @@ struct LightSample {
     vec3 toLight;    // unit, world
     float distance;  // m; 1e30: without a place
     vec3 irradiance; // on what faces it, nothing in its way [W/m²]
-    float weight;
+    float weight;    // 0: it does not come here, nothing in its way
     float extent;    // sine of the angle by which its directions spread; 0: one direction
     float part;      // half the angle under which what it stands for of its lamp is seen, radians; of large ones a tangent
 };
@@ -52,21 +52,22 @@ vec3 projectedBy(int picture, vec3 axis, vec3 direction) {
 }
 
 #ifdef USE_WATER
-// The same light where it comes by way of a sheet of water, if it does: a beam of it is as wide on the surface beneath as
-// above, and narrower or wider across.
-void passWater(int first, vec3 place, inout LightSample light) {
-    FlatWater water = FlatWater(lightTexel(first), lightTexel(first + 1), lightTexel(first + 2), lightTexel(first + 3),
-                                lightTexel(first + 4));
+FlatWater waterAt(int first) {
+    return FlatWater(lightTexel(first), lightTexel(first + 1), lightTexel(first + 2), lightTexel(first + 3),
+                     lightTexel(first + 4));
+}
+
+// The light that comes through a sheet of water: a beam of it is as wide on the surface beneath as above, and narrower or
+// wider across. @return whether it reaches the place
+bool passWater(FlatWater water, vec3 place, inout LightSample light) {
     vec3 entry, bent;
-    if (entersWater(water, place, light.toLight, entry, bent)) {
-        float cosine = dot(light.toLight, water.up.xyz);
-        float passed = water.absorption.a * cosine / dot(bent, water.up.xyz);
-        if (water.up.w > 0.5) passed *= 1.0 - fresnelReflectance(cosine, 1.0 / water.middle.w);
-        light.irradiance *= passed * exp(-water.absorption.rgb * distance(place, entry));
-        light.toLight = bent;
-    } else if (crossesWater(water, place, light.toLight)) {
-        light.irradiance = vec3(0.0);
-    }
+    if (!entersWater(water, place, light.toLight, entry, bent)) return false;
+    float cosine = dot(light.toLight, water.up.xyz);
+    float passed = water.absorption.a * cosine / dot(bent, water.up.xyz);
+    if (water.up.w > 0.5) passed *= 1.0 - fresnelReflectance(cosine, 1.0 / water.middle.w);
+    light.irradiance *= passed * exp(-water.absorption.rgb * distance(place, entry));
+    light.toLight = bent;
+    return true;
 }
 #endif
 
@@ -79,7 +80,11 @@ LightSample lightSampleAt(int index, vec3 place) {
     if (source.w == 0.0) {
         LightSample light = LightSample(source.xyz, 1e30, color.rgb, axis.w, cone.z, cone.w);
 #ifdef USE_WATER
-        if (color.a > 0.0) passWater(int(color.a), place, light);
+        if (color.a > 0.0 ? crossesWater(waterAt(int(color.a)), place, light.toLight)
+                          : color.a < 0.0 && !passWater(waterAt(int(-color.a)), place, light)) {
+            light.irradiance = vec3(0.0);
+            light.weight = 0.0;
+        }
 #endif
         return light;
     }

@@ -134,6 +134,7 @@ void main() {
     float kf = relief.diffuse.a;
     for (int i = relief.firstLight; i < end; ++i) {
         Light light = lightAt(i, p);
+        if (light.weight == 0.0) continue;
         int steps;
         float seen = visibilityOf(i - relief.firstLight, relief.viewSize, relief.columns);
 #ifdef SHOW_IRRADIANCE

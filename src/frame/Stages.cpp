@@ -1,5 +1,6 @@
 // A picture as it grows: its settings, its stages, and the slices of work of each.
 #include "frame/RendererState.h"
+#include "light/FlatWater.h"
 #include "views/Layers.h"
 
 #include <algorithm>
@@ -206,7 +207,9 @@ void Renderer::State::placeLights(const scene::Scene& scene) {
     lights = views::lightSamples(used, sampling, of.x, of.y);
     placed = int(std::count_if(lights.begin(), lights.end(),
                                [](const views::LampPoint& light) { return !light.isEnvironment; }));
-    const Image table = views::sampleTable(lights, bendingWater(used));
+    const auto water = bendingWater(used);
+    if (water) lights = views::withWater(lights, *water);
+    const Image table = views::sampleTable(lights, water);
     const TextureDesc desc{.size = table.size(), .format = Format::RGBA32F};
     if (!lightTable || lightTable.desc() != desc)
         lightTable = graph::Texture(context.device(), desc, "light.samples");

@@ -26,6 +26,18 @@ vec3 bentBy(const light::FlatWaterBlock& water, const vec3& toLight) {
     return -glm::refract(-toLight, vec3(water.up), 1 / water.middle.w);
 }
 
+std::vector<LampPoint> withWater(const std::vector<LampPoint>& samples, const light::FlatWaterBlock& water) {
+    std::vector<LampPoint> all;
+    for (const LampPoint& sample : samples) {
+        all.push_back(sample);
+        if (!sample.isEnvironment || glm::dot(vec3(sample.place), vec3(water.up)) <= 0) continue;
+        all.back().water = WaterPath::Beside;
+        all.push_back(sample);
+        all.back().water = WaterPath::Through;
+    }
+    return all;
+}
+
 namespace {
 
 Bounds around(const light::FlatWaterBlock& water, const vec3& shift) {

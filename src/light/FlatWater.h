@@ -1,9 +1,7 @@
 #pragma once
 /// Parallel light by way of a sheet of water, as if that lay still (shaders/light/flat_water.glsl).
 
-#include "light/ShadowMap.h"
-#include "scene/Scene.h"
-#include "shaders/light/Blocks.h"
+#include "light/Samples.h"
 
 #include <optional>
 
@@ -17,6 +15,9 @@ std::optional<light::FlatWaterBlock> flatWater(const scene::Scene& scene);
 /// @param toLight  unit, above the surface
 /// @return         unit; 0 where all of it is mirrored, by what is thinner than air
 vec3 bentBy(const light::FlatWaterBlock& water, const vec3& toLight);
+
+/// Each direction of an environment above the water as two samples: beside the water and through it.
+std::vector<LampPoint> withWater(const std::vector<LampPoint>& samples, const light::FlatWaterBlock& water);
 
 /// Around the water's surface.
 Bounds surfaceOf(const light::FlatWaterBlock& water);

@@ -81,8 +81,11 @@ light::OcclusionBlock blockOf(const Target& target, const LampPoint& sample, con
     return block;
 }
 
-Occlusion emptyFor(const gl::Context& context, ivec2 size, std::size_t samples) {
-    return {{}, std::clamp(context.caps().maxTextureSize / size.x, 1, std::max(1, copiesOf(samples))), {}};
+Occlusion emptyFor(const gl::Context& context, ivec2 size, std::span<const LampPoint> samples) {
+    const int copies = std::max(1, copiesOf(samples.size()));
+    return {.columns = std::clamp(context.caps().maxTextureSize / size.x, 1, copies),
+            .byWater = std::any_of(samples.begin(), samples.end(),
+                                   [](const LampPoint& sample) { return sample.water != WaterPath::None; })};
 }
 
 // Adds what one sample's shadow keeps from a view.
@@ -152,28 +155,27 @@ struct Casting {
     Shadow shadow;
     Bounds receivers;
 };
-// What a sample sees of what stands in its way: straight on; or where water bends it, over the water and
-// beside that, and from where it entered on.
+// What a sample sees of what stands in its way: straight on; or through water, over that and from where it
+// entered on.
 std::vector<Casting> castingsOf(const Lit& in, const LampPoint& sample, const Bounds& casters,
                                 const Bounds& receivers) {
     const int size = shadowSizeFor(sample, in.shadowSize);
     const auto casting = [&](const ShadowSource& source, const Bounds& reached) {
         return Casting{{shadowViews(source, casters, reached, size)}, reached};
     };
-    const vec3 toLight(sample.place);
-    if (!sample.isEnvironment || !in.water || glm::dot(toLight, vec3(in.water->up)) <= 0)
-        return {casting(sample.source, receivers)};
-    Bounds over = surfaceOf(*in.water);
-    over.add(receivers);
-    const vec3 up(in.water->up), bent = bentBy(*in.water, toLight);
-    std::vector<Casting> ways{casting(sample.source, over)};
+    if (sample.water == WaterPath::None || !in.water) return {casting(sample.source, receivers)};
+    Bounds withSurface = surfaceOf(*in.water); // for both of its paths alike: the depths are the same
+    withSurface.add(receivers);
+    const Casting straight = casting(sample.source, withSurface);
+    if (sample.water == WaterPath::Beside) return {straight};
+    const vec3 up(in.water->up), bent = bentBy(*in.water, vec3(sample.place));
+    if (bent == vec3(0)) return {};
+    std::vector<Casting> ways{straight,
+                              casting({.place = vec4(bent, 0)}, reachedBelow(*in.water, bent, receivers))};
     ways[0].shadow.way = Way::OverWater;
-    if (bent != vec3(0)) {
-        ways.push_back(casting({.place = vec4(bent, 0)}, reachedBelow(*in.water, bent, receivers)));
-        ways[1].shadow.way = Way::BelowWater;
-        for (Eye& face : ways[1].shadow.views.faces)
-            face.cut = vec4(-up, glm::dot(up, vec3(in.water->middle)));
-    }
+    ways[1].shadow.way = Way::BelowWater;
+    for (Eye& face : ways[1].shadow.views.faces)
+        face.cut = vec4(-up, glm::dot(up, vec3(in.water->middle)));
     for (Casting& one : ways)
         one.shadow.water = *in.water;
     return ways;
@@ -203,9 +205,10 @@ std::vector<std::string> Occlusion::defines() const {
 
 Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const Lit& in,
                                   std::span<const LampPoint> samples) {
-    Occlusion occlusion = emptyFor(context, in.size, samples.size());
-    occlusion.byWater = in.water.has_value();
-    for (const Group& group : groupsOf(in))
+    Occlusion occlusion = emptyFor(context, in.size, samples);
+    occlusion.byWater |= in.water.has_value(); // slices of lamps alone are shaded by the same programs
+    for (const Group& group : groupsOf(in)) {
+        Shadow before; // of the sample before this one
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const LampPoint& sample = samples[i];
             const bool passes = sample.isEnvironment && !in.carriesEnvironment;
@@ -216,7 +219,10 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
                 for (int threshold = 0; threshold < thresholds; ++threshold) {
                     setThreshold(shadow.views, in, casters, i, threshold, thresholds);
                     KeptShadows* const kept = sample.isPart && !in.keepsParts ? nullptr : in.kept;
-                    Result<TextureId> map = shadowOf(graph, context, kept, shadow.views, casters, receivers);
+                    const bool isThere = sample.water == WaterPath::Through && shadow.views == before.views;
+                    Result<TextureId> map =
+                        isThere ? before.map
+                                : shadowOf(graph, context, kept, shadow.views, casters, receivers);
                     if (!map) return map.error();
                     shadow.map = *map;
                     const Target target{in.eye, in.size, in.surface, group.field};
@@ -227,19 +233,20 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
                 }
                 shadows.push_back(std::move(shadow));
             }
+            before = shadows.empty() ? Shadow{} : shadows.front();
             if (!group.field) occlusion.shadows.push_back(std::move(shadows));
         }
+    }
     return occlusion;
 }
 
 Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context, const LitView& view,
                                   std::span<const LampPoint> samples,
                                   std::span<const std::vector<Shadow>> shadows) {
-    Occlusion occlusion = emptyFor(context, view.size, samples.size());
+    Occlusion occlusion = emptyFor(context, view.size, samples);
     const Target target{view.eye, view.size, view.surface, nullptr, view.places};
     for (std::size_t i = 0; i < samples.size(); ++i)
         for (const Shadow& shadow : shadows[i]) {
-            occlusion.byWater |= shadow.way != Way::Straight;
             if (!shadow.map) continue;
             if (Status s = add(graph, context, target, samples[i], shadow, i, samples.size(), occlusion); !s)
                 return s.error();

@@ -18,7 +18,7 @@ struct Lit {
     /// All that stands in the way of light, hidden or not; what is visible and opaque is lit. What lamps send
     /// through what bends light is light of caustics; light of an environment passes straight on.
     Drawables drawables;
-    std::optional<light::FlatWaterBlock> water{}; ///< but for this, which bends it; none: no water does
+    std::optional<light::FlatWaterBlock> water{}; ///< but for this, which bends it
     int shadowSize;                               ///< texels a side of a lamp's shadow view
     bool carriesEnvironment = false;              ///< unless caustics hold that as well
     Bounds beside{};                              ///< box around what else the shadows on meshes shall reach
@@ -40,7 +40,7 @@ struct Shadow {
 
 /// 1 - visibility of some samples at each pixel; see shaders/light/occlusion.glsl.
 struct Occlusion {
-    graph::TextureId texture; ///< none: nothing stands in the way of any
+    graph::TextureId texture{}; ///< none: nothing stands in the way of any
     int columns = 1;
     std::vector<std::vector<Shadow>> shadows{}; ///< of each sample, on all but height fields
     bool byWater = false; ///< samples come by way of water: USE_WATER of shaders/light/sample.glsl

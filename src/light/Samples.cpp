@@ -286,13 +286,15 @@ Image sampleTable(const std::vector<LampPoint>& samples, const std::optional<lig
         for (int i = 0; i < 4; ++i)
             *texel++ = value[i];
     };
+    const auto waterOf = [&](const LampPoint& sample) {
+        if (sample.water == WaterPath::None) return 0.0f;
+        return sample.water == WaterPath::Through ? -float(waterAt) : float(waterAt);
+    };
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const LampPoint& sample = samples[i];
         write(sample.place);
         write(vec4(sample.centre, sample.fades ? 1 : 0));
-        write(vec4(sample.color, sample.isEnvironment  ? float(waterAt)
-                                 : sample.place.w == 0 ? 0
-                                                       : sample.exponent));
+        write(vec4(sample.color, sample.place.w == 0 ? waterOf(sample) : sample.exponent));
         write(vec4(sample.axis, sample.weight));
         write(vec4(sample.cone, sample.picture ? float(pictures[i]) : sample.extent, sample.part));
     }

@@ -14,6 +14,10 @@
 
 namespace lucent::views {
 
+/// How parallel light goes by the first sheet of water of a scene (shaders/light/flat_water.glsl): as if
+/// there were none; straight on where its surface is not in the way; or through that, bent.
+enum class WaterPath : int { None, Beside, Through };
+
 /// A lamp, or one of the points that stand for it. Its irradiance on a surface that faces it is
 /// color * cone * (1, or 1 / distance²).
 struct LampPoint {
@@ -28,6 +32,7 @@ struct LampPoint {
     ShadowSource source; ///< the same point as what shadows are seen from
     float weight = 1;    ///< its share of the light that it is a part of
     bool isEnvironment = false;
+    WaterPath water = WaterPath::None;
     float extent =
         0; ///< sine of the angle by which the directions spread that it stands for; of an environment
     float spread = 0; ///< of the light of an environment that it stands for: EnvironmentLight::spread
@@ -107,7 +112,7 @@ std::vector<LampPoint> lightSamples(const scene::Scene& scene, const Sampling& s
 
 /// The samples as shaders read them, and behind them the pictures that they project, RGBA32F.
 ///
-/// @param water  by way of which an environment lights what lies beneath; nothing: it passes straight on
+/// @param water  that their paths go by
 Image sampleTable(const std::vector<LampPoint>& samples,
                   const std::optional<light::FlatWaterBlock>& water = {});
 

@@ -206,11 +206,12 @@ TEST_F(OneLight, ShadowViewsAndCausticMapsAreDrawnOnceForAllSamplesOfThePixels) 
 
 struct SkyOverWater : support::GlTest {
     static constexpr float kIor = 1.33f, kDepth = 0.5f, kAbsorption = 0.8f;
-    // A floor under water that lies still and is not seen, seen from above.
+    // A floor under water that lies still and is not seen, seen from above; so wide that no light comes
+    // beside it.
     scene::Scene scene;
     SkyOverWater() {
         scene = test::sceneOf({test::matt(scene::Plane{{40, 40}}),
-                               test::glass(scene::Water{.size = {20, 20}}, kIor, {0, kDepth, 0})});
+                               test::glass(scene::Water{.size = {200, 200}}, kIor, {0, kDepth, 0})});
         scene.objects[1].visible = false;
         scene.objects[1].material.clear().absorption = vec3(kAbsorption);
         scene.size = {64, 64};
@@ -290,6 +291,20 @@ TEST_F(SkyOverWater, WhatStandsOverItBesideItAndInItHidesWhatItHides) {
     const double apart = misplaced(picture(), truth);
     EXPECT_LT(apart, 0.02);
     std::printf("sky over water: %.2f %% of the light misplaced\n", 100 * apart);
+}
+
+TEST_F(SkyOverWater, WhereBothWaysReachAPlaceBothCount) {
+    // Beside and through a sheet with nothing around it.
+    std::get<scene::Water>(scene.objects[1].shape).size = {1, 1};
+    scene.camera.height = 2;
+    scene.size = {32, 32};
+    scene.environment->map = skyOf([](ivec2 at) { return at.y > 8 ? 2.0f : 0.1f; }); // most of it low
+    const std::atomic<bool> goOn = false;
+    const Image truth =
+        truth::traceLight(scene, scene.size, {.photons = 4000000, .samples = 1024}, {}, {}, goOn)->values;
+    const double apart = misplaced(picture(), truth);
+    EXPECT_LT(apart, 0.02);
+    std::printf("sky beside and through water: %.2f %% of the light misplaced\n", 100 * apart);
 }
 
 TEST_F(SkyOverWater, WhatScattersLightInItHasTheSameLight) {
