@@ -128,10 +128,12 @@ Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scen
                                                         const TruthOptions& options) {
     if (!technique::modelOf(scene).overPixels)
         return makeEstimator(scene, options, scene.size, options.samples);
-    auto places = makeEstimator(scene, options, truth::PixelMean::sizeOf(scene.size),
-                                truth::PixelMean::samplesOf(options.samples));
+    using truth::PixelMean;
+    const int count = isGlass(options) ? PixelMean::placesFor(options.samples) : PixelMean::kPlaces;
+    auto places = makeEstimator(scene, options, PixelMean::sizeOf(scene.size, count),
+                                PixelMean::samplesOf(options.samples, count));
     if (!places) return places;
-    return std::unique_ptr<truth::Estimator>(new truth::PixelMean(std::move(*places), options.seed));
+    return std::unique_ptr<truth::Estimator>(new PixelMean(std::move(*places), options.seed, count));
 }
 
 Result<truth::Picture> solve(const scene::Scene& scene, const TruthOptions& options, const truth::Tile& tile,
@@ -268,7 +270,8 @@ Command addTruth(CLI::App& program) {
         ->add_option(
             "--samples", options->samples,
             "Points of each light that has a size, and of the environment on matt surfaces; with glass-tree "
-            "paths, with dipole places where light enters")
+            "paths, with dipole places where light enters; with glass and light each has a place of its own "
+            "in the pixel, from 16 to 256")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
     options->photonsGiven =

@@ -292,13 +292,14 @@ Result<truth::Picture> solve(const scene::Scene& scene) {
         const auto dipole = truth::DipoleEstimator::create(scene, scene.size, options);
         return dipole ? truth::render(*dipole, scene.size, {}, {}, cancel) : dipole.error();
     }
-    const bool isMean = technique::modelOf(scene).overPixels;
-    auto exact = truth::GlassEstimator::create(
-        scene, isMean ? truth::PixelMean::sizeOf(scene.size) : scene.size, scene::Aov::Color,
-        {.samples = isMean ? truth::PixelMean::samplesOf(samples) : samples});
+    using truth::PixelMean;
+    const int places = technique::modelOf(scene).overPixels ? PixelMean::placesFor(samples) : 1;
+    auto exact =
+        truth::GlassEstimator::create(scene, PixelMean::sizeOf(scene.size, places), scene::Aov::Color,
+                                      {.samples = PixelMean::samplesOf(samples, places)});
     if (!exact) return exact.error();
-    if (!isMean) return truth::render(*exact, scene.size, {}, {}, cancel);
-    const truth::PixelMean mean(std::make_unique<const truth::GlassEstimator>(std::move(*exact)), 0);
+    if (places == 1) return truth::render(*exact, scene.size, {}, {}, cancel);
+    const PixelMean mean(std::make_unique<const truth::GlassEstimator>(std::move(*exact)), 0, places);
     return truth::render(mean, scene.size, {}, {}, cancel);
 }
 

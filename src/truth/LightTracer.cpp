@@ -166,15 +166,15 @@ Result<Picture> traceLight(const scene::Scene& scene, ivec2 size, const LightOpt
 
     std::unique_ptr<Estimator> straight;
     if (color) {
-        auto glass = GlassEstimator::create(
-            scene, options.overPixels ? PixelMean::sizeOf(size) : size, options.aov,
-            {.branching = options.branching,
-             .samples = options.overPixels ? PixelMean::samplesOf(options.samples) : options.samples,
-             .seed = options.seed,
-             .attenuation = options.attenuation});
+        const int places = options.overPixels ? PixelMean::placesFor(options.samples) : 1;
+        auto glass = GlassEstimator::create(scene, PixelMean::sizeOf(size, places), options.aov,
+                                            {.branching = options.branching,
+                                             .samples = PixelMean::samplesOf(options.samples, places),
+                                             .seed = options.seed,
+                                             .attenuation = options.attenuation});
         if (!glass) return glass.error();
         straight = std::make_unique<GlassEstimator>(std::move(*glass));
-        if (options.overPixels) straight = std::make_unique<PixelMean>(std::move(straight), options.seed);
+        if (places > 1) straight = std::make_unique<PixelMean>(std::move(straight), options.seed, places);
     } else {
         straight =
             std::make_unique<DirectLight>(*optics, illumination, eye, size, options.samples, options.seed);

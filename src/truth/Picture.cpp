@@ -3,7 +3,6 @@
 #include "truth/Random.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <thread>
@@ -23,15 +22,15 @@ void write(const Pixel& pixel, Picture& picture, ivec2 at) {
 
 Pixel PixelMean::solve(ivec2 pixel) const {
     Random random(seed_, std::uint64_t(pixel.y) << 32 | std::uint64_t(pixel.x), ~std::uint64_t(0));
-    std::array<int, kPlaces> rows;
+    std::vector<int> rows(std::size_t(count_), 0);
     std::iota(rows.begin(), rows.end(), 0);
-    for (int left = kPlaces; left > 1; --left)
+    for (int left = count_; left > 1; --left)
         std::swap(rows[std::size_t(left - 1)], rows[std::size_t(random.next() * left)]);
-    std::array<Pixel, kPlaces> places;
+    std::vector<Pixel> places(std::size_t(count_), Pixel{});
     Pixel mean;
-    for (int i = 0; i < kPlaces; ++i) {
+    for (int i = 0; i < count_; ++i) {
         Pixel& place = places[std::size_t(i)];
-        place = places_->solve(kPlaces * pixel + ivec2(i, rows[std::size_t(i)]));
+        place = places_->solve(count_ * pixel + ivec2(i, rows[std::size_t(i)]));
         mean.value += place.coverage * place.value;
         mean.coverage += place.coverage;
     }
@@ -39,9 +38,9 @@ Pixel PixelMean::solve(ivec2 pixel) const {
     mean.value /= mean.coverage;
     for (const Pixel& place : places) {
         const dvec3 away = place.coverage / mean.coverage * (place.value - mean.value);
-        mean.variance += away * away * (double(kPlaces) / (kPlaces - 1));
+        mean.variance += away * away * (double(count_) / (count_ - 1));
     }
-    mean.coverage /= kPlaces;
+    mean.coverage /= count_;
     return mean;
 }
 

@@ -5,6 +5,7 @@
 #include "base/Math.h"
 #include "base/Result.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -32,24 +33,29 @@ public:
 
 /// The mean over each pixel, by another estimator that solves its places: so many that no two lie in the same
 /// row or column of the pixel (n-rooks, Shirley 1991), elsewhere in each pixel. A straight edge along a side
-/// errs by 1 / (2 kPlaces) at most. The variance is that of independent places: rather more than there is.
+/// errs by 1 / (2 places) at most. The variance is that of independent places: rather more than there is.
 class PixelMean : public Estimator {
 public:
-    static constexpr int kPlaces = 16;
+    static constexpr int kPlaces = 16, kMostPlaces = 256;
+    /// Of what is seen by single rays, where a pixel should have so many samples, > 0: glass breaks up what
+    /// is behind it into parts smaller than a pixel, so each sample has a place of its own.
+    static int placesFor(int samples) { return std::clamp(samples, kPlaces, kMostPlaces); }
     /// Of the picture whose pixels are the places of one of `size` pixels.
-    static ivec2 sizeOf(ivec2 size) { return kPlaces * size; }
+    static ivec2 sizeOf(ivec2 size, int count = kPlaces) { return count * size; }
     /// Samples of each place, where a pixel should have so many, > 0.
-    static int samplesOf(int samples) { return (samples + kPlaces - 1) / kPlaces; }
+    static int samplesOf(int samples, int count = kPlaces) { return (samples + count - 1) / count; }
 
     /// @param places  of a picture of sizeOf() its pixels
-    PixelMean(std::unique_ptr<const Estimator> places, std::uint64_t seed)
-        : places_(std::move(places)), seed_(seed) {}
+    /// @param count   of each pixel, > 1
+    PixelMean(std::unique_ptr<const Estimator> places, std::uint64_t seed, int count = kPlaces)
+        : places_(std::move(places)), seed_(seed), count_(count) {}
     /// Light of what is covered, and the mean of the coverage.
     Pixel solve(ivec2 pixel) const override;
 
 private:
     std::unique_ptr<const Estimator> places_;
     std::uint64_t seed_;
+    int count_;
 };
 
 /// A part of a picture: every `count`-th row, and every `count`-th light ray where there are such, from

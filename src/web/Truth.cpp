@@ -88,9 +88,11 @@ Result<std::unique_ptr<truth::Estimator>> makeEstimator(const scene::Scene& scen
 Result<std::unique_ptr<truth::Estimator>> makeFiltered(const scene::Scene& scene, ivec2 size, int samples) {
     using truth::PixelMean;
     if (!technique::modelOf(scene).overPixels) return makeEstimator(scene, size, samples);
-    auto places = makeEstimator(scene, PixelMean::sizeOf(size), PixelMean::samplesOf(samples));
+    const bool isGlass = measure::usualTruth(scene) == measure::TruthModel::Glass;
+    const int count = isGlass ? PixelMean::placesFor(samples) : PixelMean::kPlaces;
+    auto places = makeEstimator(scene, PixelMean::sizeOf(size, count), PixelMean::samplesOf(samples, count));
     if (!places) return places;
-    return std::unique_ptr<truth::Estimator>(new PixelMean(std::move(*places), 0));
+    return std::unique_ptr<truth::Estimator>(new PixelMean(std::move(*places), 0, count));
 }
 
 void solveNext() {

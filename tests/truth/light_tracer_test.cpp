@@ -552,6 +552,11 @@ TEST(LightTracer, ColoursOverPixelsAreTheMeanOfWhatIsCovered) {
     EXPECT_NEAR(double(mixed.values.pixels[1]), lit / 2, lit * 0.5 / PixelMean::kPlaces);
     EXPECT_EQ(mixed.values.pixels[3], 1);
     EXPECT_NEAR(double(mixed.errors.pixels[1]), lit / 2 / std::sqrt(PixelMean::kPlaces - 1), 0.01 * lit);
+    // With a place for each sample.
+    options.samples = PixelMean::kMostPlaces;
+    const Picture fine = traced(scene, {1, 1}, options);
+    EXPECT_NEAR(double(fine.values.pixels[1]), lit / 2, lit * 0.5 / PixelMean::kMostPlaces);
+    EXPECT_NEAR(double(fine.errors.pixels[1]), lit / 2 / std::sqrt(PixelMean::kMostPlaces - 1), 0.001 * lit);
 }
 
 TEST(LightTracer, TheTreeBringsWhatIsReflectedInsideASlabAsWell) {
