@@ -26,6 +26,9 @@ struct Box {
         add(box.low);
         add(box.high);
     }
+    bool holds(const dvec3& point) const {
+        return glm::all(glm::lessThanEqual(low, point)) && glm::all(glm::lessThanEqual(point, high));
+    }
 };
 
 /// What a ray meets of one shape: how far, and the normals there.

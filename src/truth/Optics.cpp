@@ -2,6 +2,7 @@
 
 #include "scene/Mesh.h"
 #include "scene/Water.h"
+#include "truth/Intersection.h"
 #include "truth/Textured.h"
 #include "truth/Torus.h"
 
@@ -12,6 +13,8 @@ namespace lucent::truth {
 
 namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
+const Box kEndless{dvec3(-std::numeric_limits<double>::infinity()),
+                   dvec3(std::numeric_limits<double>::infinity())};
 
 /// Directions across a surface go by a derivative, normals by this multiple of its inverse transpose, which
 /// exists for flat derivatives as well.
@@ -244,6 +247,8 @@ Optics::Optics(const scene::Scene& scene, RayScene rays) : scene_(&scene), rays_
         hasBlended_ |= textures && textures->isBlended();
         if (isOpaque(i)) continue;
         optical_.push_back(i);
+        const bool isMesh = std::holds_alternative<Triangles>(rays_.shape(i));
+        boxes_.push_back(isMesh ? boxOf(rays_.shape(i)) : kEndless);
         if (!object(i).material.isRefractive()) continue;
         disperses_ |= object(i).material.clear().dispersion > 0;
         const bool one = object(i).material.clear().ior == 1; // whatever its dispersion
@@ -270,8 +275,10 @@ dvec3 Optics::absorption(int medium) const {
 
 Media Optics::mediaAt(const dvec3& place, bool hitsHidden) const {
     Media media;
-    for (const int number : optical_) {
+    for (std::size_t i = 0; i < optical_.size(); ++i) {
+        const int number = optical_[i];
         if (!object(number).material.isRefractive() || (!object(number).visible && !hitsHidden)) continue;
+        if (!boxes_[i].holds(place)) continue;
         if (std::visit([&](const auto& shape) { return contains(shape, place); }, rays_.shape(number)))
             media.enter(number);
     }

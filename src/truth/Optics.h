@@ -62,7 +62,8 @@ public:
     dvec3 absorption(int medium) const;
 
     /// What a place lies in: balls and tori by their equations, water by what is above, meshes where they
-    /// turn around the place by more than half a sphere (their solid angle, so that a hole does not decide).
+    /// turn around the place by more than half a sphere (their solid angle, so that a hole does not decide);
+    /// outside of their boxes none does.
     ///
     /// @param hitsHidden  objects that the eye does not see count as well
     Media mediaAt(const dvec3& place, bool hitsHidden) const;
@@ -73,6 +74,7 @@ private:
     const scene::Scene* scene_;
     RayScene rays_;
     std::vector<int> optical_;
+    std::vector<Box> boxes_; ///< of these; endless around what is no mesh
     bool disperses_ = false, hasIndexOfOne_ = false, hasBlended_ = false, bendsNothing_ = true;
 };
 
