@@ -16,7 +16,7 @@ TRUTH_UNDER_SKY = 128, 2048
 
 # Of truths with bent and mirrored light: pixels of the longer side, light rays, points of each pixel, of lamps that have
 # a size and of the environment.
-TRUTH_WITH_LIGHT_RAYS = 128, 8_000_000, 1024
+TRUTH_WITH_LIGHT_RAYS = 128, 32_000_000, 4096
 
 # Of truths with light inside: pixels of the longer side, lines for each of them on which light may enter.
 TRUTH_OF_DIPOLES = 128, 512
