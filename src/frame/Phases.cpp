@@ -191,7 +191,7 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
                          .beside = beside,
                          .allAround = allAround,
                          .kept = repeats(picture.scene) ? &shadows : nullptr,
-                         .keepsParts = !variesLight(picture.scene) && lightOf.y == 1};
+                         .keepsParts = isCoarse() || (!variesLight(picture.scene) && lightOf.y == 1)};
     shadows.stand(picture.scene, waters.changes());
     const std::span<const views::LampPoint> some(lights.data() + next, std::size_t(end - next));
     Result<views::Occlusion> occlusion = views::recordOcclusion(passes.graph, context, lit, some);

@@ -252,9 +252,10 @@ struct Renderer::State {
                 .scenery = scenery,
                 .allAround = allAround};
     }
-    // Whether pictures follow in which only the place of a sample in its pixel or the direction differs.
+    // Whether pictures follow in which only the place of a sample in its pixel, the direction or, while it is
+    // dragged, one light differs.
     bool repeats(const scene::Scene& scene) const {
-        return allAround || (!isCoarse() && pixelSamples(scene) > 1);
+        return allAround || isCoarse() || pixelSamples(scene) > 1;
     }
     bool rests(int place, double since);
     bool canPreview();

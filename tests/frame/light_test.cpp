@@ -202,6 +202,25 @@ TEST_F(OneLight, ShadowViewsAndCausticMapsAreDrawnOnceForAllSamplesOfThePixels) 
     EXPECT_LT(passes(3), 2 * withGlass); // most of the first one's are the caustic's
 }
 
+TEST_F(OneLight, ShadowsOfTheSkyStayWhileALampIsDragged) {
+    scene::PointLight lamp{.position = {0, 1, 0}};
+    scene.environment.emplace().map = skyOf([](ivec2) { return 0.5f; });
+    technique::addSettings(scene);
+    Renderer renderer(*context);
+    const auto draws = [&](std::uint64_t revision) {
+        lamp.position.x += 0.01f;
+        scene.lights = {lamp};
+        for (bool complete = false; !complete;) {
+            const Result<Progress> progress = renderer.advance(scene, revision, scene.size, true);
+            EXPECT_TRUE(progress.ok());
+            complete = !progress || progress->complete;
+        }
+        return renderer.stats().draws;
+    };
+    const int first = draws(1);
+    EXPECT_LT(draws(2), first / 2);
+}
+
 // --- the sky by way of water
 
 struct SkyOverWater : support::GlTest {
