@@ -23,7 +23,7 @@ struct LightSample {
     vec3 toLight;    // unit, world
     float distance;  // m; 1e30: without a place
     vec3 irradiance; // on what faces it, nothing in its way [W/m²]
-    float weight;    // 0: it does not come here, nothing in its way
+    float weight;    // share in means over the light; 0: no light of the sample comes here, whatever stands in its way
     float extent;    // sine of the angle by which its directions spread; 0: one direction
     float part;      // half the angle under which what it stands for of its lamp is seen, radians; of large ones a tangent
 };

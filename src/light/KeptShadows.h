@@ -1,6 +1,6 @@
 #pragma once
-/// Shadow views that stay: further samples of the pixels and other directions from the same place read them
-/// again.
+/// Shadow views that stay: further samples of the pixels, other directions from the same place and further
+/// previews of a drag read them again.
 
 #include "graph/FrameGraph.h"
 #include "light/ShadowMap.h"

@@ -14,8 +14,8 @@
 
 namespace lucent::views {
 
-/// How parallel light goes by the first sheet of water of a scene (shaders/light/flat_water.glsl): as if
-/// there were none; straight on where its surface is not in the way; or through that, bent.
+/// How light of a direction passes the first sheet of water of a scene (shaders/light/flat_water.glsl): as if
+/// there were none; straight on, where it does not meet the surface; or refracted by the surface.
 enum class WaterPath : int { None, Beside, Through };
 
 /// A lamp, or one of the points that stand for it. Its irradiance on a surface that faces it is
