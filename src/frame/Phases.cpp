@@ -192,7 +192,7 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
                          .allAround = allAround,
                          .kept = repeats(picture.scene) ? &shadows : nullptr,
                          .keepsParts = isCoarse() || (!variesLight(picture.scene) && lightOf.y == 1)};
-    shadows.stand(picture.scene, waters.changes());
+    shadows.stand(picture.scene, waters);
     const std::span<const views::LampPoint> some(lights.data() + next, std::size_t(end - next));
     Result<views::Occlusion> occlusion = views::recordOcclusion(passes.graph, context, lit, some);
     if (!occlusion) return occlusion.error();

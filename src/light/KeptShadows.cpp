@@ -18,15 +18,19 @@ void KeptShadows::forget(const Is& is) {
     });
 }
 
-void KeptShadows::stand(const scene::Scene& scene, std::uint64_t waters) {
-    std::vector<ObjectKey> standing;
+void KeptShadows::stand(const scene::Scene& scene, const Waters& waters) {
+    std::vector<Standing> standing;
     for (const scene::Object& object : scene.objects) {
-        standing.push_back(objectKey(object, scene.view.time));
-        standing.back().visible = true; // what is hidden casts its shadow still
+        const WaterSheet* sheet = waters.of(int(standing.size()));
+        standing.push_back({objectKey(object, scene.view.time), sheet ? sheet->changes() : 0});
+        standing.back().key.visible = true; // what is hidden casts its shadow still
     }
-    if (standing != standing_ || waters != waters_) clear();
+    const auto isAsBefore = [&](int object) {
+        const auto i = std::size_t(object);
+        return i < std::min(standing.size(), standing_.size()) && standing[i] == standing_[i];
+    };
+    forget([&](const One& one) { return !std::all_of(one.casters.begin(), one.casters.end(), isAsBefore); });
     standing_ = std::move(standing);
-    waters_ = waters;
 }
 
 graph::TextureId KeptShadows::find(graph::FrameGraph& graph, const ShadowViews& views,

@@ -5,6 +5,7 @@
 #include "graph/FrameGraph.h"
 #include "light/ShadowMap.h"
 #include "views/ObjectKey.h"
+#include "views/Water.h"
 
 #include <cstdint>
 #include <memory>
@@ -19,10 +20,8 @@ public:
 
     explicit KeptShadows(graph::TexturePool& pool) : pool_(pool) {}
 
-    /// Forgets all where what casts shadows is not as it was.
-    ///
-    /// @param waters  Waters::changes()
-    void stand(const scene::Scene& scene, std::uint64_t waters);
+    /// Forgets the shadows of objects that are not as they were.
+    void stand(const scene::Scene& scene, const Waters& waters);
     /// The depths that these objects of the scene have in these views; none where they are not there.
     graph::TextureId find(graph::FrameGraph& graph, const ShadowViews& views,
                           const std::vector<int>& casters);
@@ -35,6 +34,11 @@ public:
     std::size_t bytes() const { return bytes_; }
 
 private:
+    struct Standing {
+        ObjectKey key;
+        std::uint64_t water; // WaterSheet::changes(), of what is one
+        bool operator==(const Standing&) const = default;
+    };
     struct One {
         ShadowViews views;
         std::vector<int> casters;
@@ -46,8 +50,7 @@ private:
     void forget(const Is& is);
 
     graph::TexturePool& pool_;
-    std::vector<ObjectKey> standing_;
-    std::uint64_t waters_ = 0;
+    std::vector<Standing> standing_; // by the object's number in the scene
     std::vector<One> kept_;
     std::size_t bytes_ = 0;
 };
