@@ -163,7 +163,7 @@ struct Renderer::State {
     bool averaged = false;            // what is shown stands in `mean`
     std::unique_ptr<Running> running; // of this picture; null: nothing
     std::deque<Batch> submitted;      // the oldest first; of a picture before this one too
-    double retired = 0;               // ms: when the last of them was found to be done
+    double retired = 0, looked = 0;   // ms: when the last of them was done; when one was last seen not to be
     views::Readings readings;         // what guests have asked for this picture
     std::optional<gl::Fence> earlier; // of what was given up for this picture: the GPU may still draw it
     bool presentable = true;          // picture() is not being drawn into
@@ -179,7 +179,7 @@ struct Renderer::State {
     int placed = 0;                       // so many of them have a place or a direction of their own
     int next = 0;                         // light
     technique::Guest* carrier = nullptr;  // that carried light in this sum
-    double msPerLight = 0;
+    double recordMs = 1;                  // that it took to record what is drawn for one of them
     double workMs = 0, planMs = 0;
     int drawsBefore = 0, passes = 0;
     Stats stats;

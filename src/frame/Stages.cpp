@@ -236,7 +236,7 @@ void Renderer::State::makeTargets() {
 int Renderer::State::sliceEnd() const {
     const int count = int(lights.size()), most = views::mostSamplesAtOnce(context, size);
     if (atOnce) return std::min(count, next + most);
-    const double affordable = msPerLight > 0 ? std::max(1.0, kSliceMs / msPerLight) : 1;
+    const double affordable = std::max(1.0, kSliceMs / recordMs);
     const int end = std::min(count, next + int(std::min(affordable, double(most))));
     // Every point and distant light belongs to the preview: they are few.
     return next == 0 ? std::min(count, std::max(end, std::min(4, most))) : end;
@@ -339,8 +339,12 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     made->end = geometric ? int(lights.size()) : sliceEnd();
     if ((made->end < int(lights.size()) || next > 0) && !scratch)
         scratch = graph::Texture(context.device(), sum.desc(), "frame.scratch");
-    return begin(std::move(made), Running::Work::Slice,
-                 [this](Running& slice) { return recordSlice(slice.graph, slice.picture, slice.end); });
+    const int count = std::max(1, made->end - next);
+    Status begun = begin(std::move(made), Running::Work::Slice, [this](Running& slice) {
+        return recordSlice(slice.graph, slice.picture, slice.end);
+    });
+    if (running) recordMs = std::max(running->ms, 1e-3) / count;
+    return begun;
 }
 
 // --- passes, portion by portion
@@ -423,26 +427,35 @@ void Renderer::State::submit() {
 
 // Takes what the GPU has done, and learns what it took; waits for it where nothing more can be given.
 void Renderer::State::retire(double until) {
-    double expected = 0, begun = 0;
+    constexpr double kLeastFactor = 0.25; // at once: what is done when it is first looked at took no time
+    // A page looks once a frame: it may have been done soon after the last look. Where it looks less often
+    // the GPU was what kept it.
+    constexpr double kFrameMs = 1000.0 / 60;
+    double expected = 0, begun = 0, ended = 0;
     bool hasFirst = false;
     std::vector<Batch::Part> parts;
     while (!submitted.empty()) {
+        const double asked = now();
         const bool waits = expected == 0 && (running->isSubmitted || submitted.size() == kMostInFlight ||
                                              context.hasUnready());
-        if (!submitted.front().fence.passed(waits ? until - now() : 0)) break;
+        if (!submitted.front().fence.passed(waits ? until - asked : 0)) {
+            looked = now();
+            break;
+        }
         Batch& done = submitted.front();
         if (expected == 0) begun = std::max(done.begun, retired);
+        ended = std::max({begun, looked, asked - kFrameMs}) + (now() - asked);
         expected += done.expected;
         hasFirst |= done.hasFirst;
         parts.insert(parts.end(), done.parts.begin(), done.parts.end());
         submitted.pop_front();
     }
     if (expected == 0) return;
-    retired = now();
-    const double took = std::max(retired - begun, 1e-3);
+    retired = ended;
+    const double took = ended - begun;
     running->ms += took;
     // What compiling took says nothing of the pixels: it would cut the rest of a pass into crumbs.
-    const double factor = hasFirst ? std::min(1.0, took / expected) : took / expected;
+    const double factor = std::clamp(took / expected, kLeastFactor, hasFirst ? 1.0 : 1e3);
     std::set<std::string> passes;
     for (const Batch::Part& part : parts)
         if (passes.insert(part.pass).second) costs.at(part.pass).perPixel *= factor;
@@ -459,7 +472,6 @@ Status Renderer::State::follow() {
     if (done->work != Running::Work::Slice) return Done{};
     surfaceDrawn = true;
     if (next > 0) std::swap(sum, scratch);
-    if (done->end > next) msPerLight = done->ms / (done->end - next);
     next = done->end;
     return next < int(lights.size()) ? Status(Done{}) : showSum(std::move(done->moment));
 }
