@@ -189,7 +189,7 @@ Status Renderer::State::recordLight(const Passes& passes, TextureId target, int 
                          .shadowSize = views::samplingOf(picture.scene).shadowSize,
                          .carriesEnvironment = carriesEnvironment(picture.scene),
                          .beside = beside,
-                         .allAround = allAround,
+                         .allAround = fitsAll(),
                          .kept = repeats(picture.scene) ? &shadows : nullptr,
                          .keepsParts = isCoarse() || (!variesLight(picture.scene) && lightOf.y == 1)};
     shadows.stand(picture.scene, waters);

@@ -250,13 +250,14 @@ struct Renderer::State {
                 .environment = moment.environment,
                 .surroundings = given ? given : &surroundings,
                 .scenery = scenery,
-                .allAround = allAround};
+                .allAround = fitsAll(),
+                .isPreview = isCoarse()};
     }
+    // Whether maps of light are fitted to all that there is: previews turn with the hand that drags.
+    bool fitsAll() const { return allAround || isCoarse(); }
     // Whether pictures follow in which only the place of a sample in its pixel, the direction or, while it is
     // dragged, one light differs.
-    bool repeats(const scene::Scene& scene) const {
-        return allAround || isCoarse() || pixelSamples(scene) > 1;
-    }
+    bool repeats(const scene::Scene& scene) const { return fitsAll() || pixelSamples(scene) > 1; }
     bool rests(int place, double since);
     bool canPreview();
     Result<bool> takeObjects(const scene::Scene& scene);

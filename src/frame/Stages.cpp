@@ -19,6 +19,7 @@ namespace {
 using views::hasEnvironment;
 
 constexpr int kFewestDirections = 6;             // of the environment
+constexpr int kShadowTexels = 4;                 // of a preview, for each pixel along its longer side
 constexpr std::size_t kMostInFlight = 2;         // so that the GPU never waits for us, nor we long for it
 constexpr double kBatchMs = 80, kDraggedMs = 40; // until a hand that comes down is followed
 
@@ -47,7 +48,10 @@ bool shareShapes(const std::vector<views::ObjectKey>& some, const std::vector<vi
 scene::Scene Renderer::State::chosen(const scene::Scene& scene) const {
     scene::Scene used = scene;
     budget.apply(used);
-    if (isCoarse()) turnDown(used);
+    if (!isCoarse()) return used;
+    turnDown(used);
+    int& shadowSize = views::samplingOf(used).shadowSize; // finer shadows would not be seen in few pixels
+    shadowSize = std::min(shadowSize, kShadowTexels * std::max(size.x, size.y));
     return used;
 }
 

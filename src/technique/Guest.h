@@ -38,6 +38,7 @@ struct Picture {
     std::uint64_t scenery = 0; ///< another number where anything is as it was not but the camera
     bool allAround = false;    ///< what is fitted to what the camera sees is fitted to all: pictures in other
                                ///< directions follow
+    bool isPreview = false;    ///< its knobs are turned down, and a whole picture follows
 };
 
 /// The same while a graph of passes is recorded.

@@ -202,23 +202,64 @@ TEST_F(OneLight, ShadowViewsAndCausticMapsAreDrawnOnceForAllSamplesOfThePixels) 
     EXPECT_LT(passes(3), 2 * withGlass); // most of the first one's are the caustic's
 }
 
-TEST_F(OneLight, ShadowsOfTheSkyStayWhileALampIsDragged) {
+// Draws that a preview of the scene takes.
+int drawsOf(Renderer& renderer, const scene::Scene& scene, std::uint64_t revision) {
+    for (bool complete = false; !complete;) {
+        const Result<Progress> progress = renderer.advance(scene, revision, scene.size, true);
+        EXPECT_TRUE(progress.ok());
+        complete = !progress || progress->complete;
+    }
+    return renderer.stats().draws;
+}
+
+TEST_F(OneLight, ShadowsOfTheSkyStayWhileSomethingElseIsDragged) {
     scene::PointLight lamp{.position = {0, 1, 0}};
+    scene.lights = {lamp};
     scene.environment.emplace().map = skyOf([](ivec2) { return 0.5f; });
     technique::addSettings(scene);
     Renderer renderer(*context);
-    const auto draws = [&](std::uint64_t revision) {
-        lamp.position.x += 0.01f;
-        scene.lights = {lamp};
-        for (bool complete = false; !complete;) {
-            const Result<Progress> progress = renderer.advance(scene, revision, scene.size, true);
-            EXPECT_TRUE(progress.ok());
-            complete = !progress || progress->complete;
-        }
-        return renderer.stats().draws;
+    int first = drawsOf(renderer, scene, 1);
+    lamp.position.x += 0.01f;
+    scene.lights = {lamp};
+    EXPECT_LT(drawsOf(renderer, scene, 2), first / 2) << "a lamp";
+    scene.camera.eye.x += 0.1f;
+    EXPECT_LT(drawsOf(renderer, scene, 3), first / 2) << "the camera";
+    scene.objects.back().transform.translate.y += 0.01f;
+    EXPECT_GT(drawsOf(renderer, scene, 4), first / 2) << "what casts them";
+    scene.lights.clear(); // water throws their light anew
+    scene.objects.push_back(test::glass(scene::Water{.size = {0.2f, 0.2f}}, 1.33f, {0, 0.1f, 0}));
+    Renderer other(*context);
+    first = drawsOf(other, scene, 1);
+    scene.view.time += 0.01f;
+    EXPECT_LT(drawsOf(other, scene, 2), first / 2) << "water";
+}
+
+TEST_F(OneLight, CausticsStayWhileTheCameraIsDragged) {
+    scene.lights = {kLamps[0]};
+    scene.objects.back().material.kind = scene::Clear{};
+    technique::addSettings(scene);
+    Renderer renderer(*context);
+    const int first = drawsOf(renderer, scene, 1);
+    scene.camera.eye.x += 0.1f;
+    EXPECT_LT(drawsOf(renderer, scene, 2), first / 2);
+}
+
+TEST_F(OneLight, PreviewsDoNotTouchThePicture) {
+    scene.lights = {kLamps[0]};
+    scene.objects.back().material.kind = scene::Translucent{.scattering = vec3(30), .absorption = vec3(1)};
+    for (const float height : {0.8f, 1.1f, 1.4f}) { // more surfaces behind each other than previews have
+        scene.objects.push_back(boxAt({0.3f, height, 0}));
+        scene.objects.back().material.kind = scene::Clear{};
+    }
+    scene.environment.emplace().map = skyOf([](ivec2) { return 0.5f; });
+    technique::addSettings(scene);
+    Renderer dragged(*context), still(*context);
+    drawsOf(dragged, scene, 1);
+    const auto picture = [&](Renderer& renderer) {
+        EXPECT_TRUE(renderer.finish(scene, 2, scene.size).ok());
+        return *renderer.read(scene, scene::Aov::Color);
     };
-    const int first = draws(1);
-    EXPECT_LT(draws(2), first / 2);
+    EXPECT_EQ(picture(dragged).pixels, picture(still).pixels);
 }
 
 // --- the sky by way of water
