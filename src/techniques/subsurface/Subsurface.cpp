@@ -171,10 +171,6 @@ std::shared_ptr<const Profiled> profileOf(gl::Context& context, const Wanted& wa
     profiled->of = wanted;
     profiled->kernel = kernelOf(wanted.media, wanted.wish);
     if (wanted.paper) usePapersSplats(profiled->kernel, wanted, name);
-    if (profiled->kernel.blur > 0)
-        warnOnce("subsurface: object \"" + name + "\" is " + std::to_string(wanted.wish.size) +
-                 " m wide and its light reaches less far than mostSplats can tell apart; it is blurred by " +
-                 std::to_string(profiled->kernel.blur) + " m");
     constexpr double kPoleError = 1e-4; // of the profile's largest value: 24 poles at most
     if (wanted.wish.shares && profiled->kernel.blur == 0)
         for (std::size_t c = 0; c < 3; ++c)
@@ -187,6 +183,14 @@ std::shared_ptr<const Profiled> profileOf(gl::Context& context, const Wanted& wa
         context.device().upload(profiled->tables.back().handle(), 0, band.table);
     }
     return profiled;
+}
+
+// Says how light is blurred that reaches less far than points lie apart.
+void warnOfBlur(const Profiled& profile, const std::string& name) {
+    if (profile.kernel.blur > 0)
+        warnOnce("subsurface: object \"" + name + "\" is " + std::to_string(profile.of.wish.size) +
+                 " m wide and its light reaches less far than mostSplats can tell apart; it is blurred by " +
+                 std::to_string(profile.kernel.blur) + " m");
 }
 
 // Says what of M_d is not drawn.
@@ -326,7 +330,8 @@ Plan& Plan::operator=(Plan&&) noexcept = default;
 Plan::~Plan() = default;
 
 Result<Plan> Subsurface::plan(views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
-                              const std::vector<views::DrawnMesh>& meshes, const Settings& settings) {
+                              const std::vector<views::DrawnMesh>& meshes, const Settings& settings,
+                              bool isPreview) {
     Plan plan;
     plan.state_->onLayers = isOnLayers(scene);
     std::vector<std::shared_ptr<const Profiled>> used;
@@ -340,7 +345,8 @@ Result<Plan> Subsurface::plan(views::Readings& readings, graph::TexturePool& poo
         if (known == profiles_.end()) profiles_.push_back(object.profile);
         used.push_back(object.profile);
         const Layout layout = layoutOf(*object.profile, mesh, settings, context_.caps().maxTextureSize);
-        if (mesh.paint) warnOfPaint(mesh, layout.grid, settings);
+        if (!isPreview) warnOfBlur(*object.profile, mesh.object->name);
+        if (!isPreview && mesh.paint) warnOfPaint(mesh, layout.grid, settings);
         // Cells lie along the world's axes, points along the object's own.
         const bool inCells = settings.method == Method::Diffusion;
         if (inCells || plan.state_->onLayers) {

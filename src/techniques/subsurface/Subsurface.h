@@ -127,9 +127,11 @@ public:
     /// only moved or turned since.
     ///
     /// @param readings  not all there: the plan is of no use yet
-    /// @param meshes  visible ones that scatter
+    /// @param meshes     visible ones that scatter
+    /// @param isPreview  it does not warn of what the settings cannot draw
     Result<Plan> plan(views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
-                      const std::vector<views::DrawnMesh>& meshes, const Settings& settings);
+                      const std::vector<views::DrawnMesh>& meshes, const Settings& settings,
+                      bool isPreview = false);
 
     /// Adds the passes that sum a slice of the light samples; the first one begins anew.
     Status light(graph::FrameGraph& graph, const Arriving& in, const Plan& plan, const Settings& settings);

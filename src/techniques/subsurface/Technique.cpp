@@ -24,9 +24,9 @@ public:
 
     Status prepare(const technique::Picture& picture) override {
         plan_.reset();
-        Result<Plan> plan =
-            subsurface_.plan(picture.readings, store_.pool, picture.scene,
-                             meshesOf(scattering(picture.drawables)), settingsOf(picture.scene));
+        Result<Plan> plan = subsurface_.plan(picture.readings, store_.pool, picture.scene,
+                                             meshesOf(scattering(picture.drawables)),
+                                             settingsOf(picture.scene), picture.isPreview);
         if (!plan) return plan.error();
         if (picture.readings.areThere()) plan_ = std::move(*plan);
         return Done{};
@@ -153,6 +153,7 @@ constexpr technique::Knob kKnobs[] = {
      .steps = kErrors,
      .words = "error of splats",
      .acts = sums},
+    {.id = "mostSplats", .coarse = 64, .acts = sums},
     {.id = "cells", .coarse = 24, .steps = kCells, .words = "cells", .acts = solves},
 };
 constexpr Aov kAovs[] = {Aov::Radiosity};
