@@ -21,8 +21,8 @@ void KeptShadows::forget(const Is& is) {
 void KeptShadows::stand(const scene::Scene& scene, const Waters& waters) {
     std::vector<Standing> standing;
     for (const scene::Object& object : scene.objects) {
-        const WaterSheet* sheet = waters.of(int(standing.size()));
-        standing.push_back({objectKey(object, scene.view.time), sheet ? sheet->changes() : 0});
+        const bool isSheet = waters.of(int(standing.size())) != nullptr;
+        standing.push_back({objectKey(object, scene.view.time), isSheet ? waters.changes() : 0});
         standing.back().key.visible = true; // what is hidden casts its shadow still
     }
     const auto isAsBefore = [&](int object) {

@@ -36,7 +36,7 @@ public:
 private:
     struct Standing {
         ObjectKey key;
-        std::uint64_t water; // WaterSheet::changes(), of what is one
+        std::uint64_t water; // Waters::changes(), of sheets: another sheet may have had as many of its own
         bool operator==(const Standing&) const = default;
     };
     struct One {

@@ -126,7 +126,7 @@ public:
     /// Makes the tables, and counts the layers of objects where an environment shines, but of those that have
     /// only moved or turned since.
     ///
-    /// @param readings  not all there: the plan is of no use yet
+    /// @param readings   not all there: the plan is of no use yet
     /// @param meshes     visible ones that scatter
     /// @param isPreview  it does not warn of what the settings cannot draw
     Result<Plan> plan(views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
