@@ -1,6 +1,7 @@
 #pragma once
 /// What a renderer holds. Private to this folder: each concern has its own file.
 ///   Stages.cpp    from few light samples to all: settings, stages, slices of work
+///   Pacing.cpp    how passes reach the GPU, portion by portion
 ///   Phases.cpp    one picture's passes: what the guests draw, phase by phase
 ///   Surroundings.cpp  views from mirrors and refractive objects, for what the camera does not see
 ///   Display.cpp   from linear light to what is shown
@@ -17,11 +18,18 @@
 #include "views/SurfaceKey.h"
 #include "views/Surroundings.h"
 
+#include <chrono>
 #include <deque>
 #include <functional>
 #include <optional>
 
 namespace lucent::frame {
+
+/// Milliseconds of a clock that only runs forward.
+inline double nowMs() {
+    using namespace std::chrono;
+    return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
 
 // A picture is made in stages: a preview, more directions of the environment, all that its settings ask
 // for, and then the same once for each further sample of the pixels. A stage is summed in slices that take
@@ -199,15 +207,8 @@ struct Renderer::State {
     void placeLights(const scene::Scene& scene);
     Status slice(const scene::Scene& scene);
     Result<bool> ready(const Moment& moment);
-    Status begin(std::unique_ptr<Running> made, Running::Work work,
-                 const std::function<Status(Running&)>& record);
-    Status work();
-    bool runSome(double until);
-    void submit();
-    void retire(double until);
     Status follow();
     Status showSum(Moment moment);
-    void drop();
     Status finishStage(const Moment& moment);
     Status settle(const scene::Scene& scene);
     Status takeSample(const scene::Scene& scene);
@@ -220,6 +221,16 @@ struct Renderer::State {
     // A preview is not drawn again: the picture after it is.
     bool settled(Effort effort) const;
     int sliceEnd() const;
+
+    // Pacing.cpp
+    Status runGraph(const std::function<Status(graph::FrameGraph&)>& record);
+    Status begin(std::unique_ptr<Running> made, Running::Work work,
+                 const std::function<Status(Running&)>& record);
+    Status work();
+    bool runSome(double until);
+    void submit();
+    void retire(double until);
+    void drop();
 
     // Surroundings.cpp
     Status survey(const Moment& moment);
@@ -277,7 +288,6 @@ struct Renderer::State {
     Status recordMean(graph::FrameGraph& graph, graph::TextureId target);
 
     std::vector<std::string> leftOut(const technique::Picture& picture) const;
-    Status runGraph(const std::function<Status(graph::FrameGraph&)>& record);
     Result<Image> display(const scene::Scene& scene, bool linear);
     Status recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target,
                          bool linear);

@@ -4,9 +4,6 @@
 #include "views/Layers.h"
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
-#include <set>
 
 namespace lucent::frame {
 
@@ -18,15 +15,8 @@ namespace {
 
 using views::hasEnvironment;
 
-constexpr int kFewestDirections = 6;             // of the environment
-constexpr int kShadowTexels = 4;                 // of a preview, for each pixel along its longer side
-constexpr std::size_t kMostInFlight = 2;         // so that the GPU never waits for us, nor we long for it
-constexpr double kBatchMs = 80, kDraggedMs = 40; // until a hand that comes down is followed
-
-double now() {
-    using namespace std::chrono;
-    return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
-}
+constexpr int kFewestDirections = 6; // of the environment
+constexpr int kShadowTexels = 4;     // of a preview, for each pixel along its longer side
 
 bool bends(const scene::Scene& scene) {
     return std::any_of(scene.objects.begin(), scene.objects.end(),
@@ -66,11 +56,11 @@ void Renderer::State::startChoosing(const scene::Scene& scene) {
 
 // Chooses for one slice of time, and goes on with the settings when they are known.
 Status Renderer::State::plan(const scene::Scene& scene) {
-    const double before = now();
-    for (bool waits = false; !budget.done() && !waits && now() - before < kSliceMs; waits = budget.waits())
+    const double before = nowMs();
+    for (bool waits = false; !budget.done() && !waits && nowMs() - before < kSliceMs; waits = budget.waits())
         if (Status stepped = budget.step(scene); !stepped) return stepped;
-    workMs += now() - before;
-    planMs += now() - before;
+    workMs += nowMs() - before;
+    planMs += nowMs() - before;
     planning = !budget.done();
     if (planning) return Done{};
     addStages(scene, Effort::Final, true);
@@ -246,24 +236,14 @@ int Renderer::State::sliceEnd() const {
     return next == 0 ? std::min(count, std::max(end, std::min(4, most))) : end;
 }
 
-Status Renderer::State::runGraph(const std::function<Status(graph::FrameGraph&)>& record) {
-    graph::FrameGraph graph;
-    if (Status recorded = record(graph); !recorded) return recorded;
-    if (Status compiled = graph.compile(); !compiled) return compiled;
-    graph.execute(pool);
-    passes += graph.livePasses();
-    if (std::string error = context.takeNoted(); !error.empty()) return Error{error, Fault::Machine};
-    return Done{};
-}
-
 // Works for one slice of time on what must be there before a stage begins. @return whether it is
 Result<bool> Renderer::State::ready(const Moment& moment) {
     Guest* const guest = stages[stage].baked ? baker(moment.scene) : nullptr;
     if (!guest || sample > 0) return true; // the first sample has waited for it
-    const double before = now();
+    const double before = nowMs();
     Result<bool> isThere = guest->bake(pictureOf(moment), kSliceMs);
     if (isThere && *isThere) isThere = budget.admitsBake(moment.scene);
-    workMs += now() - before;
+    workMs += nowMs() - before;
     planning = !dragged && !budget.done(); // again, where it does not keep the error
     if (planning) stages.resize(stage);
     return isThere;
@@ -273,7 +253,7 @@ Result<bool> Renderer::State::ready(const Moment& moment) {
 // place where it may rest, or what takes that long each time would never end.
 bool Renderer::State::rests(int place, double since) {
     const double longest = dragged ? 1.5 * kSliceMs : kSliceMs; // a preview hurries
-    if (atOnce || place < rested || now() - since < longest) return false;
+    if (atOnce || place < rested || nowMs() - since < longest) return false;
     rested = place + 1;
     return true;
 }
@@ -290,26 +270,27 @@ bool Renderer::State::canPreview() {
 
 // Takes objects to the GPU for one slice of time. @return whether all are there
 Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
-    const double begins = now();
+    const double begins = nowMs();
     if (taken == 0 && bends(scene)) views::askToCount(context); // it is made meanwhile
     while (!atOnce && taken < int(scene.objects.size())) {
         if (!images.takePart(scene.objects[std::size_t(taken)])) {
             const Result<views::Drawable::Ptr> one = views::drawableOf(scene, taken++, images, &waters);
             if (!one) return one.error();
         }
-        if (now() - begins > 0.25 * kSliceMs) return false; // a part of the next may take longer than a slice
+        if (nowMs() - begins > 0.25 * kSliceMs)
+            return false; // a part of the next may take longer than a slice
     }
     return true;
 }
 
 Status Renderer::State::slice(const scene::Scene& scene) {
-    const double begins = now();
+    const double begins = nowMs();
     if (next == 0) sample = stages[stage].sample;
     if (!hasLights) placeLights(scene);
     if (rests(0, begins)) return Done{};
-    const double beforeWater = now();
+    const double beforeWater = nowMs();
     const Result<bool> still = waters.advance(scene);
-    workMs += now() - beforeWater;
+    workMs += nowMs() - beforeWater;
     if (!still) return still.error();
     if (!*still) return Done{};
     if (const std::uint64_t changes = waters.changes(); sceneryFor->waters != changes) {
@@ -330,9 +311,9 @@ Status Renderer::State::slice(const scene::Scene& scene) {
         const Result<bool> isReady = ready(made->moment);
         if (!isReady) return isReady.error();
         if (!*isReady) return Done{};
-        const double beforeAround = now();
+        const double beforeAround = nowMs();
         const Result<bool> around = lookAround(made->moment);
-        workMs += now() - beforeAround;
+        workMs += nowMs() - beforeAround;
         if (!around) return around.error();
         if (!*around) return Done{};
         const Result<bool> prepared = prepare(made->picture);
@@ -351,119 +332,7 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     return begun;
 }
 
-// --- passes, portion by portion
-
-Status Renderer::State::begin(std::unique_ptr<Running> made, Running::Work work,
-                              const std::function<Status(Running&)>& record) {
-    const double before = now();
-    made->work = work;
-    if (Status recorded = record(*made); !recorded) return recorded;
-    if (Status compiled = made->graph.compile(); !compiled) return compiled;
-    made->ms = now() - before;
-    running = std::move(made);
-    return Done{};
-}
-
-// What has begun, for one slice of time.
-Status Renderer::State::work() {
-    const double until = now() + kSliceMs;
-    while (running && runSome(until))
-        if (Status followed = follow(); !followed) return followed;
-    return Done{};
-}
-
-// @return whether all passes have run
-bool Renderer::State::runSome(double until) {
-    if (atOnce) {
-        const double before = now();
-        running->graph.execute(pool);
-        const bool isSlice = running->work == Running::Work::Slice;
-        context.device().wait((!isSlice ? picture() : next > 0 ? scratch : sum).handle());
-        running->ms += now() - before; // waited for, so that what is reported as time is time
-        return true;
-    }
-    for (;;) {
-        retire(until);
-        if (running->isSubmitted) return submitted.empty();
-        if (context.hasUnready()) { // whoever looks on is not kept waiting for programs either
-            if (context.isCompiling() || !submitted.empty()) return false;
-            context.makeReady();
-        }
-        if (submitted.size() == kMostInFlight || now() > until) return false;
-        submit();
-    }
-}
-
-// Gives the GPU what takes as long as a batch may, or one portion of a pass that was never drawn.
-void Renderer::State::submit() {
-    constexpr int kFewest = 1 << 12, kFirst = 1 << 15; // pixels: of any pass, of one that was never drawn
-    const double longest = dragged ? kDraggedMs : kBatchMs;
-    // A GPU draws any pass in no time, until it has shown that it does not.
-    const bool isSlow = context.caps().software;
-    const Cost guess{isSlow ? kDraggedMs / kFirst : 1e-6, kFirst};
-    const auto costOf = [&](const std::string& pass) {
-        const auto known = costs.find(pass);
-        return known == costs.end() ? guess : known->second;
-    };
-    const auto most = [&](const std::string& pass) {
-        const Cost cost = costOf(pass);
-        const int step = isSlow ? 2 * cost.pixels : std::numeric_limits<int>::max();
-        return std::max(kFewest, int(std::min(double(step), longest / cost.perPixel)));
-    };
-    const double begun = now();
-    std::vector<Batch::Part> parts;
-    double expected = 0;
-    bool hasFirst = false;
-    while (expected < longest) {
-        const auto portion = running->graph.step(pool, most);
-        running->isSubmitted = !portion;
-        if (!portion) break;
-        const int pixels = std::max(portion->pixels, kFewest);
-        parts.push_back({portion->pass, pixels});
-        const auto [known, isFirst] = costs.try_emplace(portion->pass, guess);
-        hasFirst |= isFirst;
-        Cost& cost = known->second;
-        cost.pixels = std::max(pixels, kFirst);
-        expected += cost.perPixel * pixels;
-    }
-    if (!parts.empty()) submitted.push_back({std::move(parts), hasFirst, begun, expected, gl::Fence()});
-}
-
-// Takes what the GPU has done, and learns what it took; waits for it where nothing more can be given.
-void Renderer::State::retire(double until) {
-    constexpr double kLeastFactor = 0.25; // at once: what is done when it is first looked at took no time
-    // A page looks once a frame: it may have been done soon after the last look. Where it looks less often
-    // the GPU was what kept it.
-    constexpr double kFrameMs = 1000.0 / 60;
-    double expected = 0, begun = 0, ended = 0;
-    bool hasFirst = false;
-    std::vector<Batch::Part> parts;
-    while (!submitted.empty()) {
-        const double asked = now();
-        const bool waits = expected == 0 && (running->isSubmitted || submitted.size() == kMostInFlight ||
-                                             context.hasUnready());
-        if (!submitted.front().fence.passed(waits ? until - asked : 0)) {
-            looked = now();
-            break;
-        }
-        Batch& done = submitted.front();
-        if (expected == 0) begun = std::max(done.begun, retired);
-        ended = std::max({begun, looked, asked - kFrameMs}) + (now() - asked);
-        expected += done.expected;
-        hasFirst |= done.hasFirst;
-        parts.insert(parts.end(), done.parts.begin(), done.parts.end());
-        submitted.pop_front();
-    }
-    if (expected == 0) return;
-    retired = ended;
-    const double took = ended - begun;
-    running->ms += took;
-    // What compiling took says nothing of the pixels: it would cut the rest of a pass into crumbs.
-    const double factor = std::clamp(took / expected, kLeastFactor, hasFirst ? 1.0 : 1e3);
-    std::set<std::string> passes;
-    for (const Batch::Part& part : parts)
-        if (passes.insert(part.pass).second) costs.at(part.pass).perPixel *= factor;
-}
+// --- what follows passes that have run
 
 // All passes have run.
 Status Renderer::State::follow() {
@@ -478,16 +347,6 @@ Status Renderer::State::follow() {
     if (next > 0) std::swap(sum, scratch);
     next = done->end;
     return next < int(lights.size()) ? Status(Done{}) : showSum(std::move(done->moment));
-}
-
-// The picture has changed while its passes ran.
-void Renderer::State::drop() {
-    if (!running) return;
-    running->graph.abandon(pool);
-    running.reset();
-    triangles.current = false;
-    for (const Member& member : members)
-        member.guest->forgetRecorded();
 }
 
 // All light samples of a stage are summed.
@@ -568,12 +427,12 @@ Status Renderer::State::takeSample(const scene::Scene& scene) {
     }
     if (!scratch) scratch = graph::Texture(context.device(), sum.desc(), "frame.scratch");
     if (!mean) mean = graph::Texture(context.device(), sum.desc(), "frame.mean");
-    const double before = now();
+    const double before = nowMs();
     if (Status s =
             runGraph([&](graph::FrameGraph& graph) { return recordMean(graph, import(graph, scratch)); });
         !s)
         return s;
-    workMs += now() - before;
+    workMs += nowMs() - before;
     std::swap(mean, scratch);
     averaged = true;
     return Done{};
@@ -581,10 +440,10 @@ Status Renderer::State::takeSample(const scene::Scene& scene) {
 
 Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64_t newRevision, ivec2 newSize,
                                           Effort effort) {
-    const double begins = now();
+    const double begins = nowMs();
     if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
         start(asked, newRevision, newSize, effort);
-    const bool isLate = !atOnce && now() - begins > 0.25 * kSliceMs; // the scene's shapes were made
+    const bool isLate = !atOnce && nowMs() - begins > 0.25 * kSliceMs; // the scene's shapes were made
     const scene::Scene& scene = *pictured;
     if (dragged && effort != Effort::Coarse) { // the preview was the picture already
         const bool over = complete();
