@@ -1,7 +1,6 @@
 // From linear light to what is shown, alone or with another picture beside it.
 #include "frame/RendererState.h"
 
-#include "shaders/frame/Blocks.h"
 #include "views/Surface.h"
 
 #include <cmath>
@@ -75,9 +74,10 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
 
 } // namespace
 
+// @param from  null: whence it was drawn
 Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene,
-                                      graph::TextureId target, bool linear) {
-    const bool scaled = preview && !linear;
+                                      graph::TextureId target, bool linear, const views::Eye* from) {
+    const bool scaled = kept.light && !linear;
     std::vector<std::string> defines;
     if (linear) defines.push_back("LINEAR");
     if (composed || averaged || scaled) defines.push_back("COMPOSED");
@@ -91,11 +91,18 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
         block.isHeat = 0;
     }
     if (scaled) {
-        block.texels = vec2(preview.desc().size) / vec2(screen);
+        block.texels = vec2(kept.light.desc().size) / vec2(screen);
         block.isScalar = 0; // its channels are alike
     }
     const graph::TextureId surfaceId = import(graph, shownSurface);
-    const graph::TextureId shownId = import(graph, scaled ? preview : finished());
+    graph::TextureId shownId;
+    if (!scaled) {
+        shownId = import(graph, finished());
+    } else {
+        const Result<graph::TextureId> seen = recordReprojected(graph, scene, from ? *from : kept.eye);
+        if (!seen) return seen.error();
+        shownId = *seen;
+    }
     graph.addPass("frame.display", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(linear ? "linear values for a file" : "exposure, clamp and sRGB curve for the display");
         pass.sample(surfaceId);
@@ -109,14 +116,6 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
     });
     graph.keep(target);
     return Done{};
-}
-
-// The picture that is complete, as linear values.
-Status Renderer::State::keepPreview(const scene::Scene& scene) {
-    const TextureDesc desc{.size = size, .format = Format::RGBA32F};
-    if (!preview || preview.desc() != desc) preview = graph::Texture(context.device(), desc, "frame.preview");
-    return runGraph(
-        [&](graph::FrameGraph& graph) { return recordDisplay(graph, scene, import(graph, preview), true); });
 }
 
 void Renderer::State::takeOther(const Beside& beside) {

@@ -9,8 +9,9 @@ namespace lucent::frame {
 
 namespace {
 
-constexpr std::size_t kMostInFlight = 2;         // so that the GPU never waits for us, nor we long for it
-constexpr double kBatchMs = 80, kDraggedMs = 40; // until a hand that comes down is followed
+constexpr std::size_t kMostInFlight = 2; // so that the GPU never waits for us, nor we long for it
+constexpr double kBatchMs = 80;          // until a hand that comes down is followed,
+constexpr double kDraggedMs = 20; // or one that moves: both in flight and a frame take a tenth of a second
 
 } // namespace
 

@@ -2,7 +2,7 @@
 #include "frame/RendererState.h"
 
 #include "light/FlatWater.h"
-#include "shaders/frame/Blocks.h"
+
 #include "views/Surface.h"
 
 #include <algorithm>
@@ -27,6 +27,12 @@ const gl::Program* meanProgram(gl::Context& context, bool isComposed, bool isFir
 }
 
 } // namespace
+
+BackgroundBlock backgroundBlock(const scene::Environment& light, const views::Eye& eye, ivec2 size) {
+    return {.view = views::viewBlock(eye, size),
+            .mapFromWorld = mat4(glm::transpose(rotationFromDegrees(light.rotation))),
+            .intensity = light.intensity};
+}
 
 Renderer::State::State(gl::Context& gl, Supplies* of)
     : context(gl), pool(gl.device()), own(of ? nullptr : std::make_unique<Supplies>(gl, pool)),
@@ -234,18 +240,21 @@ Status Renderer::State::recordRest(graph::FrameGraph& graph, const Picture& pict
         for (Guest* guest : guests)
             if (Status s = guest->mirror(passes, shownId); !s) return s;
     }
-    if (!composed) return Done{};
-    const TextureId target = import(graph, through);
-    graph.keep(target);
-    return last ? last->through(passes, shownId, target) : recordBackground(passes, shownId, target);
+    if (composed) {
+        const TextureId target = import(graph, through);
+        graph.keep(target);
+        if (Status s =
+                last ? last->through(passes, shownId, target) : recordBackground(passes, shownId, target);
+            !s)
+            return s;
+    }
+    return recordDepth(passes);
 }
 
 Status Renderer::State::recordBackground(const Passes& passes, TextureId shownId, TextureId target) {
     const gl::Program* program = context.program("frame/background");
-    const scene::Environment& light = *passes.picture.scene.environment;
-    const BackgroundBlock block{.view = views::viewBlock(passes.picture.eye, size),
-                                .mapFromWorld = mat4(glm::transpose(rotationFromDegrees(light.rotation))),
-                                .intensity = light.intensity};
+    const BackgroundBlock block =
+        backgroundBlock(*passes.picture.scene.environment, passes.picture.eye, size);
     passes.graph.addPass("frame.background", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("the environment behind everything else");
         pass.sample(passes.surface);

@@ -29,24 +29,33 @@ Status Renderer::finish(const scene::Scene& scene, std::uint64_t revision, ivec2
 }
 void Renderer::setDefaultError(float error) { state_->defaultError = error; }
 
-bool Renderer::canPresent() const { return state_->preview || state_->presentable || state_->averaged; }
+bool Renderer::canPresent() const { return state_->kept.light || state_->presentable || state_->averaged; }
 
-Status Renderer::present(const scene::Scene& scene) {
+Status Renderer::present(const scene::Scene& scene, const scene::Camera* from) {
     State& s = *state_;
     assert(s.shown && "present() before the first advance()");
     s.context.device().setScreenSize(s.screen);
+    s.reprojected = false;
+    std::optional<views::Eye> eye;
+    if (from) {
+        scene::Scene moved = scene;
+        moved.camera = *from;
+        eye = s.middleEyeOf(moved);
+    }
     return s.runGraph([&](graph::FrameGraph& graph) {
-        return s.recordDisplay(graph, scene, s.importScreen(graph), false);
+        return s.recordDisplay(graph, scene, s.importScreen(graph), false, eye ? &*eye : nullptr);
     });
 }
 
-Status Renderer::present(const scene::Scene& scene, const Beside& beside) {
+Status Renderer::present(const scene::Scene& scene, const Beside& beside, const scene::Camera* from) {
     State& s = *state_;
     assert(beside.image.channels == 4);
-    if (Status drawn = present(scene); !drawn) return drawn;
+    if (Status drawn = present(scene, from); !drawn) return drawn;
     s.takeOther(beside);
     return s.runGraph([&](graph::FrameGraph& graph) { return s.recordBeside(graph, scene, beside); });
 }
+
+bool Renderer::isReprojected() const { return state_->reprojected; }
 
 bool Renderer::drop(int object, const views::WaterDrop& drop) {
     if (!state_->waters.of(object)) return false;
@@ -104,8 +113,9 @@ void Renderer::release() {
     s.submitted.clear();
     s.budget.forget();
     for (graph::Texture* texture : {&s.surface, &s.shownSurface, &s.shown, &s.sum, &s.scratch, &s.lightTable,
-                                    &s.through, &s.mean, &s.other, &s.preview})
+                                    &s.through, &s.mean, &s.other, &s.depth})
         *texture = graph::Texture();
+    s.kept = {};
     s.shownKey.reset();
     s.triangles = {};
     s.waters.clear();

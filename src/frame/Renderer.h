@@ -85,12 +85,19 @@ public:
     bool canPresent() const;
     /// Draws the picture so far, tone-mapped, into the default framebuffer (premultiplied alpha); one that
     /// was drawn smaller is smoothed.
-    Status present(const scene::Scene& scene);
+    ///
+    /// @param from  a camera that has moved since, while nothing else has: what is shown until the next
+    /// picture is
+    ///              drawn is reprojected to it by the depths of what is seen; null: as it was drawn
+    Status present(const scene::Scene& scene, const scene::Camera* from = nullptr);
     /// The same with another picture beside it.
-    Status present(const scene::Scene& scene, const Beside& beside);
+    Status present(const scene::Scene& scene, const Beside& beside, const scene::Camera* from = nullptr);
 
     /// Runs advance() until complete.
     Status finish(const scene::Scene& scene, std::uint64_t revision, ivec2 size);
+
+    /// Whether present() showed a reprojection last.
+    bool isReprojected() const;
 
     /// A drop falls into the water that an object is, at the moment that was drawn last; the picture must
     /// then be drawn anew, with another revision. @return false where no water has been drawn

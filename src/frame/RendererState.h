@@ -5,6 +5,7 @@
 ///   Phases.cpp    one picture's passes: what the guests draw, phase by phase
 ///   Surroundings.cpp  views from mirrors and refractive objects, for what the camera does not see
 ///   Display.cpp   from linear light to what is shown
+///   Reprojection.cpp  the last picture as another camera sees it
 ///   Explain.cpp   what is drawn and why, in words
 ///   Renderer.cpp  the calls from outside
 
@@ -13,6 +14,7 @@
 #include "gl/Fence.h"
 #include "graph/FrameGraph.h"
 #include "light/Occlusion.h"
+#include "shaders/frame/Blocks.h"
 #include "technique/Guest.h"
 #include "technique/Technique.h"
 #include "views/SurfaceKey.h"
@@ -124,9 +126,17 @@ struct Renderer::State {
     std::vector<Member> members;
     Budget budget;
     graph::Texture surface, shownSurface, shown, sum, scratch, lightTable, through;
-    graph::Texture mean;    // over the pixels' samples; none where each has one
-    graph::Texture preview; // the last picture that was drawn smaller, until there is one of the whole size
-    graph::Texture other;   // beside the picture
+    graph::Texture mean;  // over the pixels' samples; none where each has one
+    graph::Texture other; // beside the picture
+    graph::Texture depth; // of what is seen in the picture, m along eyeShown; 0: nothing
+    views::Eye eyeShown;  // that it was drawn for: of all its samples
+    // The last complete picture, where it was drawn smaller or the camera has moved since; until there is one
+    // of the whole size.
+    struct Kept {
+        graph::Texture light, depth; // linear, 4 channels; as above, or none
+        views::Eye eye;
+    } kept;
+    bool reprojected = false; // what present() showed last
     std::uint64_t otherNumber = 0;
     views::KeptTriangles triangles;          // of refractive objects,
     std::vector<views::ObjectKey> triangled; // as they stood
@@ -191,6 +201,15 @@ struct Renderer::State {
     double workMs = 0, planMs = 0;
     int drawsBefore = 0, passes = 0;
     Stats stats;
+
+    // Reprojection.cpp
+    views::Eye middleEyeOf(const scene::Scene& scene) const;
+    bool isReprojected(const scene::Scene& scene) const;
+    Status recordDepth(const technique::Passes& passes);
+    Status keep(const scene::Scene& scene);
+    Status keepFor(const scene::Scene& next);
+    Result<graph::TextureId> recordReprojected(graph::FrameGraph& graph, const scene::Scene& scene,
+                                               const views::Eye& to);
 
     // Stages.cpp
     void start(const scene::Scene& scene, std::uint64_t newRevision, ivec2 newSize, Effort effort);
@@ -290,8 +309,7 @@ struct Renderer::State {
     std::vector<std::string> leftOut(const technique::Picture& picture) const;
     Result<Image> display(const scene::Scene& scene, bool linear);
     Status recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target,
-                         bool linear);
-    Status keepPreview(const scene::Scene& scene);
+                         bool linear, const views::Eye* from = nullptr);
     Status recordBeside(graph::FrameGraph& graph, const scene::Scene& scene, const Beside& beside);
     void takeOther(const Beside& beside);
     const graph::Texture& picture() const { return composed ? through : shown; }
@@ -304,5 +322,8 @@ struct Renderer::State {
         return graph.import(texture.handle(), texture.desc(), texture.label());
     }
 };
+
+/// How shaders look up the environment that stands behind a picture.
+BackgroundBlock backgroundBlock(const scene::Environment& light, const views::Eye& eye, ivec2 size);
 
 } // namespace lucent::frame

@@ -375,10 +375,11 @@ Status Renderer::State::finishStage(const Moment& moment) {
     stats.lights = int(lights.size());
     whole = !stages[stage].coarse;
     if (sample == 0) averaged = false;
+    eyeShown = middleEyeOf(moment.scene);
     if (size == screen)
-        preview = graph::Texture();
-    else if (Status kept = keepPreview(moment.scene); !kept)
-        return kept;
+        kept = {};
+    else if (Status s = keep(moment.scene); !s)
+        return s;
     ++stage;
     startStage();
     if (stage < stages.size() && !whole) return Done{};
@@ -441,8 +442,10 @@ Status Renderer::State::takeSample(const scene::Scene& scene) {
 Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64_t newRevision, ivec2 newSize,
                                           Effort effort) {
     const double begins = nowMs();
-    if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse))
+    if (!started || revision != newRevision || size != newSize || (coarse && effort != Effort::Coarse)) {
+        if (Status kept = keepFor(asked); !kept) return kept.error();
         start(asked, newRevision, newSize, effort);
+    }
     const bool isLate = !atOnce && nowMs() - begins > 0.25 * kSliceMs; // the scene's shapes were made
     const scene::Scene& scene = *pictured;
     if (dragged && effort != Effort::Coarse) { // the preview was the picture already

@@ -136,6 +136,9 @@ public:
     virtual Status through(const Passes&, graph::TextureId /*shown*/, graph::TextureId /*target*/) {
         return Done{};
     }
+    /// Array of images whose first one holds the nearest surfaces of what through() has drawn over the opaque
+    /// ones (shaders/views/layer_texel.glsl), in the same graph; none where it draws none.
+    virtual graph::TextureId layersOf(const Passes&) const { return {}; }
 
     // --- after a picture
 

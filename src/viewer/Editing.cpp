@@ -46,8 +46,10 @@ bool isMethod(const BoundParam& bound) {
 
 } // namespace
 
-void Viewer::State::changed() {
+// @param isCamera  nothing else has changed: what is shown can be reprojected
+void Viewer::State::changed(bool isCamera) {
     ++revision;
+    if (!isCamera) ++content;
     stale = true;
     settled = false;
 }
@@ -211,16 +213,17 @@ Status Viewer::State::change(const std::string& path, const std::string& value, 
     }
     const bool converted = kindsDiffer(held, materials());
     if (converted) history.record(step, {"materials", "", "", Conversion{held, materials()}});
-    bool any = converted;
+    bool any = converted, isCamera = !converted;
     // What another kind had is gone, and with it what the controls point to.
     for (std::size_t i = 0; i < controls.size() && !converted; ++i) {
         if (controls[i].bound.isComputed() || textOf(controls[i]) == before[i]) continue;
         history.record(step, {controls[i].bound.path, before[i], textOf(controls[i])});
         any = true;
+        isCamera = isCamera && controls[i].bound.path.starts_with("camera.");
     }
     if (!any) return Done{};
     bind(); // the projection decides what is bound
-    changed();
+    changed(isCamera);
     if (isComputed) began.revision = revision;
     return Done{};
 }
@@ -279,7 +282,10 @@ Status Viewer::State::changeView(const BoundParam& bound, const std::string& val
     const bool seen = bound.data == &mode.matt || bound.data == &mode.accuracy ||
                       bound.data == &paintSettings.layer ||
                       (bound.data == &mode.mode && paintSettings.layer != scene::PaintLayer::None);
-    if (seen) stale = true;
+    if (seen) {
+        stale = true;
+        ++content;
+    }
     ++revision;
     settled = false;
     return Done{};

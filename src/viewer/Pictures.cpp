@@ -25,6 +25,7 @@ void Viewer::State::begin() {
     picture.camera = seenCamera();
     if (dropTime && picture.view.time < *dropTime) dropTime.reset(); // the water begins anew
     ++pictureNumber;
+    pictureContent = content;
     failure.clear();
     stale = stopping = false;
     drawingProgress.reset();
@@ -98,16 +99,26 @@ bool Viewer::State::advance() {
         phase = progress->complete ? Phase::Done : Phase::Smooth;
     }
     shown = true;
+    shownContent = pictureContent;
     const bool isFirst = std::exchange(shownScene, sceneNumber) != sceneNumber; // whose figures come now
     if (showStats || isFirst) settled = false;
     return true;
+}
+
+// The camera as it is now, where nothing else is as it was when what is shown was drawn.
+std::optional<scene::Camera> Viewer::State::movedCamera() const {
+    if (!shown || shownContent != content || play.playing) return std::nullopt;
+    return seenCamera();
 }
 
 Status Viewer::State::paint() {
     imguiHost->clear(pixels.x, pixels.y);
     if (scene && shown) {
         const std::optional<frame::Beside> other = beside();
-        Status presented = other ? renderer->present(picture, *other) : renderer->present(picture);
+        const std::optional<scene::Camera> moved = movedCamera();
+        const scene::Camera* from = moved ? &*moved : nullptr;
+        Status presented =
+            other ? renderer->present(picture, *other, from) : renderer->present(picture, from);
         if (!presented) return presented;
     }
     return imguiHost->draw(*ImGui::GetDrawData(), fonts().atlas, pixels.x, pixels.y);

@@ -111,6 +111,7 @@ std::string statsJson(const StatsInput& input) {
         json.key("object").value(input.bakeObject).key("work").value(input.bakeWork).end();
     }
     json.key("settings").value(input.cost.settings).key("predicted").value(input.cost.predicted);
+    json.key("pictures").value(input.pictures).key("reprojected").value(input.reprojected);
     json.key("frames").value(input.frames).key("revision").value(double(input.revision));
     if (input.light < input.lamps.size()) writePlace(json.key("light"), input.lamps[input.light].place);
     json.key("lamps").beginArray();

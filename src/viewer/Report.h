@@ -34,6 +34,8 @@ struct StatsInput {
     int downscale = 1; ///< of what is shown: pixels to one that was drawn, along a side
     std::optional<DrawingProgress> progress;
     std::string bakeTechnique, bakeObject, bakeWork; ///< what is missing; empty: nothing
+    int pictures = 0;                                ///< shown so far, drawn or reprojected
+    bool reprojected = false;                        ///< what is shown
     int frames = 0;
     std::uint64_t revision = 0;
     std::vector<LightHandle> lamps;      ///< CSS pixels of their dots and arrows

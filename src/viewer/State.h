@@ -60,6 +60,7 @@ struct Viewer::State {
     std::set<std::string> offered; // paths that the panel has shown: what is offered once stays
     History history;
     std::uint64_t revision = 0, gesture = 1;
+    std::uint64_t content = 0; // changes of anything but the camera
     std::string burstPath;
     double burstTime = -1e9;
 
@@ -75,6 +76,8 @@ struct Viewer::State {
 
     scene::Scene picture; // what is being drawn: the scene as it was when this picture began
     std::uint64_t pictureNumber = 0;
+    std::uint64_t pictureContent = 0, shownContent = 0; // `content` of what is being drawn; of what is shown
+    std::uint64_t paintedRevision = 0;                  // of the camera that it is shown for
     ivec2 picturePixels{0};
     Phase phase = Phase::Done;
     int samples = 0;                                // of each pixel of what is shown
@@ -95,6 +98,7 @@ struct Viewer::State {
     std::uint64_t shownHash = 0,
                   lastFrame = 0; // of frames of ImGui: what is shown; the last one of those that settle
     int drawCount = 0;
+    int pictureCount = 0; // of those that showed another picture, drawn or reprojected
     double frameTime = 0, hoverTime = 0;
     std::string hovered, tooltip;
 
@@ -196,7 +200,7 @@ struct Viewer::State {
     void assign(const void* member, float value);
     void apply(const std::vector<Change>& changes, bool back);
     std::uint64_t burst(const std::string& path);
-    void changed();
+    void changed(bool isCamera = false);
 
     // --- lights and gestures
     bool mapShines() const { return scene->environment && scene->environment->enabled; }
@@ -293,6 +297,7 @@ struct Viewer::State {
     int mostDownscale() const;
     void learnDownscale(double took);
     void estimate(float share);
+    std::optional<scene::Camera> movedCamera() const;
     Status paint();
     // While time runs, a picture is as good as the next moment lets it be.
     bool complete() const {

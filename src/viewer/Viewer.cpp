@@ -166,10 +166,13 @@ bool Viewer::draw(double nowSeconds) {
     const std::uint64_t hash = s.frameHash();
     // A new size waits for its first picture, and no picture is shown that is being drawn into.
     const bool paintable = (s.shown && s.canPresent()) || !s.working();
-    if (paintable && (isNew || hash != s.shownHash)) {
+    const bool moves = s.paintedRevision != s.revision && s.movedCamera();
+    if (paintable && (isNew || moves || hash != s.shownHash)) {
         if (Status painted = s.paint(); !painted) showMessage(painted.error().message);
         s.shownHash = hash;
+        s.paintedRevision = s.revision;
         ++s.drawCount;
+        if (isNew || (moves && s.renderer->isReprojected())) ++s.pictureCount;
     }
     return s.working() || !s.settled || wait > 0 || s.play.playing;
 }
@@ -338,6 +341,8 @@ std::string Viewer::stats() const {
         input.bakeWork = s.missingBake->work;
     }
     input.frames = s.drawCount;
+    input.pictures = s.pictureCount;
+    input.reprojected = s.renderer && s.renderer->isReprojected();
     input.revision = s.revision;
     if (s.scene) {
         input.modes = modesOf(*s.scene);

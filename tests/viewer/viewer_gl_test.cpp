@@ -73,6 +73,26 @@ TEST_F(Picture, AFirstLookHasFewerPixelsAndGivesWayToTheWholePicture) {
     EXPECT_LT(sum, 0.03 * all);
 }
 
+TEST_F(Picture, EachFrameOfAnOrbitShowsTheCameraWhereItIs) {
+    load(kMapScene);
+    const vec2 start(300, 200);
+    move(start);
+    down(start, kShift);
+    for (int i = 1; i <= 6; ++i) {
+        const int before = stats()["pictures"];
+        move(start + vec2(8 * i, 3 * i), kShift);
+        viewer->draw(time += 0.02);
+        EXPECT_EQ(stats()["pictures"], before + 1) << "drawn or reprojected";
+    }
+    // Another light falls on another picture.
+    ASSERT_TRUE(viewer->set("environment.intensity", "2").ok());
+    viewer->draw(time += 0.02);
+    EXPECT_FALSE(stats()["reprojected"]);
+    up(start);
+    settle();
+    EXPECT_FALSE(stats()["reprojected"]);
+}
+
 TEST_F(Picture, WorkThatTakesLongTellsTheTimeLeftAndCanBeStopped) {
     load(kLampScene);
     EXPECT_FALSE(viewer->stop()) << "there is none";

@@ -115,6 +115,7 @@ public:
     }
     Status through(const Passes& passes, TextureId shown, TextureId target) override {
         const Picture& picture = passes.picture;
+        drawn_ = {};
         if (showsLayer(picture.scene.view.show)) return recordLayer(passes, target);
         const Settings& settings = settingsOf(picture.scene);
         if (Status s = check(settings); !s) return s;
@@ -136,6 +137,7 @@ public:
                 ? recordPeeled(passes, glass, solid, settings.maxLayers, keptLayers(picture))
                 : views::recordLayers(passes.graph, store_.context, eye, glass, picture.size, 1, solid);
         if (!layers) return layers.error();
+        drawn_ = layers->images;
         return refract_.record(
             passes.graph,
             {.eye = eye,
@@ -150,6 +152,10 @@ public:
              .count = count_,
              .surroundings = picture.surroundings},
             picture.size, settings);
+    }
+
+    TextureId layersOf(const Passes& passes) const override {
+        return replaces(passes.picture) ? drawn_ : TextureId{};
     }
 
     bool isUnsettled() const override { return isUnsure_ || counter_.waits(); }
@@ -271,6 +277,7 @@ private:
     Refract refract_;
     views::KeptLayers layers_;                        ///< of what the eye sees through,
     std::optional<views::SurfaceKey> layered_;        ///< as it was seen
+    TextureId drawn_;                                 ///< their images in the graph of the last through()
     views::LayerCount counter_;                       ///< of peeled ones
     std::vector<const views::MeshTextures*> counted_; ///< for which it knows
     bool isUnsure_ = false;                           ///< nothing was asked about the picture

@@ -1,0 +1,135 @@
+// Temporal reprojection: what is shown of the last picture while the next one is drawn. One that is drawn
+// smaller is kept for that; so is the last one before a camera that moves.
+#include "frame/RendererState.h"
+
+#include "views/Surface.h"
+
+#include <algorithm>
+
+namespace lucent::frame {
+
+using graph::Format;
+using graph::TextureDesc;
+using graph::TextureId;
+using technique::Passes;
+
+namespace {
+
+constexpr int kMostCells = 64; // along the longer side: fewer triangles than a picture has objects
+
+void makeFor(graph::Texture& texture, gl::Context& context, const TextureDesc& desc, const char* label) {
+    if (!texture || texture.desc() != desc) texture = graph::Texture(context.device(), desc, label);
+}
+
+} // namespace
+
+views::Eye Renderer::State::middleEyeOf(const scene::Scene& scene) const {
+    return views::makeEye(scene, float(size.x) / float(size.y));
+}
+
+// Whether pictures may be seen from elsewhere before the next one is there.
+bool Renderer::State::isReprojected(const scene::Scene& scene) const {
+    return own && !atOnce && scene.view.show == scene::Aov::Color;
+}
+
+// How far what the picture shows lies from the eye. Its samples share that of the first.
+Status Renderer::State::recordDepth(const Passes& passes) {
+    if (!isReprojected(passes.picture.scene)) {
+        depth = graph::Texture();
+        return Done{};
+    }
+    if (sample > 0) return Done{};
+    makeFor(depth, context, {.size = size, .format = Format::R32F}, "frame.depth");
+    graph::FrameGraph& graph = passes.graph;
+    const TextureId solid = graph.create("frame.solid", {.size = size, .format = Format::RGBA32F});
+    const views::Drawables solids = opaque(visible(passes.posed));
+    if (Status s =
+            views::recordSolid(graph, context, passes.picture.eye, solids, passes.surface, solid, size);
+        !s)
+        return s;
+    TextureId layers;
+    for (const Member& member : members)
+        if (const TextureId id = member.guest->layersOf(passes)) layers = id;
+    const gl::Program* program = context.program("frame/depth", layers ? std::vector<std::string>{"OF_LAYERS"}
+                                                                       : std::vector<std::string>{});
+    const TextureId target = import(graph, depth);
+    graph.keep(target);
+    graph.addPass("frame.depth", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("how far what is seen lies away, by which it is reprojected when the camera moves");
+        pass.sample(solid);
+        if (layers) pass.sample(layers);
+        pass.write(target);
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            graph::Draw draw{.program = program, .textures = {{"uSolid", resources[solid]}}};
+            if (layers) draw.textures.push_back({"uLayers", resources[layers]});
+            commands.draw(draw);
+        };
+    });
+    return Done{};
+}
+
+// The picture that is shown, as linear values, with its depths.
+Status Renderer::State::keep(const scene::Scene& scene) {
+    makeFor(kept.light, context, {.size = size, .format = Format::RGBA32F}, "frame.kept");
+    kept.eye = eyeShown;
+    if (Status drawn = runGraph([&](graph::FrameGraph& graph) {
+            return recordDisplay(graph, scene, import(graph, kept.light), true);
+        });
+        !drawn)
+        return drawn;
+    std::swap(kept.depth, depth);
+    return Done{};
+}
+
+// Keeps a picture of the whole size for a camera that moves on: the next one is drawn over it.
+Status Renderer::State::keepFor(const scene::Scene& next) {
+    const bool isThere =
+        !kept.light && (presentable || averaged) && depth && pictured && isReprojected(*pictured);
+    if (!isThere || middleEyeOf(next) == eyeShown) return Done{};
+    return keep(*pictured);
+}
+
+// What is kept, as another camera sees it. @return what is kept itself where nothing is known of its depths
+Result<TextureId> Renderer::State::recordReprojected(graph::FrameGraph& graph, const scene::Scene& scene,
+                                                     const views::Eye& to) {
+    const TextureId light = import(graph, kept.light);
+    if (!kept.depth || to == kept.eye) return light;
+    reprojected = true;
+    // An environment is known in all directions, not only in those that the picture shows.
+    const bool background = composed && views::hasEnvironment(scene);
+    graph::Draw behind;
+    if (background) {
+        const Result<graph::TextureHandle> map = images.image(scene.environment->map);
+        if (!map) return map.error();
+        behind = {.program = context.program("frame/background", {"ALONE"}),
+                  .block = backgroundBlock(*scene.environment, to, kept.light.desc().size),
+                  .textures = {{"uEnvironment", *map}}};
+    }
+    const ivec2 of = kept.light.desc().size;
+    const ivec2 cells = (of - 1) / (1 + (std::max(of.x, of.y) - 1) / kMostCells) + 1;
+    const ReprojectBlock block{views::viewBlock(kept.eye, of), views::viewBlock(to, of), vec2(cells)};
+    const TextureId depthId = import(graph, kept.depth);
+    const gl::Program* program = context.program(
+        "frame/reproject", background ? std::vector<std::string>{"ENVIRONMENT"} : std::vector<std::string>{});
+    TextureId seen;
+    graph.addPass("frame.reproject", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("the last picture from where the camera is now");
+        pass.sample(light);
+        pass.sample(depthId);
+        seen = pass.createColor("frame.reprojected", kept.light.desc());
+        pass.clear(seen, vec4(0));
+        pass.clear(pass.createDepth("frame.reprojectedDepth", of), 1.0f);
+        return [=, vertices = 12 * (cells.x + 2) * (cells.y + 2)](const graph::Resources& resources,
+                                                                  graph::Commands& commands) {
+            if (behind.program) commands.draw(behind);
+            commands.draw({.program = program,
+                           .vertices = vertices,
+                           .depthTest = graph::DepthTest::Less,
+                           .block = block,
+                           .textures = {{"uPicture", resources[light]}, {"uDepth", resources[depthId]}}});
+        };
+    });
+    return seen;
+}
+
+} // namespace lucent::frame
