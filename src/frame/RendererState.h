@@ -205,6 +205,11 @@ struct Renderer::State {
     // Reprojection.cpp
     views::Eye middleEyeOf(const scene::Scene& scene) const;
     bool isReprojected(const scene::Scene& scene) const;
+    struct Reprojecting {
+        const gl::Program *mesh, *background; // null: no environment is seen behind it
+    };
+    bool showsEnvironment(const scene::Scene& scene) const;
+    Reprojecting reprojecting(const scene::Scene& scene) const;
     Status recordDepth(const technique::Passes& passes);
     Status keep(const scene::Scene& scene);
     Status keepFor(const scene::Scene& next);

@@ -32,6 +32,17 @@ bool Renderer::State::isReprojected(const scene::Scene& scene) const {
     return own && !atOnce && scene.view.show == scene::Aov::Color;
 }
 
+// An environment that is seen is known in all directions, not only in those that a picture shows.
+bool Renderer::State::showsEnvironment(const scene::Scene& scene) const {
+    return composed && views::hasEnvironment(scene);
+}
+
+Renderer::State::Reprojecting Renderer::State::reprojecting(const scene::Scene& scene) const {
+    if (!showsEnvironment(scene)) return {context.program("frame/reproject"), nullptr};
+    return {context.program("frame/reproject", {"ENVIRONMENT"}),
+            context.program("frame/background", {"ALONE"})};
+}
+
 // How far what the picture shows lies from the eye. Its samples share that of the first.
 Status Renderer::State::recordDepth(const Passes& passes) {
     if (!isReprojected(passes.picture.scene)) {
@@ -52,6 +63,7 @@ Status Renderer::State::recordDepth(const Passes& passes) {
         if (const TextureId id = member.guest->layersOf(passes)) layers = id;
     const gl::Program* program = context.program("frame/depth", layers ? std::vector<std::string>{"OF_LAYERS"}
                                                                        : std::vector<std::string>{});
+    if (!stages[stage].coarse) (void)reprojecting(passes.picture.scene); // they are made meanwhile
     const TextureId target = import(graph, depth);
     graph.keep(target);
     graph.addPass("frame.depth", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -89,28 +101,26 @@ Status Renderer::State::keepFor(const scene::Scene& next) {
     return keep(*pictured);
 }
 
-// What is kept, as another camera sees it. @return what is kept itself where nothing is known of its depths
+// What is kept, as another camera sees it. @return what is kept itself where nothing is known of its depths,
+// or programs are still compiled: nobody waits for them
 Result<TextureId> Renderer::State::recordReprojected(graph::FrameGraph& graph, const scene::Scene& scene,
                                                      const views::Eye& to) {
     const TextureId light = import(graph, kept.light);
     if (!kept.depth || to == kept.eye) return light;
+    const Reprojecting programs = reprojecting(scene);
+    if (context.isCompiling()) return light;
     reprojected = true;
-    // An environment is known in all directions, not only in those that the picture shows.
-    const bool background = composed && views::hasEnvironment(scene);
-    graph::Draw behind;
-    if (background) {
+    const ivec2 of = kept.light.desc().size;
+    graph::Draw behind{.program = programs.background};
+    if (behind.program) {
         const Result<graph::TextureHandle> map = images.image(scene.environment->map);
         if (!map) return map.error();
-        behind = {.program = context.program("frame/background", {"ALONE"}),
-                  .block = backgroundBlock(*scene.environment, to, kept.light.desc().size),
-                  .textures = {{"uEnvironment", *map}}};
+        behind.block = backgroundBlock(*scene.environment, to, of);
+        behind.textures = {{"uEnvironment", *map}};
     }
-    const ivec2 of = kept.light.desc().size;
     const ivec2 cells = (of - 1) / (1 + (std::max(of.x, of.y) - 1) / kMostCells) + 1;
     const ReprojectBlock block{views::viewBlock(kept.eye, of), views::viewBlock(to, of), vec2(cells)};
     const TextureId depthId = import(graph, kept.depth);
-    const gl::Program* program = context.program(
-        "frame/reproject", background ? std::vector<std::string>{"ENVIRONMENT"} : std::vector<std::string>{});
     TextureId seen;
     graph.addPass("frame.reproject", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason("the last picture from where the camera is now");
@@ -122,7 +132,7 @@ Result<TextureId> Renderer::State::recordReprojected(graph::FrameGraph& graph, c
         return [=, vertices = 12 * (cells.x + 2) * (cells.y + 2)](const graph::Resources& resources,
                                                                   graph::Commands& commands) {
             if (behind.program) commands.draw(behind);
-            commands.draw({.program = program,
+            commands.draw({.program = programs.mesh,
                            .vertices = vertices,
                            .depthTest = graph::DepthTest::Less,
                            .block = block,
