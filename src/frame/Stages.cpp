@@ -1,7 +1,6 @@
 // A picture as it grows: its settings, its stages, and the slices of work of each.
 #include "frame/RendererState.h"
 #include "light/FlatWater.h"
-#include "views/Layers.h"
 
 #include <algorithm>
 
@@ -17,11 +16,6 @@ using views::hasEnvironment;
 
 constexpr int kFewestDirections = 6; // of the environment
 constexpr int kShadowTexels = 4;     // of a preview, for each pixel along its longer side
-
-bool bends(const scene::Scene& scene) {
-    return std::any_of(scene.objects.begin(), scene.objects.end(),
-                       [](const scene::Object& object) { return object.material.isRefractive(); });
-}
 
 bool shareShapes(const std::vector<views::ObjectKey>& some, const std::vector<views::ObjectKey>& others) {
     return std::any_of(some.begin(), some.end(), [&](const views::ObjectKey& one) {
@@ -271,7 +265,6 @@ bool Renderer::State::canPreview() {
 // Takes objects to the GPU for one slice of time. @return whether all are there
 Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
     const double begins = nowMs();
-    if (taken == 0 && bends(scene)) views::askToCount(context); // it is made meanwhile
     while (!atOnce && taken < int(scene.objects.size())) {
         if (!images.takePart(scene.objects[std::size_t(taken)])) {
             const Result<views::Drawable::Ptr> one = views::drawableOf(scene, taken++, images, &waters);

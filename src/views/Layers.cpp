@@ -167,14 +167,6 @@ void importKept(graph::FrameGraph& graph, gl::Context& context, KeptLayers& kept
     layers.depth = import(kept.depth, depthDesc(size, true), kDepthLabel);
 }
 
-} // namespace
-
-void askToCount(gl::Context& context) {
-    context.program("views/count");
-    context.program("views/maxima");
-}
-
-namespace {
 // How many surfaces each pixel shows.
 Result<TextureId> recordCounts(graph::FrameGraph& graph, gl::Context& context, const Eye& eye,
                                const Drawables& glass, float time, ivec2 size) {
@@ -193,6 +185,7 @@ Result<TextureId> recordCounts(graph::FrameGraph& graph, gl::Context& context, c
     });
     return target;
 }
+
 } // namespace
 
 Result<int> countLayers(Readings& readings, const std::string& question, graph::TexturePool& pool,

@@ -29,9 +29,6 @@ struct KeptLayers {
     bool current = false; ///< they are still as they were: who keeps them says so
 };
 
-/// Has the program made that countLayers() draws with, so that this need not wait for it.
-void askToCount(gl::Context& context);
-
 /// How many surfaces lie behind each other at most in any pixel, by drawing all of them once. At most
 /// kMostLayers; more are named in a warning.
 ///

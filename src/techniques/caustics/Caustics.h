@@ -134,11 +134,12 @@ public:
     /// @param readings   not all there: the plan is not whole yet
     /// @param receiving  receiving()
     /// @param drawables  all that bends light or receives it
+    /// @param isPreview  asks nothing: a few layers, and nothing behind what each light sees
     /// @return  Error (Fault::Machine) for more than views::kMostGlass refractive objects or images larger
     ///          than the GPU's textures
     Status plan(Plan& plan, views::Readings& readings, graph::TexturePool& pool, const scene::Scene& scene,
-                const views::Bounds& receiving, const views::Drawables& drawables,
-                const Settings& settings) const;
+                const views::Bounds& receiving, const views::Drawables& drawables, const Settings& settings,
+                bool isPreview = false) const;
 
     /// Adds the passes that give each pixel of opaque objects and height fields the irradiance of caustics.
     ///

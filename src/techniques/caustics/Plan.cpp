@@ -120,6 +120,8 @@ Result<graph::TextureId> recordApart(graph::FrameGraph& graph, gl::Context& cont
 // A few pixels for each ray, because surfaces stand in these pixels and because what no beam carries has
 // a ray for each of them. Their number for a ray is odd: it runs through the middle one.
 constexpr int kLeastView = 384;
+constexpr int kLeastPreview = 192;
+constexpr int kPreviewLayers = 4; // nobody waits for their number
 int viewSizeOf(int grid, int least = kLeastView) {
     const int pixels = std::max(3, (least + grid - 1) / grid);
     return grid * (pixels | 1);
@@ -187,11 +189,12 @@ views::Bounds hidingFrom(const views::LampPoint& lamp, const views::Bounds& box,
 // All that the views of each light sample go by.
 struct Subject {
     Subject(const scene::Scene& of, const views::Bounds& where, const views::Drawables& drawables,
-            const Settings& settings)
-        : scene(of), receiving(where), asked(settings), glass(refractive(drawables)),
-          solids(opaque(drawables)), mirrors(mirrorsOf(solids)), traced(tracedMirrorsOf(solids)),
-          receivers(receiversOf(solids)), everything(boundsOfAll(drawables)), glassBox(boundsOfAll(glass)),
-          mirrorBox(boundsOfAll(mirrors)), throwing(glassBox), thickness(thicknessOf(glass)),
+            const Settings& settings, bool isPreview)
+        : scene(of), receiving(where), asked(settings), leastView(isPreview ? kLeastPreview : kLeastView),
+          glass(refractive(drawables)), solids(opaque(drawables)), mirrors(mirrorsOf(solids)),
+          traced(tracedMirrorsOf(solids)), receivers(receiversOf(solids)), everything(boundsOfAll(drawables)),
+          glassBox(boundsOfAll(glass)), mirrorBox(boundsOfAll(mirrors)), throwing(glassBox),
+          thickness(thicknessOf(glass)),
           meetsAgain(mirrors.size() + glass.size() > 1 ||
                      (mirrors.size() == 1 && !isConvex(*mirrors.front()->object))) {
         throwing.add(mirrorBox);
@@ -199,6 +202,7 @@ struct Subject {
     const scene::Scene& scene;
     const views::Bounds& receiving;
     const Settings& asked;
+    const int leastView;
     const views::Drawables glass, solids, mirrors, traced, receivers;
     const views::Bounds everything; // what stands before glass and mirrors hides them
     const views::Bounds glassBox, mirrorBox;
@@ -210,7 +214,7 @@ struct Subject {
 // What must be drawn to know how a light sample's views are drawn.
 class Questions {
 public:
-    Questions(views::Readings& readings, graph::TexturePool& pool, gl::Context& context, float time,
+    Questions(views::Readings* readings, graph::TexturePool& pool, gl::Context& context, float time,
               std::string light)
         : readings_(readings), pool_(pool), context_(context), time_(time), light_(std::move(light)) {}
 
@@ -219,16 +223,18 @@ public:
     Result<int> surfacesIn(const std::string& view, const views::Eye& face, const views::Drawables& glass,
                            int size) const {
         if (glass.size() == 1 && isConvex(*glass.front()->object)) return 2;
-        return views::countLayers(readings_, light_ + view, pool_, context_, face, glass, time_, ivec2(size));
+        if (!readings_) return kPreviewLayers;
+        return views::countLayers(*readings_, light_ + view, pool_, context_, face, glass, time_,
+                                  ivec2(size));
     }
 
     // Whether a light sees receivers behind others, farther than where one pixel of its map cannot tell.
-    // False while that is not known.
+    // False while that is not known, and in previews.
     Result<bool> liesBehind(views::ShadowViews views, const views::Drawables& receivers) const {
-        if (receivers.size() == 1 && isConvex(*receivers.front()->object)) return false;
+        if (!readings_ || (receivers.size() == 1 && isConvex(*receivers.front()->object))) return false;
         constexpr int kLooked = 128; // pixels a side: smaller things are not looked for
         views.size = std::min(views.size, kLooked);
-        const auto apart = readings_.most(light_, pool_, context_, [&](graph::FrameGraph& graph) {
+        const auto apart = readings_->most(light_, pool_, context_, [&](graph::FrameGraph& graph) {
             return recordApart(graph, context_, views, receivers, time_);
         });
         if (!apart) return apart.error();
@@ -236,7 +242,7 @@ public:
     }
 
 private:
-    views::Readings& readings_;
+    views::Readings* const readings_; // null: a preview, which asks nothing
     graph::TexturePool& pool_;
     gl::Context& context_;
     const float time_;
@@ -291,7 +297,7 @@ Result<std::optional<Plan::Light>> lightOf(const Subject& of, const views::LampP
     light.within = 0.5f * of.thickness;
     if (settings.pointMap == PointMap::Paraboloids && light.receivers.faces.size() > 1)
         light.halves = paraboloidsOf(vec3(lamp.source.place), of.receiving, settings.mapSize);
-    light.viewSize = viewSizeOf(settings.grid, kLeastView / coarseness);
+    light.viewSize = viewSizeOf(settings.grid, of.leastView / coarseness);
     if (beginsOnWater(settings, lamp, of.glass, of.solids))
         light.water = {views::shadowViews(lamp.source, hidingFrom(lamp, of.glassBox, of.solids), of.glassBox,
                                           settings.mapSize)};
@@ -312,9 +318,9 @@ Result<std::optional<Plan::Light>> lightOf(const Subject& of, const views::LampP
 
 Status Caustics::plan(Plan& plan, views::Readings& readings, graph::TexturePool& pool,
                       const scene::Scene& scene, const views::Bounds& receiving,
-                      const views::Drawables& drawables, const Settings& settings) const {
+                      const views::Drawables& drawables, const Settings& settings, bool isPreview) const {
     constexpr std::size_t kAhead = 4; // light samples that ask before the first one is answered
-    const Subject of(scene, receiving, drawables, settings);
+    const Subject of(scene, receiving, drawables, settings, isPreview);
     if (Status legal = checkLimits(of.glass, of.mirrors, settings); !legal) return legal;
     if (plan.samples.empty()) {
         views::Sampling sampling = views::samplingOf(scene);
@@ -325,7 +331,7 @@ Status Caustics::plan(Plan& plan, views::Readings& readings, graph::TexturePool&
     bool waits = false;
     for (std::size_t i = plan.planned; i < std::min(plan.planned + kAhead, plan.samples.size()); ++i) {
         const int missing = readings.missing();
-        const Questions questions(readings, pool, context_, scene.view.time,
+        const Questions questions(isPreview ? nullptr : &readings, pool, context_, scene.view.time,
                                   "caustics, light " + std::to_string(i + 1));
         std::optional<Plan::Light> light;
         if (plan.samples[i].color != vec3(0)) {

@@ -40,7 +40,7 @@ public:
         if (plan_) return Done{};
         const int missing = picture.readings.missing();
         if (Status s = caustics_.plan(planning_, picture.readings, store_.pool, picture.scene,
-                                      key_->receiving, drawables, key_->settings);
+                                      key_->receiving, drawables, key_->settings, picture.isPreview);
             !s)
             return s;
         if (picture.readings.missing() == missing) plan_ = std::exchange(planning_, {});
@@ -133,6 +133,7 @@ private:
         Settings settings;
         views::Bounds receiving;
         int lampSamples;
+        bool isPreview;
         bool operator==(const Key&) const = default;
     };
     static Key keyOf(const technique::Picture& picture, const views::Drawables& drawables) {
@@ -144,7 +145,7 @@ private:
         eye.shift = vec2(0); // the same for all samples of a pixel
         return {picture.scenery, settings,
                 Caustics::receiving(picture.allAround ? nullptr : &eye, drawables, settings),
-                views::samplingOf(picture.scene).lamp};
+                views::samplingOf(picture.scene).lamp, picture.isPreview};
     }
 
     // A map that stays between pictures; its textures are there when its graph has run.

@@ -92,7 +92,8 @@ public:
     explicit RefractGuest(const technique::Store& store)
         : store_(store), refract_(store.context), counter_(store.context.device()) {}
 
-    // Counts only for the first picture of these objects; slices are counted for each view.
+    // Counts only for the first picture of these objects; slices are counted for each view. Nobody waits for
+    // a preview's: it has as many layers as its settings allow.
     Status prepare(const Picture& picture) override {
         isUnsure_ = false;
         if (seenGlass(picture).empty() || !replaces(picture)) {
@@ -201,7 +202,7 @@ private:
         if (meshes != counted_) counter_.reset();
         counted_ = std::move(meshes);
         counter_.poll();
-        if (peels(picture) ? counter_.known() : count_ > 0) return Done{};
+        if (peels(picture) ? counter_.known() || picture.isPreview : count_ > 0) return Done{};
         Result<int> count =
             views::countLayers(readings, "refract", store_.pool, store_.context, closeEye(picture), glass,
                                picture.scene.view.time, picture.size);
@@ -216,9 +217,9 @@ private:
     // about once.
     Result<views::Layers> recordPeeled(const Passes& passes, const views::Drawables& glass, TextureId solid,
                                        int most, views::KeptLayers* kept) {
-        const int count = std::min(counter_.drawn(), most);
+        const int count = counter_.known() ? std::min(counter_.drawn(), most) : most;
         const bool stands = kept && kept->current && kept->count == count;
-        const bool asks = !stands && count == counter_.drawn();
+        const bool asks = !stands && counter_.known() && count == counter_.drawn();
         isUnsure_ = asks && counter_.waits();
         unanswered_ = 0;
         Result<views::Layers> layers = views::recordLayers(
