@@ -7,7 +7,7 @@
 //       vNearest flat   depth of what stands before an outline [m]; else 0
 //       vBehind flat    the pixel that the sheet of an outline shows; else x < 0
 // model a surface keeps its colour while the camera moves; the sheet of a cell through which an outline runs shows what
-//       lies behind it, and before it stands what is nearest; beside the picture its border goes on
+//       lies behind it, and before it stands what is nearest; beside the picture its border goes on a little
 #include "frame/reproject_block.glsl"
 out vec2 vPixel;
 flat out float vNearest;
@@ -15,11 +15,13 @@ flat out vec2 vBehind;
 
 const vec2 kCorners[6] = vec2[6](vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(0, 1), vec2(1, 0), vec2(1, 1));
 
-// The middle of a pixel; nodes at the border lie beside the picture by its own size.
+const float kBeside = 0.25; // of the picture, along each side
+
+// The middle of a pixel; nodes at the border lie beside the picture.
 vec2 pixelOfNode(vec2 node) {
     vec2 part = (node - 1.0) / views.cells;
     vec2 inside = floor(clamp(part, 0.0, 1.0) * (views.from.size - 1.0) + 0.5) + 0.5;
-    return inside + views.from.size * (step(1.0001, part) - step(part, vec2(-0.0001)));
+    return inside + kBeside * views.from.size * (step(1.0001, part) - step(part, vec2(-0.0001)));
 }
 
 void main() {

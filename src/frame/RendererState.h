@@ -172,15 +172,18 @@ struct Renderer::State {
     ivec2 screen{0}; // and in which it is shown
     bool started = false, coarse = false;
     bool dragged = false;
-    int taken = 0;                    // objects that are on the GPU: see takeObjects()
-    int rested = 0;                   // places of slice() up to which it has rested: see rests()
-    bool atOnce = false;              // nobody waits for a preview before the picture is complete
-    float defaultError = 0;           // of scenes that ask for none
-    bool planning = false;            // the settings are still to be chosen
-    bool composed = false;            // the picture stands in `through`
-    bool averaged = false;            // what is shown stands in `mean`
-    std::unique_ptr<Running> running; // of this picture; null: nothing
-    std::deque<Batch> submitted;      // the oldest first; of a picture before this one too
+    bool isNew = true;                     // nothing of this scene has been shown yet
+    bool coarseMeshes = false;             // its objects have fewer triangles than they are
+    std::vector<views::ObjectKey> objects; // of the scene as it is
+    int taken = 0;                         // objects that are on the GPU: see takeObjects()
+    int rested = 0;                        // places of slice() up to which it has rested: see rests()
+    bool atOnce = false;                   // nobody waits for a preview before the picture is complete
+    float defaultError = 0;                // of scenes that ask for none
+    bool planning = false;                 // the settings are still to be chosen
+    bool composed = false;                 // the picture stands in `through`
+    bool averaged = false;                 // what is shown stands in `mean`
+    std::unique_ptr<Running> running;      // of this picture; null: nothing
+    std::deque<Batch> submitted;           // the oldest first; of a picture before this one too
     double retired = 0, looked = 0;   // ms: when the last of them was done; when one was last seen not to be
     views::Readings readings;         // what guests have asked for this picture
     std::optional<gl::Fence> earlier; // of what was given up for this picture: the GPU may still draw it

@@ -1,6 +1,7 @@
 // A picture as it grows: its settings, its stages, and the slices of work of each.
 #include "frame/RendererState.h"
 #include "light/FlatWater.h"
+#include "scene/CoarseMesh.h"
 
 #include <algorithm>
 
@@ -15,6 +16,7 @@ namespace {
 using views::hasEnvironment;
 
 constexpr int kFewestDirections = 6; // of the environment
+constexpr int kPreviewCells = 64;    // of meshes, along their longest side
 constexpr int kShadowTexels = 4;     // of a preview, for each pixel along its longer side
 
 bool shareShapes(const std::vector<views::ObjectKey>& some, const std::vector<views::ObjectKey>& others) {
@@ -73,6 +75,10 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
     readings.clear();
     drop();
     auto copy = std::make_unique<scene::Scene>(asked);
+    // Of a picture with fewer pixels triangles would be smaller than these.
+    const bool coarsens = effort == Effort::Coarse && newSize != screen;
+    if (std::exchange(coarseMeshes, coarsens) != coarsens) taken = 0;
+    if (coarsens) scene::coarsen(*copy, kPreviewCells);
     const bool isFrugal = asked.quality.maxError == 0;
     if (isFrugal) copy->quality.maxError = defaultError;
     pictured = std::move(copy);
@@ -83,10 +89,15 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
     size = newSize;
     if (!own) screen = size;
     if (SceneKey key = sceneKey(scene); sceneryFor != key) {
-        if (sceneryFor && !shareShapes(sceneryFor->objects, key.objects)) rested = taken = 0; // another scene
         sceneryFor = std::move(key);
         ++scenery;
     }
+    std::vector<views::ObjectKey> standing = views::objectKeys(asked);
+    if (!objects.empty() && !shareShapes(objects, standing)) { // another scene
+        rested = taken = 0;
+        isNew = true;
+    }
+    objects = std::move(standing);
     makeTargets();
     sample = samples = 0;
     whole = false;
@@ -129,7 +140,10 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool p
     const bool limited = scene.quality.maxError > 0 && dragged; // not as exact as is asked for
     const bool isShown = effort == Effort::Coarse || effort == Effort::Progressive;
     const bool hasPreview = isLit && !isThere && isShown && (coarsens || limited);
-    if (hasPreview && !previewed) stages.push_back({std::min(directions, kFirstStage), false, true});
+    // Nothing is kept for a first look: each direction takes a slow device a shadow map of all that casts
+    // one.
+    const int first = isNew && context.caps().software ? kFewestDirections : kFirstStage;
+    if (hasPreview && !previewed) stages.push_back({std::min(directions, first), false, true});
     coarse = dragged && hasPreview;
     if (coarse) return;
     // While something is baked its light is summed.
@@ -365,6 +379,7 @@ Status Renderer::State::beginRest(Moment moment, Running::Work work) {
 
 Status Renderer::State::finishStage(const Moment& moment) {
     presentable = true;
+    isNew = false;
     stats.lights = int(lights.size());
     whole = !stages[stage].coarse;
     if (sample == 0) averaged = false;
@@ -382,7 +397,7 @@ Status Renderer::State::finishStage(const Moment& moment) {
     stats.draws = context.device().drawCount() - drawsBefore;
     stats.passes = passes;
     if (stage < stages.size()) return Done{};
-    if (own) { // others share it
+    if (own && !coarseMeshes) { // others share it; the whole picture needs what a preview does not
         images.trim();
         shadows.trim();
     }

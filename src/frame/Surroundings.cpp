@@ -86,9 +86,11 @@ Renderer::State::SceneKey Renderer::State::sceneKey(const scene::Scene& scene) c
     still.size = ivec2(1);
     still.view = {};
     still.title = still.caption = "";
-    SceneKey key{scene::toJson(still) + (scene.view.matt ? " matt" : ""), {}, {}, waters.changes()};
+    SceneKey key{scene::toJson(still) + (scene.view.matt ? " matt" : ""),
+                 views::objectKeys(scene),
+                 {},
+                 waters.changes()};
     for (const scene::Object& object : scene.objects) {
-        key.objects.push_back(views::objectKey(object, scene.view.time));
         for (const auto& map : object.material.maps())
             key.maps.push_back(map);
         key.maps.push_back(object.painting);

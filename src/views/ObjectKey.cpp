@@ -24,4 +24,11 @@ ObjectKey objectKey(const scene::Object& object, float time) {
     return key;
 }
 
+std::vector<ObjectKey> objectKeys(const scene::Scene& scene) {
+    std::vector<ObjectKey> keys;
+    for (const scene::Object& object : scene.objects)
+        keys.push_back(objectKey(object, scene.view.time));
+    return keys;
+}
+
 } // namespace lucent::views

@@ -4,6 +4,7 @@
 #include "scene/Scene.h"
 
 #include <memory>
+#include <vector>
 
 namespace lucent::views {
 
@@ -26,5 +27,7 @@ struct ObjectKey {
 
 /// @param time  s; of account where the object moves. Water moves by itself: see Waters::changes()
 ObjectKey objectKey(const scene::Object& object, float time);
+/// Of all objects of a scene at its time.
+std::vector<ObjectKey> objectKeys(const scene::Scene& scene);
 
 } // namespace lucent::views

@@ -1,5 +1,6 @@
 // One light: every lamp on every surface behind every other, against the exact solution and in closed forms.
 #include "light/Samples.h"
+#include "scene/Mesh.h"
 #include "technique/Technique.h"
 #include "tests/support/Fields.h"
 #include "tests/support/Gl.h"
@@ -203,9 +204,9 @@ TEST_F(OneLight, ShadowViewsAndCausticMapsAreDrawnOnceForAllSamplesOfThePixels) 
 }
 
 // Draws that a preview of the scene takes.
-int drawsOf(Renderer& renderer, const scene::Scene& scene, std::uint64_t revision) {
+int drawsOf(Renderer& renderer, const scene::Scene& scene, std::uint64_t revision, int downscale = 1) {
     for (bool complete = false; !complete;) {
-        const Result<Progress> progress = renderer.advance(scene, revision, scene.size, true);
+        const Result<Progress> progress = renderer.advance(scene, revision, scene.size, true, downscale);
         EXPECT_TRUE(progress.ok());
         complete = !progress || progress->complete;
     }
@@ -218,20 +219,24 @@ TEST_F(OneLight, ShadowsOfTheSkyStayWhileSomethingElseIsDragged) {
     scene.environment.emplace().map = skyOf([](ivec2) { return 0.5f; });
     technique::addSettings(scene);
     Renderer renderer(*context);
-    int first = drawsOf(renderer, scene, 1);
+    drawsOf(renderer, scene, 1); // a first look has fewer directions
+    scene.objects.back().transform.translate.y += 0.01f;
+    int first = drawsOf(renderer, scene, 2);
     lamp.position.x += 0.01f;
     scene.lights = {lamp};
-    EXPECT_LT(drawsOf(renderer, scene, 2), first / 2) << "a lamp";
+    EXPECT_LT(drawsOf(renderer, scene, 3), first / 2) << "a lamp";
     scene.camera.eye.x += 0.1f;
-    EXPECT_LT(drawsOf(renderer, scene, 3), first / 2) << "the camera";
+    EXPECT_LT(drawsOf(renderer, scene, 4), first / 2) << "the camera";
     scene.objects.back().transform.translate.y += 0.01f;
-    EXPECT_GT(drawsOf(renderer, scene, 4), first / 2) << "what casts them";
+    EXPECT_GT(drawsOf(renderer, scene, 5), first / 2) << "what casts them";
     scene.lights.clear(); // water throws their light anew
     scene.objects.push_back(test::glass(scene::Water{.size = {0.2f, 0.2f}}, 1.33f, {0, 0.1f, 0}));
     Renderer other(*context);
-    first = drawsOf(other, scene, 1);
+    drawsOf(other, scene, 1);
+    scene.objects.front().transform.translate.y += 0.01f;
+    first = drawsOf(other, scene, 2);
     scene.view.time += 0.01f;
-    EXPECT_LT(drawsOf(other, scene, 2), first / 2) << "water";
+    EXPECT_LT(drawsOf(other, scene, 3), first / 2) << "water";
 }
 
 TEST_F(OneLight, CausticsStayWhileTheCameraIsDragged) {
@@ -251,10 +256,13 @@ TEST_F(OneLight, PreviewsDoNotTouchThePicture) {
         scene.objects.push_back(boxAt({0.3f, height, 0}));
         scene.objects.back().material.kind = scene::Clear{};
     }
+    scene.objects.push_back(boxAt({-0.4f, 0.4f, 0}));
+    scene.objects.back().shape.emplace<scene::MeshShape>().mesh = // and more triangles
+        std::make_shared<scene::Mesh>(scene::meshOf(scene::Sphere{.radius = 0.2f}, 256));
     scene.environment.emplace().map = skyOf([](ivec2) { return 0.5f; });
     technique::addSettings(scene);
     Renderer dragged(*context), still(*context);
-    drawsOf(dragged, scene, 1);
+    drawsOf(dragged, scene, 1, 2);
     const auto picture = [&](Renderer& renderer) {
         EXPECT_TRUE(renderer.finish(scene, 2, scene.size).ok());
         return *renderer.read(scene, scene::Aov::Color);

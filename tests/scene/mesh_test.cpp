@@ -1,8 +1,10 @@
+#include "scene/CoarseMesh.h"
 #include "scene/Mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 namespace lucent::scene {
 namespace {
@@ -131,6 +133,59 @@ TEST(MeshDepth, MovingMeshStandsAsAtTimeZero) {
     const Image image = depthOfMesh(mesh, vec3(0), {8, 8}, 0, 0);
     EXPECT_NEAR(*image.at(3, 0), 1, 1e-6);
     EXPECT_NEAR(*image.at(3, 7), 0, 1e-6);
+}
+
+// --- with fewer triangles
+
+double areaOf(const Mesh& mesh) {
+    double area = 0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const auto at = [&](std::size_t k) { return dvec3(mesh.positions[mesh.indices[i + k]]); };
+        area += glm::length(glm::cross(at(1) - at(0), at(2) - at(0))) / 2;
+    }
+    return area;
+}
+
+TEST(CoarseMesh, ASphereStaysOneByTheSameBounds) {
+    const Mesh fine = meshOf(Sphere{.radius = 0.5f}, 256), coarse = coarseMesh(fine, 32);
+    EXPECT_LT(coarse.indices.size(), fine.indices.size() / 4);
+    EXPECT_NEAR(areaOf(coarse) / areaOf(fine), 1, 0.01); // planes a thirtieth wide, and cells where it ends
+    vec3 low(1e30f), high(-1e30f);
+    for (std::size_t i = 0; i < coarse.positions.size(); ++i) {
+        low = glm::min(low, coarse.positions[i]);
+        high = glm::max(high, coarse.positions[i]);
+        EXPECT_NEAR(glm::length(coarse.normals[i]), 1, 1e-5);
+        EXPECT_GT(glm::dot(coarse.normals[i], coarse.positions[i]), 0.49f) << "outwards";
+    }
+    EXPECT_EQ(low, vec3(-0.5f));
+    EXPECT_EQ(high, vec3(0.5f));
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (std::size_t i = 0; i < coarse.indices.size(); ++i)
+        edges.insert({coarse.indices[i], coarse.indices[i % 3 == 2 ? i - 2 : i + 1]});
+    for (const auto& [from, to] : edges)
+        EXPECT_TRUE(edges.contains({to, from})) << "a hole";
+}
+
+TEST(CoarseMesh, OnlyWhatNothingElseGoesByIsMadeCoarse) {
+    const auto fine = std::make_shared<Mesh>(meshOf(Sphere{.radius = 0.5f}, 256));
+    const auto trianglesOf = [&](const auto& change) {
+        Scene scene;
+        Object& object = scene.objects.emplace_back();
+        object.shape.emplace<MeshShape>().mesh = fine;
+        object.material.kind = Clear{};
+        change(object);
+        coarsen(scene, 32);
+        return std::get<MeshShape>(scene.objects[0].shape).mesh->indices.size();
+    };
+    EXPECT_LT(trianglesOf([](Object&) {}), fine->indices.size() / 4);
+    EXPECT_EQ(trianglesOf([](Object& one) { one.material.kind = Translucent{}; }), fine->indices.size());
+    EXPECT_EQ(trianglesOf([](Object& one) { one.displacement.emplace(); }), fine->indices.size());
+    EXPECT_EQ(trianglesOf([](Object& one) { std::get<MeshShape>(one.shape).flatNormals = true; }),
+              fine->indices.size());
+    auto textured = std::make_shared<Mesh>(*fine);
+    textured->coordinates.resize(textured->positions.size());
+    EXPECT_EQ(trianglesOf([&](Object& one) { std::get<MeshShape>(one.shape).mesh = textured; }),
+              fine->indices.size());
 }
 
 } // namespace
