@@ -11,6 +11,7 @@ namespace lucent::frame {
 using graph::Format;
 using graph::TextureDesc;
 using graph::TextureId;
+using technique::Guest;
 using technique::Passes;
 
 namespace {
@@ -27,9 +28,11 @@ views::Eye Renderer::State::middleEyeOf(const scene::Scene& scene) const {
     return views::makeEye(scene, float(size.x) / float(size.y));
 }
 
-// Whether pictures may be seen from elsewhere before the next one is there.
+// Whether pictures may be seen from elsewhere before the next one is there. Reliefs alone are drawn as fast.
 bool Renderer::State::isReprojected(const scene::Scene& scene) const {
-    return own && !atOnce && scene.view.show == scene::Aov::Color;
+    return own && !atOnce && scene.view.show == scene::Aov::Color &&
+           std::any_of(scene.objects.begin(), scene.objects.end(),
+                       [](const scene::Object& object) { return object.visible && !object.isField(); });
 }
 
 // An environment that is seen is known in all directions, not only in those that a picture shows.
@@ -58,9 +61,8 @@ Status Renderer::State::recordDepth(const Passes& passes) {
             views::recordSolid(graph, context, passes.picture.eye, solids, passes.surface, solid, size);
         !s)
         return s;
-    TextureId layers;
-    for (const Member& member : members)
-        if (const TextureId id = member.guest->layersOf(passes)) layers = id;
+    const Guest* const last = replacing(passes.picture);
+    const TextureId layers = last ? last->layersOf() : TextureId{};
     const gl::Program* program = context.program("frame/depth", layers ? std::vector<std::string>{"OF_LAYERS"}
                                                                        : std::vector<std::string>{});
     if (!stages[stage].coarse) (void)reprojecting(passes.picture.scene); // they are made meanwhile

@@ -137,8 +137,8 @@ public:
         return Done{};
     }
     /// Array of images whose first one holds the nearest surfaces of what through() has drawn over the opaque
-    /// ones (shaders/views/layer_texel.glsl), in the same graph; none where it draws none.
-    virtual graph::TextureId layersOf(const Passes&) const { return {}; }
+    /// ones (shaders/views/layer_texel.glsl), in the same graph; none where it drew none.
+    virtual graph::TextureId layersOf() const { return {}; }
 
     // --- after a picture
 

@@ -155,9 +155,7 @@ public:
             picture.size, settings);
     }
 
-    TextureId layersOf(const Passes& passes) const override {
-        return replaces(passes.picture) ? drawn_ : TextureId{};
-    }
+    TextureId layersOf() const override { return drawn_; }
 
     bool isUnsettled() const override { return isUnsure_ || counter_.waits(); }
     // In a browser no answer comes before a frame is over.
