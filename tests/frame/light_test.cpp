@@ -16,15 +16,6 @@
 namespace lucent::frame {
 namespace {
 
-scene::Object boxAt(vec3 place) {
-    scene::Object box;
-    box.name = "box";
-    box.shape = scene::Box{vec3(0.25f)};
-    box.material.diffuse = {0.7f, 0.4f, 0.2f};
-    box.transform.translate = place;
-    return box;
-}
-
 std::shared_ptr<const Image> skyOf(const std::function<float(ivec2)>& radiance) {
     auto map = std::make_shared<Image>(64, 32, 3);
     for (int y = 0; y < 32; ++y)
@@ -33,6 +24,7 @@ std::shared_ptr<const Image> skyOf(const std::function<float(ivec2)>& radiance) 
     return map;
 }
 
+using support::boxAt;
 using support::misplaced;
 
 struct OneLight : support::GlTest {

@@ -8,14 +8,7 @@
 namespace lucent::frame {
 namespace {
 
-scene::Object boxAt(vec3 place) {
-    scene::Object box;
-    box.name = "box";
-    box.shape = scene::Box{vec3(0.25f)};
-    box.material.diffuse = {0.7f, 0.4f, 0.2f};
-    box.transform.translate = place;
-    return box;
-}
+using support::boxAt;
 
 struct Reprojection : support::GlTest {
     ivec2 size{192, 128};

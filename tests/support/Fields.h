@@ -82,4 +82,14 @@ inline scene::DistantLight distantLight(double elevation, double azimuth) {
     return light;
 }
 
+/// A matt box, 0.25 m wide.
+inline scene::Object boxAt(vec3 place) {
+    scene::Object box;
+    box.name = "box";
+    box.shape = scene::Box{vec3(0.25f)};
+    box.material.diffuse = {0.7f, 0.4f, 0.2f};
+    box.transform.translate = place;
+    return box;
+}
+
 } // namespace lucent::support
