@@ -86,9 +86,9 @@ public:
     /// Draws the picture so far, tone-mapped, into the default framebuffer (premultiplied alpha); one that
     /// was drawn smaller is smoothed.
     ///
-    /// @param from  a camera that has moved since, while nothing else has: what is shown until the next
-    /// picture is
-    ///              drawn is reprojected to it by the depths of what is seen; null: as it was drawn
+    /// @param from  a camera that has moved since, while nothing else has: until its own picture is drawn,
+    /// the
+    ///              last one is reprojected to it by the depths of what is seen; null: as it was drawn
     Status present(const scene::Scene& scene, const scene::Camera* from = nullptr);
     /// The same with another picture beside it.
     Status present(const scene::Scene& scene, const Beside& beside, const scene::Camera* from = nullptr);

@@ -211,7 +211,6 @@ struct Renderer::State {
     struct Reprojecting {
         const gl::Program *mesh, *background; // null: no environment is seen behind it
     };
-    bool showsEnvironment(const scene::Scene& scene) const;
     Reprojecting reprojecting(const scene::Scene& scene) const;
     Status recordDepth(const technique::Passes& passes);
     Status keep(const scene::Scene& scene);

@@ -16,7 +16,7 @@ using technique::Passes;
 
 namespace {
 
-constexpr int kMostCells = 64; // along the longer side: fewer triangles than a picture has objects
+constexpr int kMostCells = 64; // along the longer side; outlines are drawn by pixels
 
 void makeFor(graph::Texture& texture, gl::Context& context, const TextureDesc& desc, const char* label) {
     if (!texture || texture.desc() != desc) texture = graph::Texture(context.device(), desc, label);
@@ -36,12 +36,8 @@ bool Renderer::State::isReprojected(const scene::Scene& scene) const {
 }
 
 // An environment that is seen is known in all directions, not only in those that a picture shows.
-bool Renderer::State::showsEnvironment(const scene::Scene& scene) const {
-    return composed && views::hasEnvironment(scene);
-}
-
 Renderer::State::Reprojecting Renderer::State::reprojecting(const scene::Scene& scene) const {
-    if (!showsEnvironment(scene)) return {context.program("frame/reproject"), nullptr};
+    if (!composed || !views::hasEnvironment(scene)) return {context.program("frame/reproject"), nullptr};
     return {context.program("frame/reproject", {"ENVIRONMENT"}),
             context.program("frame/background", {"ALONE"})};
 }
@@ -91,6 +87,7 @@ Status Renderer::State::keep(const scene::Scene& scene) {
         });
         !drawn)
         return drawn;
+    if (!isReprojected(scene)) depth = graph::Texture(); // it is of a picture before
     std::swap(kept.depth, depth);
     return Done{};
 }

@@ -138,6 +138,18 @@ TEST_F(Reprojection, TheEnvironmentStandsWhereItStands) {
     EXPECT_GT(changed, 0.2);
 }
 
+// Its pictures have no depths, and those of a picture before it are not theirs.
+TEST_F(Reprojection, AnotherQuantityIsNotReprojected) {
+    draw(true);
+    draw(true);
+    scene.view.show = scene::Aov::Normal;
+    draw(true);
+    look(8);
+    const scene::Camera moved = scene.camera;
+    shown(&moved);
+    EXPECT_FALSE(renderer->isReprojected());
+}
+
 TEST_F(Reprojection, AParallelViewIsReprojectedToo) {
     scene.camera.type = scene::Camera::Type::Orthographic;
     scene.camera.height = 1.6f;
