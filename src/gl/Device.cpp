@@ -482,6 +482,7 @@ void Device::readTexels(const graph::Attachment& from, ivec2 size, unsigned form
 Image Device::read(TextureHandle texture, int layer, int level) {
     const graph::TextureDesc& desc = record(texture).desc;
     const ivec2 size = desc.sizeOf(level);
+    ++reads_;
     Image image(size.x, size.y, 4);
     if (kindOf(desc.format) == Kind::Fraction) {
         std::vector<std::uint8_t> bytes(image.pixels.size());

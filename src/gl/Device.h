@@ -60,6 +60,7 @@ public:
     /// that this GPU cannot do, GL errors. In a browser none of GL's own: Context::takeError().
     std::string takeError();
     int drawCount() const { return draws_; }
+    int readCount() const { return reads_; } ///< how often one was read back as floats
     std::size_t textureBytes() const { return textureBytes_; }
     std::size_t indexBytes() const { return indexBytes_; }
 
@@ -97,8 +98,8 @@ private:
     unsigned vertexArray_ = 0, blockBuffer_ = 0;
     ivec2 screenSize_{0};
     std::string error_;
-    int draws_ = 0;
     int queryDelay_ = 0;
+    int draws_ = 0, reads_ = 0;
 #ifdef NDEBUG
     bool checksTargets_ = false;
 #else
