@@ -74,15 +74,20 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
 
 } // namespace
 
+// @param composes  where `through` or `mean` stands in for the sum
+const gl::Program* Renderer::State::displayProgram(bool linear, bool composes, bool scaled) const {
+    std::vector<std::string> defines;
+    if (linear) defines.push_back("LINEAR");
+    if (composes) defines.push_back("COMPOSED");
+    if (scaled) defines.push_back("SCALED");
+    return context.program("frame/display", defines);
+}
+
 // @param from  null: whence it was drawn
 Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene,
                                       graph::TextureId target, bool linear, const views::Eye* from) {
     const bool scaled = kept.light && !linear;
-    std::vector<std::string> defines;
-    if (linear) defines.push_back("LINEAR");
-    if (composed || averaged || scaled) defines.push_back("COMPOSED");
-    if (scaled) defines.push_back("SCALED");
-    const gl::Program* program = context.program("frame/display", defines);
+    const gl::Program* program = displayProgram(linear, composed || averaged || scaled, scaled);
     const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
     DisplayBlock block = displayOf(scene, eye);
     if (linear) {

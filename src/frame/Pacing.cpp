@@ -37,9 +37,8 @@ Status Renderer::State::begin(std::unique_ptr<Running> made, Running::Work work,
     return Done{};
 }
 
-// What has begun, for one slice of time.
-Status Renderer::State::work() {
-    const double until = nowMs() + kSliceMs;
+// What has begun, until a slice of time is over.
+Status Renderer::State::work(double until) {
     while (running && runSome(until))
         if (Status followed = follow(); !followed) return followed;
     return Done{};
@@ -49,6 +48,7 @@ Status Renderer::State::work() {
 bool Renderer::State::runSome(double until) {
     if (atOnce) {
         const double before = nowMs();
+        context.compile();
         running->graph.execute(pool);
         const bool isSlice = running->work == Running::Work::Slice;
         context.device().wait((!isSlice ? picture() : next > 0 ? scratch : sum).handle());
@@ -59,7 +59,7 @@ bool Renderer::State::runSome(double until) {
         retire(until);
         if (running->isSubmitted) return submitted.empty();
         if (context.hasUnready()) { // whoever looks on is not kept waiting for programs either
-            if (context.isCompiling() || !submitted.empty()) return false;
+            if (!context.compile(until - nowMs()) || !submitted.empty()) return false;
             context.makeReady();
         }
         if (submitted.size() == kMostInFlight || nowMs() > until) return false;

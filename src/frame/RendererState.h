@@ -38,7 +38,8 @@ inline double nowMs() {
 // about kSliceMs each; what is shown is the last complete stage, or the mean of the samples that are there.
 struct Renderer::State {
     static constexpr double kSliceMs = 40;
-    static constexpr int kFirstStage = 20; // directions
+    static constexpr double kCompileMs = 10; // to begin with programs, where other work follows
+    static constexpr int kFirstStage = 20;   // directions
     static constexpr int kStageFactor = 4;
 
     struct Stage {
@@ -252,7 +253,7 @@ struct Renderer::State {
     Status runGraph(const std::function<Status(graph::FrameGraph&)>& record);
     Status begin(std::unique_ptr<Running> made, Running::Work work,
                  const std::function<Status(Running&)>& record);
-    Status work();
+    Status work(double until);
     bool runSome(double until);
     void submit();
     void retire(double until);
@@ -315,6 +316,7 @@ struct Renderer::State {
 
     std::vector<std::string> leftOut(const technique::Picture& picture) const;
     Result<Image> display(const scene::Scene& scene, bool linear);
+    const gl::Program* displayProgram(bool linear, bool composes, bool scaled = false) const;
     Status recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target,
                          bool linear, const views::Eye* from = nullptr);
     Status recordBeside(graph::FrameGraph& graph, const scene::Scene& scene, const Beside& beside);

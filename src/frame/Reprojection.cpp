@@ -61,7 +61,8 @@ Status Renderer::State::recordDepth(const Passes& passes) {
     const TextureId layers = last ? last->layersOf() : TextureId{};
     const gl::Program* program = context.program("frame/depth", layers ? std::vector<std::string>{"OF_LAYERS"}
                                                                        : std::vector<std::string>{});
-    if (!stages[stage].coarse) (void)reprojecting(passes.picture.scene); // they are made meanwhile
+    if (!stages[stage].coarse) (void)reprojecting(passes.picture.scene); // they are made meanwhile,
+    (void)displayProgram(true, composed || pixelSamples(passes.picture.scene) > 1); // and that of keep()
     const TextureId target = import(graph, depth);
     graph.keep(target);
     graph.addPass("frame.depth", [&](graph::PassBuilder& pass) -> graph::Execute {
@@ -107,7 +108,7 @@ Result<TextureId> Renderer::State::recordReprojected(graph::FrameGraph& graph, c
     const TextureId light = import(graph, kept.light);
     if (!kept.depth || to == kept.eye) return light;
     const Reprojecting programs = reprojecting(scene);
-    if (context.isCompiling()) return light;
+    if (!context.compile(kCompileMs)) return light;
     reprojected = true;
     const ivec2 of = kept.light.desc().size;
     graph::Draw behind{.program = programs.background};

@@ -271,7 +271,7 @@ bool Renderer::State::canPreview() {
     if (earlier && !earlier->passed(0)) return false;
     earlier.reset();
     if (!context.hasUnready()) return true;
-    if (context.isCompiling() || !readings.areDrawn()) return false;
+    if (!context.compile(kCompileMs) || !readings.areDrawn()) return false;
     context.makeReady();
     return true;
 }
@@ -470,7 +470,7 @@ Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64
             status = settle(scene);
         else if (!whole)
             status = stage < stages.size() ? slice(scene) : plan(scene);
-        if (status) status = work();
+        if (status) status = work(begins + kSliceMs);
         if (status && !running && whole && settled(effort)) status = takeSample(scene);
         if (!status) {
             drop();

@@ -3,6 +3,7 @@
 #include "gl/Gl.h"
 
 #include <algorithm>
+#include <chrono>
 
 #ifndef __EMSCRIPTEN__
 #include <EGL/egl.h>
@@ -154,9 +155,16 @@ const Program* Context::program(const std::string& stem, const std::vector<std::
     return &programs_.try_emplace(key, stem, defines).first->second;
 }
 
-bool Context::isCompiling() const {
-    return caps_.parallelCompile && std::any_of(programs_.begin(), programs_.end(),
-                                                [](const auto& one) { return one.second.isCompiling(); });
+bool Context::compile(double milliseconds) {
+    using Clock = std::chrono::steady_clock;
+    const auto begins = Clock::now();
+    for (const auto& [key, program] : programs_) {
+        if (program.isBegun()) continue;
+        if (Clock::now() - begins > std::chrono::duration<double, std::milli>(milliseconds)) return false;
+        program.compile();
+    }
+    return !caps_.parallelCompile || std::none_of(programs_.begin(), programs_.end(),
+                                                  [](const auto& one) { return one.second.isCompiling(); });
 }
 
 bool Context::hasUnready() const {
@@ -165,6 +173,7 @@ bool Context::hasUnready() const {
 }
 
 void Context::makeReady() {
+    compile();
     for (const auto& [key, program] : programs_)
         (void)program.ready(); // a draw tells what is wrong with it
 }

@@ -27,11 +27,15 @@ public:
     Device& device() { return *device_; }
 
     /// The program of a shader stem ("relief/light") with feature switches ("USE_X", "STEPS 64"); cached for
-    /// the page. The first request begins to compile it and does not wait, so that programs asked for before
-    /// the first of them draws are compiled beside each other; a draw tells what is wrong with its program.
+    /// the page. A request costs nothing: compile() begins with it, or its first draw, which tells what is
+    /// wrong with it.
     const Program* program(const std::string& stem, const std::vector<std::string>& defines = {});
-    /// Whether a draw might have to wait for a program. Where the driver does not tell: false.
-    bool isCompiling() const;
+    /// Begins to compile what was asked for, for so long, one program at least: they are compiled beside each
+    /// other.
+    ///
+    /// @return whether no draw has to wait for a program; where the driver does not tell: whether all have
+    /// begun
+    bool compile(double milliseconds = 1e9);
     /// Whether any program has not been taken over since it was compiled. A browser answers what that asks
     /// when the GPU has done all it was given: makeReady() is for when it has.
     bool hasUnready() const;

@@ -39,7 +39,7 @@ std::string infoLog(GLuint object, bool isShader) {
     return log;
 }
 
-GLuint compile(GLenum type, const shaders::Stage& stage, std::string source) {
+GLuint compileStage(GLenum type, const shaders::Stage& stage, std::string source) {
     for (int i = 0; i < stage.pieceCount; ++i)
         source += stage.pieces[i]->source;
     const char* text = source.c_str();
@@ -122,19 +122,21 @@ Program::Program(const std::string& stem, const std::vector<std::string>& define
 
 Program::Program(const std::string& name, const shaders::Stage& vertex, const shaders::Stage& fragment,
                  const std::vector<std::string>& defines)
-    : name_(name), id_(glCreateProgram()) {
-    const std::string head = preamble(defines);
-    firstLine_ = lineCount(head) + 1;
-    stages_ = {{compile(GL_VERTEX_SHADER, vertex, head), vertex.path},
-               {compile(GL_FRAGMENT_SHADER, fragment, head), fragment.path}};
-    for (const CompiledStage& stage : stages_)
-        glAttachShader(id_, stage.id);
-    glLinkProgram(id_);
-}
+    : name_(name), preamble_(preamble(defines)), sources_{vertex, fragment} {}
 
 Program::~Program() {
     deleteStages();
     glDeleteProgram(id_);
+}
+
+void Program::compile() const {
+    if (isBegun()) return;
+    id_ = glCreateProgram();
+    stages_ = {compileStage(GL_VERTEX_SHADER, sources_[0], preamble_),
+               compileStage(GL_FRAGMENT_SHADER, sources_[1], preamble_)};
+    for (const unsigned stage : stages_)
+        glAttachShader(id_, stage);
+    glLinkProgram(id_);
 }
 
 bool Program::isCompiling() const {
@@ -147,6 +149,7 @@ bool Program::isCompiling() const {
 
 const Status& Program::ready() const {
     if (status_) return *status_;
+    compile();
     GLint linked = 0;
     glGetProgramiv(id_, GL_LINK_STATUS, &linked);
     status_ = linked ? Status(Done{}) : Error{log(), Fault::Machine};
@@ -160,19 +163,20 @@ const Status& Program::ready() const {
 
 // Why it does not link: most often because a stage does not compile.
 std::string Program::log() const {
-    for (const CompiledStage& stage : stages_) {
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
         GLint compiled = 0;
-        glGetShaderiv(stage.id, GL_COMPILE_STATUS, &compiled);
+        glGetShaderiv(stages_[i], GL_COMPILE_STATUS, &compiled);
         if (compiled) continue;
-        const std::string text = translateLog(infoLog(stage.id, true), stage.path, firstLine_);
-        return text.empty() ? stage.path + ": does not compile; the driver says nothing" : text;
+        const std::string path = sources_[i].path;
+        const std::string text = translateLog(infoLog(stages_[i], true), path, lineCount(preamble_) + 1);
+        return text.empty() ? path + ": does not compile; the driver says nothing" : text;
     }
     return name_ + ": does not link: " + infoLog(id_, false);
 }
 
 void Program::deleteStages() const {
-    for (const CompiledStage& stage : stages_)
-        glDeleteShader(stage.id);
+    for (const unsigned stage : stages_)
+        glDeleteShader(stage);
     stages_.clear();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// A shader program: compiled without a wait, checked at first use; errors speak of our files and lines.
+/// A shader program: compiled without a wait when its turn comes, checked at first use; errors speak of our
+/// files and lines.
 
 #include "base/Result.h"
 #include "graph/Device.h"
@@ -16,17 +17,21 @@ namespace lucent::gl {
 
 class Program : public graph::Program {
 public:
-    /// Begins to compile and link STEM.vert (or lib/screen.vert when there is none: one triangle over the
-    /// target) and STEM.frag with `defines` ("NAME" or "NAME VALUE"), a variant that STEM.frag declares.
+    /// To be made of STEM.vert (or lib/screen.vert when there is none: one triangle over the target) and
+    /// STEM.frag with `defines` ("NAME" or "NAME VALUE"), a variant that STEM.frag declares.
     Program(const std::string& stem, const std::vector<std::string>& defines);
-    /// The same from two stages; `name` stands before messages about both.
+    /// The same from two stages, whose sources live until compile(); `name` stands before messages about
+    /// both.
     Program(const std::string& name, const shaders::Stage& vertex, const shaders::Stage& fragment,
             const std::vector<std::string>& defines);
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
     ~Program() override;
 
-    /// Whether ready() would wait; only where there is Caps::parallelCompile.
+    /// Begins to compile and link it, which takes some milliseconds in a browser; nothing where it has begun.
+    void compile() const;
+    bool isBegun() const { return id_ || status_; }
+    /// Whether ready() would wait; only where it has begun and there is Caps::parallelCompile.
     bool isCompiling() const;
     /// Whether ready() has been asked.
     bool isTaken() const { return status_.has_value(); }
@@ -49,10 +54,6 @@ public:
     Status checkBlock(const graph::Block& block) const;
 
 private:
-    struct CompiledStage {
-        unsigned id;
-        std::string path;
-    };
     std::string log() const;
     struct BlockSize {
         std::string name;
@@ -62,9 +63,10 @@ private:
     void bindBlocks() const;
     void deleteStages() const;
     std::string name_;
-    int firstLine_; // of our own source, below the preamble
-    unsigned id_;
-    mutable std::vector<CompiledStage> stages_; // until ready()
+    std::string preamble_;
+    std::vector<shaders::Stage> sources_;  // vertex, fragment
+    mutable unsigned id_ = 0;              // 0: not begun
+    mutable std::vector<unsigned> stages_; // as compiled, until ready()
     mutable std::optional<Status> status_;
     mutable std::vector<Sampler> samplers_;
     mutable std::vector<BlockSize> blocks_;

@@ -46,6 +46,7 @@ struct DeviceTest : support::GlTest {
         programs.push_back(std::make_unique<Program>("test", shaders::Stage{"test.vert", &ofVertex, 1},
                                                      shaders::Stage{"test.frag", &ofFragment, 1},
                                                      std::vector<std::string>{}));
+        programs.back()->compile(); // while its source is here
         return programs.back().get();
     }
     Texture texture(const TextureDesc& desc, const std::string& label = "test") {
