@@ -291,19 +291,22 @@ const Device::Record& Device::record(TextureHandle texture) const {
     return found->second;
 }
 
-void Device::upload(TextureHandle texture, int level, int layer, std::span<const std::byte> rows) {
+void Device::upload(TextureHandle texture, int level, int layer, std::span<const std::byte> rows, int first) {
     const graph::TextureDesc& desc = record(texture).desc;
     const GlFormat format = glFormat(desc.format);
-    const ivec2 size = desc.sizeOf(level);
-    assert(rows.size() == std::size_t(size.x) * size.y * graph::bytesPerTexel(desc.format));
+    ivec2 size = desc.sizeOf(level);
+    const std::size_t bytesPerRow = std::size_t(size.x) * graph::bytesPerTexel(desc.format);
+    assert(rows.size() % bytesPerRow == 0 && first + int(rows.size() / bytesPerRow) <= size.y);
     assert(layer >= 0 && layer < desc.layers);
+    size.y = int(rows.size() / bytesPerRow);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(textureTarget(desc), record(texture).id);
     if (desc.layers > 1)
-        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, layer, size.x, size.y, 1, format.format,
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, first, layer, size.x, size.y, 1, format.format,
                         format.type, rows.data());
     else
-        glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, size.x, size.y, format.format, format.type, rows.data());
+        glTexSubImage2D(GL_TEXTURE_2D, level, 0, first, size.x, size.y, format.format, format.type,
+                        rows.data());
 }
 
 // --- index buffers

@@ -26,8 +26,11 @@ public:
     void destroyIndices(graph::IndicesHandle indices) override;
     void runPass(const graph::PassTarget& target, const std::function<void(graph::Commands&)>& body) override;
 
-    /// Fills one level of one layer. `rows` holds its texels from row 0 of texelFetch on, tightly packed.
-    void upload(graph::TextureHandle texture, int level, int layer, std::span<const std::byte> rows);
+    /// Fills rows of one level of one layer, tightly packed.
+    ///
+    /// @param first  row of texelFetch that `rows` begin with
+    void upload(graph::TextureHandle texture, int level, int layer, std::span<const std::byte> rows,
+                int first = 0);
     template <class Value>
     void upload(graph::TextureHandle texture, int level, int layer, const std::vector<Value>& values) {
         upload(texture, level, layer, std::as_bytes(std::span(values)));

@@ -247,8 +247,11 @@ bool ImageCache::takePart(const scene::Object& object) {
         if (isTraced && begun->second.value->addTrianglesPart(context_)) return true;
     }
     if (isPainted(object))
-        for (const auto& map : {object.painting->entering, object.painting->leaving})
-            if (!paints_.contains(map.get())) return paintMap(map).ok();
+        for (const auto& map : {object.painting->entering, object.painting->leaving}) {
+            const Result<PaintMap*> paint = begunPaint(map);
+            if (!paint) return false; // who draws it says why
+            if ((*paint)->takePart(context_.device())) return true;
+        }
     const scene::Textures* textures = scene::texturesOf(object);
     if (!textures) return false;
     for (const scene::TextureUse* use :
@@ -302,9 +305,9 @@ Textured ImageCache::textured(const scene::Mesh& mesh, const scene::Textures& te
 }
 
 Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image>& image) {
+    if (Status fits = checkSize(*image); !fits) return fits.error();
     Entry<graph::Texture>& entry = images_[image.get()];
     if (!entry.value) {
-        if (Status fits = checkSize(*image); !fits) return fits.error();
         const bool scalar = image->channels == 1;
         const graph::TextureDesc desc{
             .size = image->size(), .format = scalar ? Format::R32F : Format::RGBA16F, .linear = !scalar};
@@ -326,15 +329,23 @@ Result<graph::TextureHandle> ImageCache::image(const std::shared_ptr<const Image
     return entry.value->handle();
 }
 
-Result<const PaintMap*> ImageCache::paintMap(const std::shared_ptr<const Image>& image) {
+Result<PaintMap*> ImageCache::begunPaint(const std::shared_ptr<const Image>& image) {
+    if (Status fits = checkSize(*image); !fits) return fits.error();
     Entry<PaintMap>& entry = paints_[image.get()];
     if (!entry.value) {
-        if (Status fits = checkSize(*image); !fits) return fits.error();
-        entry.value = std::make_unique<PaintMap>(context_.device(), *image);
+        entry.value = std::make_unique<PaintMap>(context_.device(), image);
         entry.source = image;
     }
     entry.used = true;
     return entry.value.get();
+}
+
+Result<const PaintMap*> ImageCache::paintMap(const std::shared_ptr<const Image>& image) {
+    const Result<PaintMap*> paint = begunPaint(image);
+    if (!paint) return paint.error();
+    while ((*paint)->takePart(context_.device())) {
+    }
+    return *paint;
 }
 
 Result<Paint> ImageCache::paint(const scene::Painting& painting,

@@ -90,6 +90,7 @@ private:
     Status checkSize(const Image& image) const;
     bool takePartOf(const scene::HeightField& field, const scene::Material& material);
     Result<FieldTextures*> heights(const std::shared_ptr<const Image>& image); // and a pyramid, or none yet
+    Result<PaintMap*> begunPaint(const std::shared_ptr<const Image>& image);   // parts of it may lack
     Result<const PaintMap*> paintMap(const std::shared_ptr<const Image>& image);
     graph::TextureHandle texture(const std::shared_ptr<const scene::TextureImage>& image);
     gl::Context& context_;

@@ -4,6 +4,7 @@
 #include "views/Textured.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 
 namespace lucent::views {
@@ -12,14 +13,26 @@ using graph::Format;
 
 bool isPainted(const scene::Object& object) { return object.painting && object.material.isScattering(); }
 
-PaintMap::PaintMap(gl::Device& device, const Image& map)
-    : texture_(device, {.size = map.size(), .format = Format::RGBA32F}, "views.paint"), least_(map.pixels[3]),
-      most_(map.pixels[3]) {
-    device.upload(texture_.handle(), 0, map.pixels);
-    for (std::size_t i = 3; i < map.pixels.size(); i += 4) {
-        least_ = std::min(least_, map.pixels[i]);
-        most_ = std::max(most_, map.pixels[i]);
+PaintMap::PaintMap(gl::Device& device, std::shared_ptr<const Image> map)
+    : source_(std::move(map)),
+      texture_(device, {.size = source_->size(), .format = Format::RGBA32F}, "views.paint"),
+      least_(source_->pixels[3]), most_(source_->pixels[3]) {}
+
+bool PaintMap::takePart(gl::Device& device) {
+    constexpr int kTexels = 1 << 16; // at once
+    const ivec2 size = source_->size();
+    if (rows_ == size.y) return false;
+    const int count = std::min(std::max(1, kTexels / size.x), size.y - rows_);
+    const std::size_t perRow = std::size_t(size.x) * 4;
+    const std::span<const float> part(&source_->pixels[std::size_t(rows_) * perRow],
+                                      std::size_t(count) * perRow);
+    device.upload(texture_.handle(), 0, 0, std::as_bytes(part), rows_);
+    for (std::size_t i = 3; i < part.size(); i += 4) {
+        least_ = std::min(least_, part[i]);
+        most_ = std::max(most_, part[i]);
     }
+    rows_ += count;
+    return true;
 }
 
 graph::Texture placeTexture(gl::Device& device, const scene::Atlas& atlas) {

@@ -16,10 +16,12 @@ struct DrawnMesh;
 /// Whether paint on the object does anything: it must be translucent.
 bool isPainted(const scene::Object& object);
 
-/// A map of a painting on the GPU.
+/// A map of a painting on the GPU, where it comes part by part: a browser takes long to copy all of it.
 class PaintMap {
 public:
-    PaintMap(gl::Device& device, const Image& map);
+    PaintMap(gl::Device& device, std::shared_ptr<const Image> map);
+    /// Takes the next rows there. @return whether there were more
+    bool takePart(gl::Device& device);
 
     graph::TextureHandle texture() const { return texture_.handle(); } ///< RGBA32F, row 0 first
     float least() const { return least_; }                             ///< of the last channel
@@ -27,7 +29,9 @@ public:
     std::size_t bytes() const { return texture_.desc().bytes(); }
 
 private:
+    std::shared_ptr<const Image> source_;
     graph::Texture texture_;
+    int rows_ = 0; // that are there
     float least_, most_;
 };
 
