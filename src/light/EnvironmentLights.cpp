@@ -9,11 +9,13 @@ namespace lucent::views {
 
 namespace {
 
+int ringsOf(int count) { return std::max(2, int(std::lround(std::sqrt(count * kPi / 4)))); }
+
 // Rings of equal height in polar angle, but for the first and the last where they begin later; a ring's
 // number of cells follows its length, so cells are nearly square.
 struct Rings {
     Rings(int count, vec2 offset) : around(double(offset.y)) {
-        const int whole = std::max(2, int(std::lround(std::sqrt(count * kPi / 4))));
+        const int whole = ringsOf(count);
         rows = offset.x > 0 ? whole + 1 : whole;
         for (int row = 0; row <= rows; ++row)
             borders.push_back(std::clamp((row - double(offset.x)) / whole, 0.0, 1.0));
@@ -100,6 +102,39 @@ void addPixel(Sums& sums, const Rings& rings, int ring, const Row& row, std::siz
                               const float* colors) {
     for (std::size_t x = 0; x < row.across.size(); ++x, colors += 3)
         addPixel(sums, rings, ring, row, x, band, {colors[0], colors[1], colors[2]});
+}
+
+// @param above, below  weights of the two rows of pixels that become one of half as many
+[[gnu::noinline]] void halveRow(const Image& map, int y, float above, float below, float* out) {
+    const float *top = map.at(0, y), *bottom = map.at(0, y + 1);
+    for (int x = 0; x + 1 < map.width; x += 2, top += 6, bottom += 6)
+        for (int c = 0; c < 3; ++c)
+            *out++ = above * (top[c] + top[c + 3]) + below * (bottom[c] + bottom[c + 3]);
+}
+
+// Half the pixels along each side, each the mean of four by their solid angles.
+Image halved(const Image& map) {
+    Image half(map.width / 2, map.height / 2, 3);
+    for (int y = 0; y < half.height; ++y) {
+        const auto cosine = [&](int row) { return std::cos(row * std::numbers::pi / map.height); };
+        const double top = cosine(2 * y), middle = cosine(2 * y + 1), bottom = cosine(2 * y + 2);
+        const double share = (top - middle) / (top - bottom);
+        halveRow(map, 2 * y, float(share / 2), float((1 - share) / 2), half.at(0, y));
+    }
+    return half;
+}
+
+// A map with no more pixels than cells of a size need: their means differ by what little the pixels at their
+// borders hold.
+const Image& mapFor(const scene::Environment& environment, int count) {
+    constexpr int kAcross = 16; // pixels along a side of a cell, at least
+    const Image* map = environment.map.get();
+    const auto hasMore = [&] {
+        return map->width % 2 == 0 && map->height % 2 == 0 && map->width / 2 >= 2 * kAcross * ringsOf(count);
+    };
+    for (int times = 1; hasMore(); ++times)
+        map = &environment.kept.of<Image>(std::tuple(environment.map, times), [&] { return halved(*map); });
+    return *map;
 }
 
 // The cells of a map, before it is turned: radiance and area of each.
@@ -219,8 +254,10 @@ EnvironmentLight lightOf(const Part& part) {
 std::vector<EnvironmentLight> environmentLights(const scene::Environment& environment, int count,
                                                 vec2 offset) {
     // A map is turned more often than changed, and asked for in a few numbers of cells by turns.
-    auto lights = environment.kept.of<std::vector<EnvironmentLight>>(
-        std::tuple(environment.map, count, offset), [&] { return cellsOf(*environment.map, count, offset); });
+    auto lights =
+        environment.kept.of<std::vector<EnvironmentLight>>(std::tuple(environment.map, count, offset), [&] {
+            return cellsOf(mapFor(environment, count), count, offset);
+        });
     const mat3 rotation = rotationFromDegrees(environment.rotation);
     for (EnvironmentLight& light : lights) {
         light.direction = rotation * light.direction;

@@ -128,6 +128,26 @@ TEST(EnvironmentLights, AWindowKeepsTheMeanDirectionOfItsLight) {
     }
 }
 
+// Few lights are found in fewer pixels than a map has.
+TEST(EnvironmentLights, AMapOfMorePixelsThatShowsTheSameSendsTheSame) {
+    const auto shown = [](int x, int y) { return vec3(1 + (7 * x + 13 * y) % 11, x % 5, y % 3); };
+    scene::Environment coarse, fine;
+    coarse.map = mapOf({64, 32}, shown);
+    fine.map = mapOf({1024, 512}, [&](int x, int y) { return shown(x / 16, y / 16); });
+    for (const int count : {6, 20, 64, 512}) {
+        const auto few = environmentLights(coarse, count, {0.3f, 0.6f});
+        const auto many = environmentLights(fine, count, {0.3f, 0.6f});
+        ASSERT_EQ(few.size(), many.size());
+        for (std::size_t i = 0; i < few.size(); ++i) {
+            EXPECT_NEAR(glm::distance(few[i].radiance, many[i].radiance), 0,
+                        1e-4f * glm::length(few[i].radiance));
+            EXPECT_NEAR(few[i].weight, many[i].weight, 1e-6);
+            // Within a large pixel the light lies where the solid angle does, not in the middle.
+            EXPECT_LT(glm::distance(few[i].direction, many[i].direction), 0.005f);
+        }
+    }
+}
+
 TEST(EnvironmentLights, DirectionsFollowTheMapConvention) {
     // One bright pixel right of the centre, on the horizon: centre column is -z, to the right +x.
     scene::Environment environment;
