@@ -248,13 +248,20 @@ class Layout {
 public:
     Layout(const Mesh& mesh, const Charting& charting)
         : mesh_(mesh), charting_(charting), side_(charting.side), count_(mesh.indices.size() / 3),
-          chartOf_(count_, kNone) {
-        measure();
-        join();
-    }
+          chartOf_(count_, kNone) {}
 
     // Works until every triangle has a place; Error when there is no room. @return whether all have one
     Result<bool> advance() {
+        if (!isMeasured_) {
+            measure();
+            isMeasured_ = true;
+            return false;
+        }
+        if (!isJoined_) {
+            join();
+            isJoined_ = true;
+            return false;
+        }
         if (!grows()) return false;
         if (!isPacked_) {
             if (Status packed = pack(); !packed) return packed.error();
@@ -335,9 +342,11 @@ private:
 
     // Puts triangles that are in no chart into new ones. @return whether all are in one
     bool grows() {
-        for (std::size_t taken = 0; seed_ < count_ && taken <= count_ / kPieces; ++seed_)
-            if (chartOf_[seed_] == kNone && normals_[seed_] != dvec3(0)) taken += growFrom(seed_);
-        if (seed_ < count_) return false;
+        std::size_t left = count_ / kPieces + 1;
+        for (; seed_ < count_; ++seed_) {
+            if (!growth_ && (chartOf_[seed_] != kNone || normals_[seed_] == dvec3(0))) continue;
+            if (left == 0 || !growsFrom(seed_, left)) return false;
+        }
         const auto first = std::find(chartOf_.begin(), chartOf_.end(), kNone);
         if (first == chartOf_.end()) return true;
         std::replace(first, chartOf_.end(), kNone, int(charts_.size()));
@@ -345,22 +354,40 @@ private:
         return true;
     }
 
-    // @return  how many triangles its chart has
-    std::size_t growFrom(std::size_t seed) {
-        const int number = int(charts_.size());
-        if (!charting_.fitted) {
+    // A chart that grows.
+    struct Growth {
+        Growth(const Axis& axis, std::size_t seed) : chart{axis, {}}, waiting{seed} {}
+        Chart chart;
+        Mask mask{};
+        std::vector<std::size_t> taken{};
+        std::deque<std::size_t> waiting;
+    };
+
+    // Works on the chart of a triangle. @param left  how many triangles may be looked at, and then still may.
+    // @return whether it is whole
+    bool growsFrom(std::size_t seed, std::size_t& left) {
+        if (charting_.fitted) {
+            left -= std::min(left, fitFrom(seed));
+            return true;
+        }
+        if (!growth_) {
             const auto facing = [&](const Axis& axis) { return glm::dot(axis.out, normals_[seed]); };
             const Axis* axis =
                 std::max_element(std::begin(kAxes), std::end(kAxes),
                                  [&](const Axis& a, const Axis& b) { return facing(a) < facing(b); });
-            Chart chart{*axis, {}};
-            const std::size_t count = take(chart, seed, number).size();
-            charts_.push_back(chart);
-            return count;
+            growth_.emplace(*axis, seed);
         }
-        // First across the seed's own normal, then across the mean of what that took.
-        Chart tried{axisAlong(normals_[seed]), {}};
-        std::vector<std::size_t> taken = take(tried, seed, number);
+        if (!grow(*growth_, left)) return false;
+        charts_.push_back(growth_->chart);
+        growth_.reset();
+        return true;
+    }
+
+    // First across the seed's own normal, then across the mean of what that took. @return how many triangles
+    // its chart has
+    std::size_t fitFrom(std::size_t seed) {
+        Chart tried;
+        std::vector<std::size_t> taken = take(tried, axisAlong(normals_[seed]), seed);
         dvec3 mean(0);
         for (const std::size_t t : taken) {
             mean += areas_[t] * normals_[t];
@@ -369,32 +396,40 @@ private:
         const double length = glm::length(mean);
         const bool holdsSeed =
             length > 0 && glm::dot(mean, normals_[seed]) > (charting_.cosine + 1e-9) * length;
-        Chart chart{axisAlong(holdsSeed ? mean / length : normals_[seed]), {}};
-        taken = take(chart, seed, number);
+        Chart chart;
+        taken = take(chart, axisAlong(holdsSeed ? mean / length : normals_[seed]), seed);
         turn(chart, taken);
         charts_.push_back(chart);
         return taken.size();
     }
 
     // Grows a chart from a triangle on. @return  its triangles
-    std::vector<std::size_t> take(Chart& chart, std::size_t seed, int number) {
-        Mask mask;
-        std::vector<std::size_t> taken;
-        std::deque<std::size_t> waiting{seed};
-        while (!waiting.empty()) {
-            const std::size_t t = waiting.front();
-            waiting.pop_front();
-            if (chartOf_[t] != kNone || !accepts(chart, t, mask)) continue;
-            chartOf_[t] = number;
-            taken.push_back(t);
+    std::vector<std::size_t> take(Chart& chart, const Axis& axis, std::size_t seed) {
+        Growth growth(axis, seed);
+        std::size_t left = std::numeric_limits<std::size_t>::max();
+        grow(growth, left);
+        chart = growth.chart;
+        return std::move(growth.taken);
+    }
+
+    // @param left  as of growsFrom(). @return whether it is whole
+    bool grow(Growth& growth, std::size_t& left) {
+        Chart& chart = growth.chart;
+        for (; !growth.waiting.empty(); --left) {
+            if (left == 0) return false;
+            const std::size_t t = growth.waiting.front();
+            growth.waiting.pop_front();
+            if (chartOf_[t] != kNone || !accepts(chart, t, growth.mask)) continue;
+            chartOf_[t] = int(charts_.size());
+            growth.taken.push_back(t);
             for (std::size_t i = 0; i < 3; ++i) {
                 chart.box.add(flattened(*chart.axis, position(corner(t, i))));
                 const int next = across_[3 * t + i];
                 if (next != kNone && chartOf_[std::size_t(next)] == kNone)
-                    waiting.push_back(std::size_t(next));
+                    growth.waiting.push_back(std::size_t(next));
             }
         }
-        return taken;
+        return true;
     }
 
     // Turns a chart in its plane until its box is smallest.
@@ -501,7 +536,7 @@ private:
         return covering_ == count_;
     }
 
-    static constexpr std::size_t kPieces = 8; // of what is done triangle by triangle
+    static constexpr std::size_t kPieces = 32; // of what is done triangle by triangle
 
     const Mesh& mesh_;
     Charting charting_;
@@ -512,7 +547,9 @@ private:
     std::vector<int> across_;    // three a triangle
     double maskScale_ = 0;       // texels a metre
     std::vector<int> chartOf_;
-    std::size_t seed_ = 0; // of charts to come, a triangle
+    bool isMeasured_ = false, isJoined_ = false;
+    std::size_t seed_ = 0;         // of charts to come, a triangle
+    std::optional<Growth> growth_; // of the chart that is being made
     std::vector<Chart> charts_;
     std::vector<ivec2> offsets_; // of the boxes with their borders
     double scale_ = 0;           // texels a metre
