@@ -11,6 +11,7 @@ layout(std140) uniform WaterBlock {
     float damping; // 1/s
     float speed;   // m/s
     float rest;    // s since the last step
+    ivec2 squares; // of the mesh that is drawn
 } water;
 
 vec2 placeOf(ivec2 texel) { return vec2(texel) * water.cell - 0.5 * water.size; }

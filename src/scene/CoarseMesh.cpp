@@ -1,6 +1,7 @@
 #include "scene/CoarseMesh.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lucent::scene {
 
@@ -64,14 +65,37 @@ std::vector<std::uint32_t> trianglesBetween(const std::vector<std::uint32_t>& in
     return all;
 }
 
-bool isCoarsened(const Object& object) {
-    const auto* file = std::get_if<MeshShape>(&object.shape);
-    if (!file || file->flatNormals || object.displacement || object.painting || object.bake ||
-        object.material.isScattering())
-        return false;
-    const Mesh& mesh = *file->mesh;
-    return mesh.indices.size() > 3 * kManyTriangles && mesh.coordinates.empty() && mesh.colors.empty() &&
-           mesh.rig.nodes.empty();
+// Whether something else goes by its vertices.
+bool needsVertices(const Object& object) { return object.displacement || object.painting || object.bake; }
+
+bool isCoarsened(const MeshShape& file) {
+    const Mesh& mesh = *file.mesh;
+    return !file.flatNormals && mesh.indices.size() > 3 * kManyTriangles && mesh.coordinates.empty() &&
+           mesh.colors.empty() && mesh.rig.nodes.empty();
+}
+
+// Every so manieth height, of which there are still twice as many as cells along the longest side.
+Image fewerHeights(const Image& heights, int cells) {
+    int stride = 1;
+    const auto leaves = [&](int every) {
+        return heights.width % every == 0 && heights.height % every == 0 &&
+               std::max(heights.width, heights.height) / every >= 2 * cells;
+    };
+    while (leaves(2 * stride))
+        stride *= 2;
+    Image fewer(heights.width / stride, heights.height / stride, 1);
+    for (int y = 0; y < fewer.height; ++y)
+        for (int x = 0; x < fewer.width; ++x)
+            *fewer.at(x, y) = *heights.at(x * stride + stride / 2, y * stride + stride / 2);
+    return fewer;
+}
+
+// What is kept with an object of what its mesh is made of.
+template <class Source, class Make>
+std::shared_ptr<const Source> coarseOf(const Object& object, const std::shared_ptr<const Source>& source,
+                                       int cells, const Make& make) {
+    return object.kept.of<std::shared_ptr<const Source>>(
+        std::pair(source, cells), [&] { return std::make_shared<const Source>(make(*source, cells)); });
 }
 
 } // namespace
@@ -111,11 +135,17 @@ Mesh coarseMesh(const Mesh& mesh, int cells) {
 
 void coarsen(Scene& scene, int cells) {
     for (Object& object : scene.objects) {
-        if (!isCoarsened(object)) continue;
-        auto& file = std::get<MeshShape>(object.shape);
-        file.mesh = object.kept.of<std::shared_ptr<const Mesh>>(std::pair(file.mesh, cells), [&] {
-            return std::make_shared<const Mesh>(coarseMesh(*file.mesh, cells));
-        });
+        if (needsVertices(object) || object.isField()) continue;
+        auto* file = std::get_if<MeshShape>(&object.shape);
+        auto* body = std::get_if<HeightField>(&object.shape);
+        if (!file && !body)
+            object.mostCells = cells;
+        else if (object.material.isScattering())
+            continue;
+        else if (body)
+            body->heights = coarseOf(object, body->heights, cells, fewerHeights);
+        else if (isCoarsened(*file))
+            file->mesh = coarseOf(object, file->mesh, cells, coarseMesh);
     }
 }
 

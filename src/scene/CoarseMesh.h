@@ -13,9 +13,10 @@ namespace lucent::scene {
 /// @return       positions, indices and normals alone; of no vertex: nothing
 Mesh coarseMesh(const Mesh& mesh, int cells);
 
-/// Gives objects that are meshes of files with many triangles such ones. Those stay as they are by whose
-/// vertices something else goes: textures, paint, displacement, subsurface scattering, what is worked out
-/// beforehand, a rig, flat normals.
+/// Gives objects that are meshes of files with many triangles such ones, bodies of height fields fewer
+/// heights, and bounds the meshes of shapes (Object::mostCells). Those stay as they are by whose vertices
+/// something else goes: textures, paint, displacement, subsurface scattering, what is worked out beforehand,
+/// a rig, flat normals.
 void coarsen(Scene& scene, int cells);
 
 } // namespace lucent::scene

@@ -125,6 +125,8 @@ Mesh posed(const Mesh& mesh, const Pose& pose);
 std::vector<vec3> areaWeightedNormals(std::span<const vec3> positions,
                                       std::span<const std::uint32_t> indices);
 
+inline constexpr int kSphereSegments = 256, kTorusSegments = 384; ///< once around
+
 /// Meshes of the shapes that are neither files nor fields, centred in their object's space, with normals.
 /// Their vertices lie on the shape; `segments` (3 or more) go once around, the other way in proportion but
 /// not more. Flat sides have `cells` squares along each edge: 1 unless the shape is to be bent; lids of
@@ -133,17 +135,20 @@ std::vector<vec3> areaWeightedNormals(std::span<const vec3> positions,
 /// count.
 Mesh meshOf(const Plane& plane, int cells = 1);
 Mesh meshOf(const Box& box, int cells = 1);
-Mesh meshOf(const Sphere& sphere, int segments = 256);
-Mesh meshOf(const Torus& torus, int segments = 384);
-Mesh meshOf(const Cylinder& cylinder, int segments = 256);
+Mesh meshOf(const Sphere& sphere, int segments = kSphereSegments);
+Mesh meshOf(const Torus& torus, int segments = kTorusSegments);
+Mesh meshOf(const Cylinder& cylinder, int segments = kSphereSegments);
 /// The body of a height field, closed: its top cut into triangles between texel centres and the border, walls
 /// around and a flat bottom, at height 0 or the lowest one below that. Where heights touch the bottom, or a
 /// hole was dug, it has none.
 Mesh meshOf(const HeightField& field);
 /// Water without waves: its grid, row after row along x; a sheet like the plane.
-Mesh meshOf(const Water& water);
-/// Squares of that grid along x and z: `cells` along the longer side, about as large along the other.
-ivec2 waterCells(const Water& water);
+///
+/// @param most  squares along the longer side; 0: as many as its heights have
+Mesh meshOf(const Water& water, int most = 0);
+/// Squares of that grid along x and z: `cells` along the longer side, or `most`, about as large along the
+/// other.
+ivec2 waterCells(const Water& water, int most = 0);
 
 /// The triangles of an object that is no relief (Object::isField()), as all draw it: those of its file, or
 /// such as lie on its shape, made once for the same shape. With a wave flat sides are cut into small squares;

@@ -13,8 +13,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int kWavedCells = 128; // along an edge that a wave bends
 // Once around something clear, whose layers are drawn anew with every step of the eye: caustics misplace no
-// more than half a percent of a ball's light, in half the time that drawing 256 and 384 takes. Matt light
-// needs those.
+// more than half a percent of a ball's light, in half the time that drawing as many as matt light needs
+// takes.
 constexpr int kClearSphere = 160, kClearTorus = 240;
 
 // Once around what only casts a shadow: each of hundreds of light samples draws it.
@@ -35,16 +35,16 @@ float outside(double angle) { return 1 + float(angle * angle / 12); }
 
 // The way from pole to pole adds its own; around, circles are smaller than the equator, on the mean by two
 // thirds of their squares.
-Mesh clearMesh(const Sphere& sphere) {
-    const double angle = 2 * pi / kClearSphere;
+Mesh clearMesh(const Sphere& sphere, int segments) {
+    const double angle = 2 * pi / segments;
     const float radius = sphere.radius * outside(angle * std::sqrt(1 + 2.0 / 3));
-    return meshOf(Sphere{radius}, kClearSphere);
+    return meshOf(Sphere{radius}, segments);
 }
 
-Mesh clearMesh(const Torus& torus) {
-    const double around = 2 * pi / kClearTorus;
+Mesh clearMesh(const Torus& torus, int segments) {
+    const double around = 2 * pi / segments;
     const double across = around * double(torus.major) / double(torus.minor);
-    return meshOf(Torus{torus.major * outside(around), torus.minor * outside(across)}, kClearTorus);
+    return meshOf(Torus{torus.major * outside(around), torus.minor * outside(across)}, segments);
 }
 
 Mesh bakedMesh(const Shape& shape) {
@@ -59,16 +59,20 @@ Mesh bakedMesh(const Shape& shape) {
 Mesh generated(const Object& object) {
     const Shape& shape = object.shape;
     if (isPrecomputed(object)) return bakedMesh(shape);
-    const int cells = isWaved(object) ? kWavedCells : 1;
+    const auto atMost = [&](int cells) {
+        return object.mostCells > 0 ? std::min(cells, object.mostCells) : cells;
+    };
+    const int cells = isWaved(object) ? atMost(kWavedCells) : 1;
+    const bool clear = isClear(object);
     if (const auto* plane = std::get_if<Plane>(&shape)) return meshOf(*plane, cells);
     if (const auto* box = std::get_if<Box>(&shape)) return meshOf(*box, cells);
     if (const auto* sphere = std::get_if<Sphere>(&shape))
-        return isClear(object) ? clearMesh(*sphere) : meshOf(*sphere);
+        return clear ? clearMesh(*sphere, atMost(kClearSphere)) : meshOf(*sphere, atMost(kSphereSegments));
     if (const auto* torus = std::get_if<Torus>(&shape))
-        return isClear(object) ? clearMesh(*torus) : meshOf(*torus);
-    if (const auto* water = std::get_if<Water>(&shape)) return meshOf(*water);
+        return clear ? clearMesh(*torus, atMost(kClearTorus)) : meshOf(*torus, atMost(kTorusSegments));
+    if (const auto* water = std::get_if<Water>(&shape)) return meshOf(*water, object.mostCells);
     if (const auto* field = std::get_if<HeightField>(&shape)) return meshOf(*field);
-    return meshOf(std::get<Cylinder>(shape));
+    return meshOf(std::get<Cylinder>(shape), atMost(kSphereSegments));
 }
 
 template <class Value>
@@ -104,6 +108,7 @@ struct Source {
     Shape shape;
     bool isWaved, isClear, isPrecomputed;
     std::optional<Displacement> displacement;
+    int mostCells;
     bool operator==(const Source&) const = default;
 };
 
@@ -118,7 +123,8 @@ std::shared_ptr<const Mesh> meshOf(const Object& object) {
     const auto* file = std::get_if<MeshShape>(&object.shape);
     if (file && !file->flatNormals && !object.displacement) return file->mesh;
     return object.kept.of<std::shared_ptr<const Mesh>>(
-        Source{object.shape, isWaved(object), isClear(object), isPrecomputed(object), object.displacement},
+        Source{object.shape, isWaved(object), isClear(object), isPrecomputed(object), object.displacement,
+               object.mostCells},
         [&] {
             if (object.displacement) return std::make_shared<const Mesh>(displacedMesh(object));
             return std::make_shared<const Mesh>(file ? flattened(*file->mesh) : generated(object));
@@ -127,7 +133,8 @@ std::shared_ptr<const Mesh> meshOf(const Object& object) {
 
 std::shared_ptr<const Mesh> shadowMeshOf(const Object& object) {
     const Material& material = object.material;
-    if (material.isRefractive() || isWaved(object) || isPrecomputed(object) || object.displacement)
+    if (material.isRefractive() || isWaved(object) || isPrecomputed(object) || object.displacement ||
+        object.mostCells > 0)
         return meshOf(object);
     const auto made = [&](auto shape, int segments) {
         const auto make = [&] { return std::make_shared<const Mesh>(meshOf(shape, segments)); };

@@ -318,7 +318,10 @@ struct Object {
     /// What was worked out of it beforehand, as the technique that wrote it reads it; null: nothing.
     std::shared_ptr<const std::vector<std::byte>> bake;
     std::string bakeFile{}; ///< as the scene file names it
-    Kept kept{};            ///< what was worked out from it: its mesh, its bounds
+    /// Of a mesh that is made of its shape, along the longest side or once around, at most; 0: as many as it
+    /// needs. No part of a file: previews have few (CoarseMesh.h).
+    int mostCells = 0;
+    Kept kept{}; ///< what was worked out from it: its mesh, its bounds
 
     /// A height field that is a relief, whose heights rays walk along. Of other materials it is a mesh, the
     /// body of its heights (Mesh.h).

@@ -163,13 +163,14 @@ Mesh meshOf(const Cylinder& cylinder, int segments) {
     return builder.take();
 }
 
-ivec2 waterCells(const Water& water) {
-    const float cell = std::max(water.size.x, water.size.y) / float(water.cells);
+ivec2 waterCells(const Water& water, int most) {
+    const int cells = most > 0 ? std::min(most, water.cells) : water.cells;
+    const float cell = std::max(water.size.x, water.size.y) / float(cells);
     return glm::max(ivec2(glm::round(water.size / cell)), ivec2(1));
 }
 
-Mesh meshOf(const Water& water) {
-    const ivec2 cells = waterCells(water);
+Mesh meshOf(const Water& water, int most) {
+    const ivec2 cells = waterCells(water, most);
     const vec2 cell = water.size / vec2(cells);
     Mesh mesh;
     const auto number = [&](int x, int z) { return std::uint32_t(z * (cells.x + 1) + x); };

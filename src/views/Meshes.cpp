@@ -127,7 +127,7 @@ void DrawnMesh::sampleFrom(graph::PassBuilder& pass) const {
 Result<Drawable::Ptr> DrawnMesh::posed(graph::FrameGraph& graph, gl::Context& context, float time,
                                        std::vector<DrawnMesh*>& traced) const {
     const auto images = [&]() -> Result<VertexImages> {
-        if (water) return recordWater(graph, context, *water, object->name);
+        if (water) return recordWater(graph, context, *water, *object);
         const auto import = [&](const graph::Texture& texture) {
             return graph.import(texture.handle(), texture.desc(), texture.label());
         };

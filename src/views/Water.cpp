@@ -53,23 +53,23 @@ WaterSheet::WaterSheet(gl::Context& context, const scene::Water& water)
 
 bool WaterSheet::shows(const scene::Water& water) const { return water == water_; }
 
-graph::TextureDesc WaterSheet::imageDesc() const {
-    return {.size = now_.desc().size, .format = Format::RGBA32F};
+graph::Block WaterSheet::block(ivec2 squares) const {
+    WaterBlock block = blockFor({});
+    block.squares = squares;
+    return block;
 }
 
-graph::Block WaterSheet::block() const { return blockFor({}); }
-
-graph::Block WaterSheet::blockFor(const WaterDrop& drop) const {
+WaterBlock WaterSheet::blockFor(const WaterDrop& drop) const {
     const vec2 cell = cellOf(water_);
-    return WaterBlock{.sine = sineOf(water_),
-                      .drop =
-                          vec4(drop.place, std::max(drop.radius, 2 * std::max(cell.x, cell.y)), drop.depth),
-                      .size = water_.size,
-                      .cell = cell,
-                      .step = float(seconds_),
-                      .damping = water_.damping,
-                      .speed = water_.speed,
-                      .rest = rest_};
+    return {.sine = sineOf(water_),
+            .drop = vec4(drop.place, std::max(drop.radius, 2 * std::max(cell.x, cell.y)), drop.depth),
+            .size = water_.size,
+            .cell = cell,
+            .step = float(seconds_),
+            .damping = water_.damping,
+            .speed = water_.speed,
+            .rest = rest_,
+            .squares = cells_};
 }
 
 // Into the other image, which then is the state.
@@ -191,17 +191,19 @@ std::size_t Waters::bytes() const {
 }
 
 Result<VertexImages> recordWater(graph::FrameGraph& graph, gl::Context& context, const WaterSheet& sheet,
-                                 const std::string& name) {
+                                 const scene::Object& object) {
     const gl::Program* program = context.program("views/water");
     const graph::TextureId state =
         graph.import(sheet.state().handle(), sheet.state().desc(), sheet.state().label());
-    const graph::Block block = sheet.block();
+    const ivec2 squares = waterCells(std::get<scene::Water>(object.shape), object.mostCells);
+    const graph::Block block = sheet.block(squares);
+    const graph::TextureDesc desc{.size = squares + 1, .format = Format::RGBA32F};
     VertexImages images;
     graph.addPass("views.water", [&](graph::PassBuilder& pass) -> graph::Execute {
-        pass.reason("object \"" + name + "\" is water: vertices from its heights");
+        pass.reason("object \"" + object.name + "\" is water: vertices from its heights");
         pass.sample(state);
-        images = {pass.createColor("views.waterPositions", sheet.imageDesc()),
-                  pass.createColor("views.waterNormals", sheet.imageDesc())};
+        images = {pass.createColor("views.waterPositions", desc),
+                  pass.createColor("views.waterNormals", desc)};
         return [=](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program, .block = block, .textures = {{"uState", resources[state]}}});
         };

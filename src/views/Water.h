@@ -4,6 +4,7 @@
 #include "gl/Context.h"
 #include "scene/Mesh.h"
 #include "scene/Water.h"
+#include "shaders/views/Blocks.h"
 #include "views/Pose.h"
 
 #include <cstdint>
@@ -40,10 +41,10 @@ public:
 
     /// RG32F, shaders/views/water.glsl.
     const graph::Texture& state() const { return now_; }
-    graph::TextureDesc imageDesc() const; ///< of the vertices' images
     std::size_t bytes() const { return now_.desc().bytes() + next_.desc().bytes(); }
     std::uint64_t changes() const { return changes_; } ///< grows with each change of what is seen
-    graph::Block block() const;                        ///< of shaders/views/water.frag
+    /// Of shaders/views/water.frag, for a mesh of so many squares.
+    graph::Block block(ivec2 squares) const;
 
 private:
     struct Fallen {
@@ -54,7 +55,7 @@ private:
     void begin();
     void step();
     void draw(const gl::Program& program, const WaterDrop& drop);
-    graph::Block blockFor(const WaterDrop& drop) const;
+    WaterBlock blockFor(const WaterDrop& drop) const;
 
     gl::Context& context_;
     scene::Water water_;
@@ -99,8 +100,8 @@ private:
     std::uint64_t dropped_ = 0;                         // changes of sheets that are no more
 };
 
-/// Draws the vertices of a sheet.
+/// Draws the vertices of an object whose sheet that is.
 Result<VertexImages> recordWater(graph::FrameGraph& graph, gl::Context& context, const WaterSheet& sheet,
-                                 const std::string& name);
+                                 const scene::Object& object);
 
 } // namespace lucent::views

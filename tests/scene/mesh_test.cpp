@@ -166,6 +166,42 @@ TEST(CoarseMesh, ASphereStaysOneByTheSameBounds) {
         EXPECT_TRUE(edges.contains({to, from})) << "a hole";
 }
 
+TEST(CoarseMesh, ShapesHaveFewerTriangles) {
+    const auto meshes = [](const Shape& shape, const auto& change) {
+        Scene scene;
+        Object& object = scene.objects.emplace_back();
+        object.shape = shape;
+        change(object);
+        const auto fine = meshOf(object);
+        coarsen(scene, 64);
+        return std::pair(fine, meshOf(scene.objects[0]));
+    };
+    const auto leave = [](Object&) {};
+    for (const Shape& shape : {Shape(Sphere{}), Shape(Torus{}), Shape(Cylinder{}), Shape(Water{})}) {
+        const auto [fine, coarse] = meshes(shape, leave);
+        EXPECT_LE(coarse->indices.size(), fine->indices.size() / 4) << shape.index();
+        EXPECT_NEAR(areaOf(*coarse) / areaOf(*fine), 1, 0.02) << shape.index();
+    }
+    const auto [flat, asFlat] = meshes(Plane{}, leave);
+    HeightField field;
+    auto heights = std::make_shared<Image>(256, 128, 1);
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 256; ++x)
+            *heights->at(x, y) = 0.5f + 0.4f * std::sin(0.05f * float(x + y));
+    field.heights = heights;
+    const auto [body, roughBody] = meshes(field, [](Object& one) { one.material.kind = Clear{}; });
+    EXPECT_LT(roughBody->indices.size(), body->indices.size() / 3);
+    EXPECT_NEAR(areaOf(*roughBody) / areaOf(*body), 1, 0.02);
+    EXPECT_EQ(flat->indices.size(), asFlat->indices.size());
+    const auto [bent, bentLess] = meshes(Plane{}, [](Object& one) { one.wave.amplitude = vec3(0, 0.1f, 0); });
+    EXPECT_EQ(bentLess->indices.size(), 64u * 64 * 6);
+    EXPECT_GT(bent->indices.size(), bentLess->indices.size());
+    // What is clear bends light as a ball of its size does.
+    const auto [ball, roughBall] = meshes(Sphere{}, [](Object& one) { one.material.kind = Clear{}; });
+    EXPECT_LT(roughBall->indices.size(), ball->indices.size());
+    EXPECT_NEAR(areaOf(*roughBall) / areaOf(*ball), 1, 0.003);
+}
+
 TEST(CoarseMesh, OnlyWhatNothingElseGoesByIsMadeCoarse) {
     const auto fine = std::make_shared<Mesh>(meshOf(Sphere{.radius = 0.5f}, 256));
     const auto trianglesOf = [&](const auto& change) {

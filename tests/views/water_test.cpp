@@ -121,6 +121,29 @@ TEST_F(WaterTest, VerticesAreATravellingSineFarFromTheWalls) {
     }
 }
 
+// The mesh of a preview has fewer squares than the water has heights.
+TEST_F(WaterTest, FewerSquaresStandAtTheSameHeights) {
+    scene::Scene scene = sceneOf({.size = {1, 0.5f}, .cells = 128, .amplitude = 0.01f, .direction = {3, 4}});
+    Waters waters(*context);
+    goTo(waters, scene, 0.4f);
+    const support::Vertices all = support::verticesAt(*context, scene, 0.4f, &waters);
+    scene.objects[0].mostCells = 32;
+    const support::Vertices some = support::verticesAt(*context, scene, 0.4f, &waters);
+    ASSERT_EQ(some.positions.size(), 33u * 17);
+    for (int z = 0; z < 17; ++z)
+        for (int x = 0; x < 33; ++x) {
+            const auto few = std::size_t(z * 33 + x), many = std::size_t(4 * (z * 129 + x));
+            EXPECT_EQ(some.positions[few], all.positions[many]);
+            EXPECT_NEAR(glm::length(some.normals[few]), 1, 1e-5);
+            EXPECT_GT(glm::dot(some.normals[few], all.normals[many]), 0.99f);
+        }
+    scene.objects[0].mostCells = 50; // no part of 128
+    const support::Vertices others = support::verticesAt(*context, scene, 0.4f, &waters);
+    ASSERT_EQ(others.positions.size(), 51u * 26);
+    EXPECT_EQ(others.positions.front(), all.positions.front());
+    EXPECT_EQ(others.positions.back(), all.positions.back());
+}
+
 TEST_F(WaterTest, HalfTheCellHalvesTheErrorTwice) {
     const auto worstWith = [&](int cells) {
         // Steps: 120 a second for both, far below what is stable, so that cells alone decide.

@@ -51,6 +51,7 @@ WaterRaysBlock LightPasses::waterBlock(const Tint& tint, ivec2 rays) const {
     const scene::Object& object = *in_.glass.front()->object;
     const auto& water = std::get<scene::Water>(object.shape);
     const vec2 size = object.transform.scale * water.size / vec2(rays - 1);
+    const ivec2 cells = scene::waterCells(water, object.mostCells);
     WaterRaysBlock block{.faces = views::facesOf(light_.water->over),
                          .worldFromObject = object.transform.worldFromObject(),
                          .normalFromObject = mat4(rotationFromDegrees(object.transform.rotate)),
@@ -58,9 +59,9 @@ WaterRaysBlock LightPasses::waterBlock(const Tint& tint, ivec2 rays) const {
                          .water = views::glassBlock(object.material),
                          .place = light_.lamp.place,
                          .tint = vec4(tint.color, 0),
-                         .cells = scene::waterCells(water),
+                         .cells = cells,
                          .grid = rays,
-                         .cell = water.size / vec2(scene::waterCells(water)),
+                         .cell = water.size / vec2(cells),
                          .faceCount = int(light_.water->over.faces.size()),
                          .channel = tint.channel,
                          .area = size.x * size.y};
