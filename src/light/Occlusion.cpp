@@ -150,6 +150,14 @@ int thresholdsFor(const LampPoint& sample, const Drawables& casters) {
     return isAlone && std::any_of(casters.begin(), casters.end(), isBlended) ? kThresholds : 1;
 }
 
+// Those that can stand in a sample's way to what a group shades. What water bends goes other ways.
+Drawables inWayOf(const LampPoint& sample, Drawables casters, const Bounds& receivers) {
+    if (sample.water != WaterPath::None) return casters;
+    return filtered(std::move(casters), [&](const Drawable& one) {
+        return mayShade(sample.source.place, one.bounds(), receivers);
+    });
+}
+
 // A shadow without its map, and around what may lie in it.
 struct Casting {
     Shadow shadow;
@@ -212,7 +220,8 @@ Result<Occlusion> recordOcclusion(graph::FrameGraph& graph, gl::Context& context
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const LampPoint& sample = samples[i];
             const bool passes = sample.isEnvironment && !in.carriesEnvironment;
-            const Drawables casters = passes ? opaque(group.casters) : group.casters;
+            const Drawables casters =
+                inWayOf(sample, passes ? opaque(group.casters) : group.casters, group.bounds);
             std::vector<Shadow> shadows;
             for (auto& [shadow, receivers] : castingsOf(in, sample, boundsOfAll(casters), group.bounds)) {
                 const int thresholds = shadow.views.faces.empty() ? 0 : thresholdsFor(sample, casters);

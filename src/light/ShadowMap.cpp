@@ -170,6 +170,29 @@ std::array<ViewBlock, ShadowViews::kMost> facesOf(const ShadowViews& views) {
     return blocks;
 }
 
+// Boxes sweep what lies between: from the receivers towards a direction, or shrinking to a point. Along each
+// axis both sides of such a box go linearly with how far it has come.
+bool mayShade(const vec4& source, const Bounds& caster, const Bounds& receivers) {
+    if (isEmpty(caster) || isEmpty(receivers)) return false;
+    const vec3 light(source);
+    float first = 0,
+          last = source.w == 0 ? std::numeric_limits<float>::infinity() : 1; // of the boxes that meet
+    const auto bound = [&](float start, float rate) {                        // start + rate t >= 0
+        if (rate > 0)
+            first = std::max(first, -start / rate);
+        else if (rate < 0)
+            last = std::min(last, -start / rate);
+        else if (start < 0)
+            last = -1;
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        const float low = receivers.low[axis], high = receivers.high[axis], at = light[axis];
+        bound(high - caster.low[axis], source.w == 0 ? at : at - high);
+        bound(caster.high[axis] - low, source.w == 0 ? -at : low - at);
+    }
+    return first <= last;
+}
+
 ShadowViews shadowViews(const ShadowSource& source, const Bounds& casters, const Bounds& receivers,
                         int size) {
     ShadowViews views{.faces = {}, .size = size};

@@ -44,6 +44,11 @@ std::array<ViewBlock, ShadowViews::kMost> facesOf(const ShadowViews& views);
 /// @param size       pixels a side of each view, at least 16
 ShadowViews shadowViews(const ShadowSource& source, const Bounds& casters, const Bounds& receivers, int size);
 
+/// Whether something in a box can stand between a light and a place in another box.
+///
+/// @param source  world: a point, and 1; or the unit direction to the light, and 0
+bool mayShade(const vec4& source, const Bounds& caster, const Bounds& receivers);
+
 /// Draws the depths of what casts shadows, R32F, 1e30 where there is nothing.
 ///
 /// @param receivers  as in shadowViews(): views in which none of them can be are not drawn

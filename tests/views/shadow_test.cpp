@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace lucent::views {
 namespace {
 
@@ -69,6 +71,59 @@ TEST(ShadowViews, ASpotLooksNoFartherAroundThanItShines) {
     ASSERT_EQ(views.faces.size(), 1u);
     EXPECT_EQ(views.faces[0].forward, vec3(0, -1, 0));
     EXPECT_NEAR(views.faces[0].halfExtent.x, 0.25 * 512 / 508, 2e-4);
+}
+
+// Whether the way from a place to a light meets a box.
+bool meets(const vec3& from, const vec4& light, const Bounds& box) {
+    const vec3 way = light.w == 0 ? vec3(light) : vec3(light) - from;
+    float near = 0, far = light.w == 0 ? 1e9f : 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float a = (box.low[axis] - from[axis]) / way[axis],
+                    b = (box.high[axis] - from[axis]) / way[axis];
+        near = std::max(near, std::min(a, b));
+        far = std::min(far, std::max(a, b));
+    }
+    return near <= far;
+}
+
+TEST(MayShade, WhateverStandsInTheWayMay) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> side(-1, 1), size(0.05f, 0.6f);
+    const auto box = [&] {
+        const vec3 low(side(random), side(random), side(random));
+        return Bounds{low, low + vec3(size(random), size(random), size(random))};
+    };
+    int without = 0, withoutWay = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Bounds caster = box(), receivers = box();
+        const vec3 place(side(random), side(random), side(random));
+        const vec4 light = i % 2 ? vec4(2.0f * place, 1) : vec4(glm::normalize(place), 0);
+        bool found = false;
+        for (int j = 0; j < 200 && !found; ++j) {
+            const vec3 share = 0.5f + 0.5f * vec3(side(random), side(random), side(random));
+            found = meets(glm::mix(receivers.low, receivers.high, share), light, caster);
+        }
+        const bool may = mayShade(light, caster, receivers);
+        EXPECT_TRUE(may || !found);
+        without += !may;
+        withoutWay += !found;
+    }
+    EXPECT_GT(without, 0.9 * withoutWay); // the others touch it at a corner
+}
+
+TEST(MayShade, NothingBesideOrBehindMay) {
+    const vec4 above(0, 4, 0, 1), up(0, 1, 0, 0);
+    const Bounds beside{vec3(3, -1, -1), vec3(4, 3, 1)}, below{vec3(-1, -3, -1), vec3(1, -2, 1)},
+        higher{vec3(-1, 5, -1), vec3(1, 6, 1)};
+    for (const vec4& light : {above, up}) {
+        EXPECT_TRUE(mayShade(light, kBox, kFloor));
+        EXPECT_FALSE(mayShade(light, beside, kBox));
+        EXPECT_FALSE(mayShade(light, below, kBox));
+        EXPECT_FALSE(mayShade(light, Bounds{}, kBox));
+        EXPECT_FALSE(mayShade(light, kBox, Bounds{}));
+    }
+    EXPECT_FALSE(mayShade(above, higher, kBox)); // behind the lamp
+    EXPECT_TRUE(mayShade(up, higher, kBox));
 }
 
 TEST(ShadowViews, WithoutCastersOrReceiversThereAreNone) {
