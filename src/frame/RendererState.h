@@ -174,6 +174,7 @@ struct Renderer::State {
     bool started = false, coarse = false;
     bool dragged = false;
     bool isNew = true;                     // nothing of this scene has been shown yet
+    bool runs = false;                     // time, since the picture before
     bool coarseMeshes = false;             // its objects have fewer triangles than they are
     std::vector<views::ObjectKey> objects; // of the scene as it is
     int taken = 0;                         // objects that are on the GPU: see takeObjects()

@@ -17,7 +17,7 @@ using views::hasEnvironment;
 
 constexpr int kFewestDirections = 6; // of the environment
 constexpr int kPreviewCells = 64;    // of meshes, along their longest side
-constexpr int kShadowTexels = 4;     // of a preview, for each pixel along its longer side
+constexpr int kShadowTexels = 2;     // of a preview, for each pixel along its longer side
 
 bool shareShapes(const std::vector<views::ObjectKey>& some, const std::vector<views::ObjectKey>& others) {
     return std::any_of(some.begin(), some.end(), [&](const views::ObjectKey& one) {
@@ -75,6 +75,7 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
     readings.clear();
     drop();
     auto copy = std::make_unique<scene::Scene>(asked);
+    runs = pictured && pictured->view.time != asked.view.time;
     // Of a picture with fewer pixels triangles would be smaller than these.
     const bool coarsens = effort == Effort::Coarse && newSize != screen;
     if (std::exchange(coarseMeshes, coarsens) != coarsens) taken = 0;
@@ -140,9 +141,9 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool p
     const bool limited = scene.quality.maxError > 0 && dragged; // not as exact as is asked for
     const bool isShown = effort == Effort::Coarse || effort == Effort::Progressive;
     const bool hasPreview = isLit && !isThere && isShown && (coarsens || limited);
-    // Nothing is kept for a first look: each direction takes a slow device a shadow map of all that casts
-    // one.
-    const int first = isNew && context.caps().software ? kFewestDirections : kFirstStage;
+    // Nothing is kept for a first look, nor of what moves: each direction takes a slow device a shadow map of
+    // all that casts one.
+    const int first = (isNew || runs) && context.caps().software ? kFewestDirections : kFirstStage;
     if (hasPreview && !previewed) stages.push_back({std::min(directions, first), false, true});
     coarse = dragged && hasPreview;
     if (coarse) return;

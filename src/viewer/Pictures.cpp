@@ -10,8 +10,11 @@ namespace {
 
 constexpr double kSlowPreview = 0.1,
                  kFastPreview = 0.025; // s: ten a second, and what a quarter of their pixels takes
-constexpr int kMostDownscale = 8, kLeastSide = 96; // pixels that a preview has along its shorter side
-constexpr double kLong = 1, kLongLeft = 2;         // s: that are past, and left, before time left is told
+constexpr int kMostDownscale = 8;
+// Pixels that a preview has along its shorter side: one that is reprojected between pictures, and one that is
+// not.
+constexpr int kLeastSide = 96, kLeastPlaying = 60;
+constexpr double kLong = 1, kLongLeft = 2; // s: that are past, and left, before time left is told
 
 } // namespace
 
@@ -35,7 +38,8 @@ void Viewer::State::begin() {
 }
 
 int Viewer::State::mostDownscale() const {
-    return std::clamp(std::min(picturePixels.x, picturePixels.y) / kLeastSide, 1, kMostDownscale);
+    const int least = play.playing ? kLeastPlaying : kLeastSide;
+    return std::clamp(std::min(picturePixels.x, picturePixels.y) / least, 1, kMostDownscale);
 }
 
 // Previews have fewer pixels until ten fit into a second.

@@ -28,10 +28,10 @@ BoundParam bindPlaying(PlaySettings& settings, bool shown) {
 
 // The next moment begins when the last one has been seen. It is no step to take back.
 void Viewer::State::tick(double now) {
-    const double passed = std::clamp(now - lastDraw, 0.0, kLongestStep);
+    const double passed = std::max(0.0, now - lastDraw);
     lastDraw = now;
     if (!scene || !play.playing) return;
-    due += passed;
+    due = std::min(due + passed, kLongestStep);
     if (stale || phase == Phase::Preview || due == 0) return;
     scene->view.time += float(due);
     due = 0;

@@ -471,6 +471,19 @@ TEST_F(Playing, AfterAPauseTimeGoesOnWhereItWas) {
     EXPECT_LT(number("view.time") - before, 0.5f);
 }
 
+TEST_F(Playing, APictureThatTakesLongIsSlowMotion) {
+    load(kGlassScene);
+    ASSERT_TRUE(viewer->set("playing", "true").ok());
+    float before = number("view.time"), longest = 0;
+    for (int i = 0; i < 40; ++i) {
+        viewer->draw(time += 0.2);
+        const float now = number("view.time");
+        longest = std::max(longest, now - std::exchange(before, now));
+    }
+    EXPECT_GT(longest, 0);
+    EXPECT_LE(longest, 0.25f + 1e-4f);
+}
+
 TEST_F(Playing, AMovingPictureIsComplete) {
     load(kGlassScene);
     ASSERT_TRUE(viewer->set("playing", "true").ok());
