@@ -532,14 +532,19 @@ export class LucentViewer extends HTMLElement {
 
   /** @return {boolean}  true while another frame is wanted */
   render(seconds) {
-    if (!this.#handle || !this.#size.width || this.#adopting) return false;
-    if (!this.#near && !this.#settled.length) return false;
+    if (!this.#draws) return false;
     const { width, height } = this.#size;
     const { more, drawn } = this.#runtime.draw(this.#handle, width, height, seconds);
     this.#sync();
     const shown = this.#takePicture(drawn);
     if (shown && this.#leaving === this.#task && !this.#settled.length) return false; // what comes is worth more
     return more && (this.#seen || !this.#complete || this.#capturing); // nothing plays where nobody sees it
+  }
+  work() {
+    return this.#draws && this.#runtime.work(this.#handle);
+  }
+  get #draws() {
+    return this.#handle && this.#size.width > 0 && !this.#adopting && (this.#near || this.#settled.length > 0);
   }
   contextLost() {
     this.#poster.hidden = false;

@@ -85,11 +85,16 @@ export class Runtime {
     return runtime;
   }
 
+  static #kBetween = 4; // ms from one look at work that waits for the GPU to the next,
+  static #kMostBetween = 100; // and after a frame until a page is hidden
+
   #kind;
   #wasm;
   #canvas;
   #gl;
   #frame = 0;
+  #ticked = 0; // ms: when the last frame ended
+  #timer = 0; // of the next look at work, before the next frame
   #lost = false;
   #ended = null; // why the module does nothing any more
   #wanting = new Set(); // viewers that want the next frame
@@ -180,7 +185,7 @@ export class Runtime {
   }
 
   /**
-   * @param viewer  has render(seconds), true while it wants another frame, contextLost(), contextRestored(message),
+   * @param viewer  has render(seconds), true while it wants another frame, work() as ours, contextLost(), contextRestored(message),
    *                and moduleEnded(error, handle): a LucentError, and of which viewer the call was, 0: of none
    */
   add(viewer) {
@@ -213,6 +218,11 @@ export class Runtime {
     return { more, drawn: this.call('viewer_draw_count', handle) !== before };
   }
 
+  /** Works on a viewer's picture between its frames. @return {boolean}  whether more is of use before the next one */
+  work(handle) {
+    return !this.#lost && this.call('viewer_work', handle) === 1;
+  }
+
   /** The picture that was just drawn, on a canvas of its own. */
   copyPicture() {
     const { width, height } = this.#canvas;
@@ -238,17 +248,35 @@ export class Runtime {
       this.#frame = requestAnimationFrame((now) => this.#tick(now));
   }
 
+  // Calls `turn` for each viewer that wants a frame. @return {boolean}  false when the module has ended: all know
+  #forEachWanting(turn) {
+    try {
+      for (const viewer of [...this.#wanting]) turn(viewer);
+    } catch (error) {
+      if (error !== this.#ended) throw error;
+      return false;
+    }
+    return true;
+  }
+
   #tick(now) {
     this.#frame = 0;
-    for (const viewer of [...this.#wanting]) {
-      try {
-        if (!viewer.render(now / 1000)) this.#wanting.delete(viewer);
-      } catch (error) {
-        if (error !== this.#ended) throw error;
-        return; // all viewers know
-      }
-    }
+    const draw = (viewer) => viewer.render(now / 1000) || this.#wanting.delete(viewer);
+    if (!this.#forEachWanting(draw)) return;
     this.#schedule();
+    this.#ticked = performance.now();
+    this.#lookLater();
+  }
+
+  // A picture takes many waits for the GPU, which seldom end with a frame.
+  #lookLater() {
+    clearTimeout(this.#timer);
+    if (!this.#frame || performance.now() - this.#ticked > Runtime.#kMostBetween) return;
+    this.#timer = setTimeout(() => {
+      let works = false;
+      const work = (viewer) => (works = viewer.work() || works);
+      if (this.#forEachWanting(work) && works) this.#lookLater();
+    }, Runtime.#kBetween);
   }
 
   // Memory that ran out, or a mistake of ours: what the module holds is not to be trusted any more. The next one who asks
@@ -268,6 +296,7 @@ export class Runtime {
     this.#lost = true;
     Runtime.#shared[this.#kind] = undefined;
     cancelAnimationFrame(this.#frame);
+    clearTimeout(this.#timer);
     this.#gl.getExtension('WEBGL_lose_context')?.loseContext(); // browsers keep few contexts
   }
 

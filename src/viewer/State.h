@@ -87,6 +87,7 @@ struct Viewer::State {
     bool stopping = false;                          // no more work on this picture
     std::optional<DrawingProgress> drawingProgress; // of work that takes long
     bool stale = false, shown = false;              // the scene changed since; there is a picture to present
+    bool unseen = false;                            // work() has left a new picture
     std::vector<Figure> figures;
     std::uint64_t figuresAt = 0; // revision whose they are
     bool figuresPend = false;    // some are still to come

@@ -158,7 +158,7 @@ bool Viewer::draw(double nowSeconds) {
     if (!s.pictureNext) settle(); // the panel decides the picture's size
     s.pictureNext = !s.pictureNext && secondsNow() - begin > kPanelSeconds;
     if (s.pictureNext) return true;
-    const bool isNew = s.advance();
+    const bool isNew = std::exchange(s.unseen, false) || s.advance();
     s.drawSides();
     s.measureEnergy();
     if (secondsNow() - begin < kPanelSeconds) settle();
@@ -175,6 +175,14 @@ bool Viewer::draw(double nowSeconds) {
         if (isNew || (moves && s.renderer->isReprojected())) ++s.pictureCount;
     }
     return s.working() || !s.settled || wait > 0 || s.play.playing;
+}
+
+bool Viewer::work() {
+    State& s = *state_;
+    if (s.unseen || !s.settled || !s.working()) return false;
+    ImGui::SetCurrentContext(s.imgui);
+    s.unseen = s.advance();
+    return !s.unseen && s.working();
 }
 
 bool Viewer::stop() {

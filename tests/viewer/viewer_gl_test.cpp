@@ -24,6 +24,23 @@ TEST_F(Picture, AnIdleViewerDrawsNothing) {
     EXPECT_EQ(viewer->drawCount(), drawn);
 }
 
+TEST_F(Picture, WorkBetweenFramesIsShownByTheNext) {
+    load(kGlassScene);
+    ASSERT_TRUE(viewer->set("camera.height", "2.2").ok());
+    viewer->draw(time += 0.02); // it begins
+    const int drawn = viewer->drawCount();
+    const Image seen = window->read();
+    const Deadline deadline;
+    while (viewer->work())
+        ASSERT_FALSE(deadline.passed());
+    EXPECT_EQ(viewer->drawCount(), drawn);
+    EXPECT_EQ(differences(seen, window->read()), 0);
+    EXPECT_FALSE(viewer->work()) << "what is not shown yet would be drawn over";
+    viewer->draw(time += 0.02);
+    EXPECT_EQ(viewer->drawCount(), drawn + 1);
+    EXPECT_GT(differences(seen, window->read()), 0);
+}
+
 TEST_F(Picture, SamplesOfThePixelsFollowTheCompletePictureWhileItIsStill) {
     load(kLampScene);
     ASSERT_TRUE(viewer->set("camera.height", "2.1").ok()); // the outline lies inside of pixels
