@@ -52,6 +52,9 @@ void Renderer::State::startChoosing(const scene::Scene& scene) {
 
 // Chooses for one slice of time, and goes on with the settings when they are known.
 Status Renderer::State::plan(const scene::Scene& scene) {
+    const Result<bool> areThere = takeObjects(scene); // a budget's pictures would take them all at once
+    if (!areThere) return areThere.error();
+    if (!*areThere) return Done{};
     const double before = nowMs();
     for (bool waits = false; !budget.done() && !waits && nowMs() - before < kSliceMs; waits = budget.waits())
         if (Status stepped = budget.step(scene); !stepped) return stepped;
@@ -261,8 +264,7 @@ Result<bool> Renderer::State::ready(const Moment& moment) {
 // Whether what was made ready by now took so long that whoever looks on is answered first; once for each
 // place where it may rest, or what takes that long each time would never end.
 bool Renderer::State::rests(int place, double since) {
-    const double longest = dragged ? 1.5 * kSliceMs : kSliceMs; // a preview hurries
-    if (atOnce || place < rested || nowMs() - since < longest) return false;
+    if (atOnce || place < rested || nowMs() - since < 0.5 * kSliceMs) return false;
     rested = place + 1;
     return true;
 }
