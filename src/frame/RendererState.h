@@ -241,7 +241,11 @@ struct Renderer::State {
     Status settle(const scene::Scene& scene);
     Status takeSample(const scene::Scene& scene);
     scene::Scene chosen(const scene::Scene& scene) const;
-    bool isCoarse() const { return coarse || dragged || (stage < stages.size() && stages[stage].coarse); }
+    // Whether what is drawn is no part of the picture. A preview of all its pixels at its own settings is.
+    bool isCoarse() const {
+        const bool isSmall = dragged && (!own || size != screen);
+        return coarse || isSmall || (stage < stages.size() && stages[stage].coarse);
+    }
     technique::Guest* baker(const scene::Scene& scene) const;
     float work(const Stage& of) const;
     float shareOfStage(const scene::Scene& scene) const;

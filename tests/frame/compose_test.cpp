@@ -202,6 +202,22 @@ TEST_F(Composed, APreviewAsksNothingOfTheGpu) {
     context->device().delayQueries(0);
 }
 
+// Where no knob is turned down, work goes on from it: its shadows must be the picture's.
+TEST_F(Composed, APreviewOfAllPixelsIsThePicture) {
+    scene.environment.reset();
+    scene.size = {256, 192}; // shadows show their texels
+    addBall();
+    scene.objects[0].material.kind = scene::Matt{};
+    addFloor();
+    views::samplingOf(scene).shadowSize = 256;
+    Renderer previewed(*context), once(*context);
+    complete(previewed, scene, 1, true);
+    complete(previewed, scene, 1);
+    const Result<Image> looked = previewed.readDisplay(scene);
+    ASSERT_TRUE(looked.ok() && once.finish(scene, 1, scene.size).ok());
+    EXPECT_EQ(looked->pixels, once.readDisplay(scene)->pixels);
+}
+
 TEST_F(Composed, TrianglesAreMadeAnewOnlyWhereSomethingMoved) {
     addBall();
     Renderer renderer(*context);
