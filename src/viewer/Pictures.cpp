@@ -13,7 +13,7 @@ constexpr double kSlowPreview = 0.1,
 constexpr int kMostDownscale = 8;
 // Pixels that a preview has along its shorter side: one that is reprojected between pictures, and one that is
 // not.
-constexpr int kLeastSide = 96, kLeastPlaying = 60;
+constexpr int kLeastSide = 96, kLeastAlone = 60;
 constexpr double kLong = 1, kLongLeft = 2; // s: that are past, and left, before time left is told
 
 } // namespace
@@ -38,7 +38,7 @@ void Viewer::State::begin() {
 }
 
 int Viewer::State::mostDownscale() const {
-    const int least = play.playing ? kLeastPlaying : kLeastSide;
+    const int least = movedCamera() ? kLeastSide : kLeastAlone;
     return std::clamp(std::min(picturePixels.x, picturePixels.y) / least, 1, kMostDownscale);
 }
 
