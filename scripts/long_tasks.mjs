@@ -1,8 +1,8 @@
 /**
  * How long the page does not answer: for each scene of the gallery when its first preview and its finished picture are
  * there, the longest tasks (ms) while it loads and while its light or camera is dragged for four seconds, and how many
- * pictures a second are drawn and shown then: those that are reprojected are shown, not drawn. First what the machine itself needs: the tasks of a page with an empty viewer. In
- * Chromium, as the tests run it.
+ * pictures a second are drawn and shown then: those that are reprojected are shown, not drawn. First what the machine
+ * itself needs: the tasks of a page with an empty viewer. In Chromium, as the tests run it.
  *
  *   node scripts/long_tasks.mjs [--site build/web/site] [--driver swiftshader|llvmpipe] [--size 640x480] [SCENE...]
  */

@@ -30,7 +30,7 @@ public:
     /// the page. A request costs nothing: compile() begins with it, or its first draw, which tells what is
     /// wrong with it.
     const Program* program(const std::string& stem, const std::vector<std::string>& defines = {});
-    /// Begins to compile what was asked for, for so long, one program at least: they are compiled beside each
+    /// Begins to compile what was asked for until so much time has passed: they are compiled beside each
     /// other.
     ///
     /// @return whether no draw has to wait for a program; where the driver does not tell: whether all have

@@ -68,6 +68,13 @@ std::vector<std::uint32_t> trianglesBetween(const std::vector<std::uint32_t>& in
 // Whether something else goes by its vertices.
 bool needsVertices(const Object& object) { return object.displacement || object.painting || object.bake; }
 
+// Whether its mesh is made in as many cells as are wanted.
+bool isInCells(const Object& object) {
+    const bool isFlat =
+        std::holds_alternative<Plane>(object.shape) || std::holds_alternative<Box>(object.shape);
+    return !isPrecomputed(object) && (!isFlat || object.wave.amplitude != vec3(0));
+}
+
 bool isCoarsened(const MeshShape& file) {
     const Mesh& mesh = *file.mesh;
     return !file.flatNormals && mesh.indices.size() > 3 * kManyTriangles && mesh.coordinates.empty() &&
@@ -139,7 +146,7 @@ void coarsen(Scene& scene, int cells) {
         auto* file = std::get_if<MeshShape>(&object.shape);
         auto* body = std::get_if<HeightField>(&object.shape);
         if (!file && !body)
-            object.mostCells = cells;
+            object.mostCells = isInCells(object) ? cells : 0;
         else if (object.material.isScattering())
             continue;
         else if (body)

@@ -179,7 +179,7 @@ bool Viewer::draw(double nowSeconds) {
 
 bool Viewer::work() {
     State& s = *state_;
-    if (s.unseen || !s.settled || !s.working()) return false;
+    if (s.pixels.x <= 0 || s.pixels.y <= 0 || s.unseen || !s.settled || !s.working()) return false;
     ImGui::SetCurrentContext(s.imgui);
     s.unseen = s.advance();
     return !s.unseen && s.working();
