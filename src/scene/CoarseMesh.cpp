@@ -68,11 +68,13 @@ std::vector<std::uint32_t> trianglesBetween(const std::vector<std::uint32_t>& in
 // Whether something else goes by its vertices.
 bool needsVertices(const Object& object) { return object.displacement || object.painting || object.bake; }
 
-// Whether its mesh is made in as many cells as are wanted.
-bool isInCells(const Object& object) {
+// Whether its mesh, which is made of its shape, has more cells than that.
+bool hasMoreCells(const Object& object, int cells) {
+    if (isPrecomputed(object)) return false; // light goes by its vertices
+    if (const auto* water = std::get_if<Water>(&object.shape)) return water->cells > cells;
     const bool isFlat =
         std::holds_alternative<Plane>(object.shape) || std::holds_alternative<Box>(object.shape);
-    return !isPrecomputed(object) && (!isFlat || object.wave.amplitude != vec3(0));
+    return !isFlat || object.wave.amplitude != vec3(0);
 }
 
 bool isCoarsened(const MeshShape& file) {
@@ -81,8 +83,8 @@ bool isCoarsened(const MeshShape& file) {
            mesh.colors.empty() && mesh.rig.nodes.empty();
 }
 
-// Every so manieth height, of which there are still twice as many as cells along the longest side.
-Image fewerHeights(const Image& heights, int cells) {
+// Every n-th height, so that there are still twice as many as cells along the longest side. @return n
+int strideOf(const Image& heights, int cells) {
     int stride = 1;
     const auto leaves = [&](int every) {
         return heights.width % every == 0 && heights.height % every == 0 &&
@@ -90,6 +92,11 @@ Image fewerHeights(const Image& heights, int cells) {
     };
     while (leaves(2 * stride))
         stride *= 2;
+    return stride;
+}
+
+Image fewerHeights(const Image& heights, int cells) {
+    const int stride = strideOf(heights, cells);
     Image fewer(heights.width / stride, heights.height / stride, 1);
     for (int y = 0; y < fewer.height; ++y)
         for (int x = 0; x < fewer.width; ++x)
@@ -146,12 +153,12 @@ void coarsen(Scene& scene, int cells) {
         auto* file = std::get_if<MeshShape>(&object.shape);
         auto* body = std::get_if<HeightField>(&object.shape);
         if (!file && !body)
-            object.mostCells = isInCells(object) ? cells : 0;
+            object.mostCells = hasMoreCells(object, cells) ? cells : 0;
         else if (object.material.isScattering())
             continue;
-        else if (body)
+        else if (body && strideOf(*body->heights, cells) > 1)
             body->heights = coarseOf(object, body->heights, cells, fewerHeights);
-        else if (isCoarsened(*file))
+        else if (file && isCoarsened(*file))
             file->mesh = coarseOf(object, file->mesh, cells, coarseMesh);
     }
 }

@@ -193,6 +193,12 @@ TEST(CoarseMesh, ShapesHaveFewerTriangles) {
     EXPECT_LT(roughBody->indices.size(), body->indices.size() / 3);
     EXPECT_NEAR(areaOf(*roughBody) / areaOf(*body), 1, 0.02);
     EXPECT_EQ(flat, asFlat) << "it is made once";
+    const auto [pond, asPond] = meshes(Water{.cells = 32}, leave);
+    EXPECT_EQ(pond, asPond);
+    auto low = std::make_shared<Image>(64, 64, 1);
+    field.heights = low;
+    const auto [tile, asTile] = meshes(field, [](Object& one) { one.material.kind = Clear{}; });
+    EXPECT_EQ(tile, asTile);
     const auto [baked, asBaked] = meshes(Sphere{}, [](Object& one) { // whose light goes by its vertices
         Translucent inside;
         inside.precomputed = true;
