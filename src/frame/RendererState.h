@@ -273,6 +273,7 @@ struct Renderer::State {
     scene::Scene sceneFor(const Moment& moment, const Aside& aside) const;
     Status keepAside(const scene::Scene& scene, const Aside& aside);
     SceneKey sceneKey(const scene::Scene& scene) const;
+    SceneKey sceneryKey(const scene::Scene& scene) const; // whatever it is drawn with
     std::vector<std::string> aroundLines() const;
 
     // Phases.cpp

@@ -92,7 +92,7 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
     revision = newRevision;
     size = newSize;
     if (!own) screen = size;
-    if (SceneKey key = sceneKey(scene); sceneryFor != key) {
+    if (SceneKey key = sceneryKey(scene); sceneryFor != key) {
         sceneryFor = std::move(key);
         ++scenery;
     }

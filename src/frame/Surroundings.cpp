@@ -80,6 +80,13 @@ bool showsAnything(const scene::Scene& scene) {
 
 } // namespace
 
+Renderer::State::SceneKey Renderer::State::sceneryKey(const scene::Scene& scene) const {
+    scene::Scene bare = scene;
+    bare.technique.clear();
+    bare.quality = {};
+    return sceneKey(bare);
+}
+
 Renderer::State::SceneKey Renderer::State::sceneKey(const scene::Scene& scene) const {
     scene::Scene still = scene;
     still.camera = {};

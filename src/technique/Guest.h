@@ -35,7 +35,7 @@ struct Picture {
     views::Readings& readings;         ///< for Guest::prepare()
     graph::TextureHandle environment;  ///< lat-long map; None without one, or where it is switched off
     const views::Surroundings* surroundings = nullptr; ///< what Guest::lookAround() asked for; null: nothing
-    std::uint64_t scenery = 0; ///< another number where anything is as it was not but the camera
+    std::uint64_t scenery = 0; ///< another number where anything but the camera and settings is as it was not
     bool allAround = false;    ///< what is fitted to what the camera sees is fitted to all: pictures in other
                                ///< directions follow
     bool isPreview = false;    ///< its knobs are turned down, and a whole picture follows

@@ -553,6 +553,21 @@ TEST_F(Composed, ACausticKeepsTheWantedErrorWithNoMoreRaysThanItNeeds) {
     }
 }
 
+TEST_F(Composed, CausticMapsOfTheEnvironmentStayWhileOnlyOtherSettingsChange) {
+    addFloor();
+    addBall();
+    static_cast<caustics::Settings*>(scene.technique.at("caustics").data())->directions = 32;
+    views::samplingOf(scene).directions = 8;
+    Renderer renderer(*context);
+    ASSERT_TRUE(renderer.finish(scene, 1, scene.size).ok());
+    const int draws = renderer.stats().draws;
+    views::samplingOf(scene).directions = 9;
+    ASSERT_TRUE(renderer.finish(scene, 2, scene.size).ok());
+    EXPECT_LT(renderer.stats().draws, draws / 2);
+    const Image kept = *renderer.read(scene, scene::Aov::Color);
+    EXPECT_EQ(kept.pixels, picture().pixels);
+}
+
 TEST_F(Composed, AnErrorChoosesNoMoreLayersThanChangeThePicture) {
     addBall();
     scene.quality.maxError = 0.01f;
