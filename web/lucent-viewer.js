@@ -376,8 +376,8 @@ export class LucentViewer extends HTMLElement {
 
   /**
    * Milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its pixels), shown (there
-   * is a picture), downscale (pixels that one which was drawn stands for, along a side), progress (share and secondsLeft,
-   * of work that takes long), bake (technique, object and work: what is precomputed before the picture has it), pictures
+   * is a picture), downscale (pixels that one which was drawn stands for, along a side), progress (of work
+   * that takes long: task, share of it and, where known, secondsLeft), bake (technique, object and work: what is precomputed before the picture has it), pictures
    * (shown so far, drawn or reprojected), reprojected (what is shown is the last picture, seen by a camera that has moved
    * since), frames, modes that the scene has something for, where the panel's controls lie, and notDrawn: lines that say what the scene
    * asks for, the picture lacks, and why; while the caustic map is shown, energy: W of each colour that met glass and

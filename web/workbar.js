@@ -20,12 +20,17 @@ export class WorkBar {
     this.element.append(this.#text, this.#bar, button);
   }
 
-  /** @param progress  share [0,1] and secondsLeft; undefined: nothing takes long */
+  /**
+   * @param progress  share [0,1]; secondsLeft, where that is known; task, what is going on if that changes;
+   *                  undefined: nothing takes long
+   */
   show(progress) {
     this.element.hidden = !progress;
     if (!progress) return;
-    this.#bar.value = progress.share;
-    const text = `${this.#verb}: ${Math.ceil(progress.secondsLeft)} s left`;
+    const { share, secondsLeft, task = this.#verb } = progress;
+    this.#bar.value = share;
+    this.#bar.ariaLabel = task;
+    const text = secondsLeft === undefined ? task : `${task}: ${Math.ceil(secondsLeft)} s left`;
     if (this.#text.textContent !== text) this.#text.textContent = text;
   }
 }

@@ -201,6 +201,15 @@ float Budget::predicted() const {
     return std::sqrt(squares);
 }
 
+// Of each knob the first half is drawing what its values are held against, which takes longest.
+float Budget::share() const {
+    if (done()) return 1;
+    const float error = turned_[next_].error;
+    const float ofKnob =
+        std::isfinite(error) ? 0.5f + 0.5f * std::min(1.0f, wanted() / error) : 0.5f * shareOfTrial_;
+    return (float(next_) + ofKnob) / float(turned_.size());
+}
+
 // Of the next knob: an even share of what those before it leave.
 float Budget::wanted() const {
     const float all = maxError_ * maxError_, left = all - predicted() * predicted();
@@ -266,6 +275,7 @@ Result<bool> Budget::draw(const scene::Scene& scene, const Turned& turned, Trial
     const Result<Progress> progress =
         renderer_->advance(tried, trials_, size_, of_.atOnce ? Effort::Final : Effort::Unseen);
     if (!progress) return progress.error();
+    shareOfTrial_ = progress->complete ? 0 : progress->share;
     if (!progress->complete) return false;
     isDrawing_ = false;
     Result<Image> image = renderer_->display(tried, true);

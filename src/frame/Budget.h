@@ -48,6 +48,8 @@ public:
     /// The scene keeps no error: nothing is chosen any more.
     void forget();
     bool done() const { return next_ >= turned_.size(); }
+    /// How much of the choice is made, about, [0,1].
+    float share() const;
     /// Draws some of a trial.
     Status step(const scene::Scene& scene);
     /// Whether the GPU is still drawing what it was given of a trial: step() can do nothing now.
@@ -116,6 +118,7 @@ private:
     std::unique_ptr<Renderer::State> renderer_;
     std::uint64_t trials_ = 0;
     bool isDrawing_ = false;
+    float shareOfTrial_ = 0;
     std::map<Trial, Image> drawn_;
     ivec2 size_{0};                                   ///< of trials
     std::optional<std::vector<std::size_t>> covered_; ///< pixels that show an object

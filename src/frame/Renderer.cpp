@@ -8,6 +8,12 @@ using graph::Format;
 using graph::TextureDesc;
 using scene::Aov;
 
+std::string_view nameOf(Task task) {
+    constexpr std::string_view kNames[] = {"Choosing settings", "Drawing reflection probes", "Drawing",
+                                           "Antialiasing"};
+    return kNames[std::size_t(task)];
+}
+
 Renderer::Renderer(gl::Context& context) : state_(std::make_unique<State>(context)) {}
 Renderer::~Renderer() = default;
 

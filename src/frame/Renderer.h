@@ -20,13 +20,20 @@ namespace lucent::frame {
 
 class Budget;
 
-/// How far the picture is: many lights are summed over several slices of work, then the samples of the pixels
-/// one after the other.
+/// What is done for a picture: its settings are chosen, what rays meet that leave it is drawn, then the first
+/// of each pixel's samples, whose lights are summed over several slices of work, then the others. Few lights
+/// are summed before what rays meet is drawn.
+enum class Task { Settings, Surroundings, Picture, Samples };
+/// "Choosing settings"
+std::string_view nameOf(Task task);
+
+/// How far the picture is.
 struct Progress {
     bool complete = false;
-    int samples = 0;    ///< of the pixels, whose mean is shown; 0: no more than a preview
-    int stage = 0;      ///< grows whenever what is shown becomes better
-    float fraction = 0; ///< of the light that the picture will have, [0,1]
+    int samples = 0; ///< of the pixels, whose mean is shown; 0: no more than a preview
+    int stage = 0;   ///< grows whenever what is shown becomes better
+    Task task = Task::Settings;
+    float share = 0; ///< of the task's work that is done, about, [0,1]
 };
 
 /// What the last complete picture cost.

@@ -149,6 +149,8 @@ struct Renderer::State {
     graph::Texture aroundRadiance, aroundSolid, flatPictures;
     std::vector<int> facesShown;      // of each cube: as in views::Surroundings::faces, when all are drawn
     std::vector<Aside> asides;        // to be drawn before the stage's picture
+    std::size_t asidesAsked = 0;      // how many they were,
+    float asideShare = 0;             // and how much of the last one is drawn
     bool surveyed = false;            // they are known
     std::optional<SceneKey> cubesFor; // what the cubes were drawn for
     std::optional<std::pair<SceneKey, mat4>> flatFor;
@@ -203,6 +205,9 @@ struct Renderer::State {
     int next = 0;                         // light
     technique::Guest* carrier = nullptr;  // that carried light in this sum
     double recordMs = 1;                  // that it took to record what is drawn for one of them
+    double sliceMs = 0;                   // that the sum took
+    float restWorth = 1;                  // in light samples: what the rest took in the stage before
+    Progress told;                        // last
     double workMs = 0, planMs = 0;
     int drawsBefore = 0, passes = 0;
     Stats stats;
@@ -249,6 +254,7 @@ struct Renderer::State {
     technique::Guest* baker(const scene::Scene& scene) const;
     float work(const Stage& of) const;
     float shareOfStage(const scene::Scene& scene) const;
+    Progress progressOf(const scene::Scene& scene, Effort effort) const;
     bool complete() const { return started && !planning && stage >= stages.size(); }
     // A preview is not drawn again: the picture after it is.
     bool settled(Effort effort) const;

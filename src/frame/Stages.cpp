@@ -104,6 +104,7 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
     objects = std::move(standing);
     makeTargets();
     sample = samples = 0;
+    told = {};
     whole = false;
     surfaceDrawn = surfaceShown = shownKey == surfaceKeyOf(scene); // light alone may have changed
     stage = 0;
@@ -169,17 +170,52 @@ void Renderer::State::addSamples(const scene::Scene& scene) {
     }
 }
 
-// How long a stage takes, in directions; one for what is not summed.
+// How long a stage takes, in directions.
 float Renderer::State::work(const Stage& of) const {
-    return float(of.baked ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions) + 1;
+    return float(of.baked ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions) + restWorth;
 }
 
 float Renderer::State::shareOfStage(const scene::Scene& scene) const {
     if (stages[stage].baked)
         if (const Guest* guest = baker(chosen(scene))) return guest->bakedShare();
+    if (!hasLights) return 0;
     float done = float(next);
-    if (running) done += running->graph.share() * float(std::max(1, running->end - next));
-    return done / float(lights.size() + 1);
+    if (running && running->work == Running::Work::Slice)
+        done += running->graph.share() * float(std::max(1, running->end - next));
+    else if (running)
+        done += running->graph.share() * restWorth;
+    return done / (float(lights.size()) + restWorth);
+}
+
+Progress Renderer::State::progressOf(const scene::Scene& scene, Effort effort) const {
+    Progress progress{.complete = complete() && !running && settled(effort),
+                      .samples = samples,
+                      .stage = int(stage),
+                      .task = samples > 0 ? Task::Samples : Task::Picture,
+                      .share = 1};
+    if (progress.complete) return progress;
+    const bool hasPlanned = told.task == Task::Settings && told.share > 0;
+    if (planning || (hasPlanned && !surveyed)) { // what follows is not known yet
+        progress.task = Task::Settings;
+        progress.share = budget.share();
+        return progress;
+    }
+    if (samples == 0 && !asides.empty()) {
+        progress.task = Task::Surroundings;
+        progress.share = (float(asidesAsked - asides.size()) + asideShare) / float(asidesAsked);
+        return progress;
+    }
+    float total = 0, done = 0;
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        if ((stages[i].sample > 0) != (samples > 0)) continue;
+        total += work(stages[i]);
+        if (i < stage)
+            done += work(stages[i]);
+        else if (i == stage)
+            done += work(stages[i]) * shareOfStage(scene);
+    }
+    if (total > 0) progress.share = done / total;
+    return progress;
 }
 
 // Whether each sample of a pixel has its own light samples: unless a guest works with those of the first.
@@ -199,6 +235,7 @@ int Renderer::State::directionsOfSample(const scene::Scene& scene) const {
 
 void Renderer::State::startStage() {
     next = 0;
+    sliceMs = 0;
     surveyed = hasLights = false;
 }
 
@@ -350,10 +387,14 @@ Status Renderer::State::follow() {
     passes += done->graph.livePasses();
     workMs += done->ms;
     if (std::string error = context.takeError(); !error.empty()) return Error{error, Fault::Machine};
-    if (done->work == Running::Work::Rest) return finishStage(done->moment);
+    if (done->work == Running::Work::Rest) {
+        restWorth = float(done->ms * double(lights.size()) / std::max(sliceMs, 1.0));
+        return finishStage(done->moment);
+    }
     if (done->work == Running::Work::Again) presentable = true;
     if (done->work != Running::Work::Slice) return Done{};
     surfaceDrawn = true;
+    sliceMs += done->ms;
     if (next > 0) std::swap(sum, scratch);
     next = done->end;
     return next < int(lights.size()) ? Status(Done{}) : showSum(std::move(done->moment));
@@ -481,20 +522,9 @@ Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64
             return status.error();
         }
     }
-    Progress progress;
-    progress.complete = complete() && !running && settled(effort);
-    progress.samples = samples;
-    progress.stage = int(stage);
-    float total = planning ? float(views::samplingOf(scene).directions) : 0, done = 0;
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-        total += work(stages[i]);
-        if (i < stage)
-            done += work(stages[i]);
-        else if (i == stage)
-            done += work(stages[i]) * shareOfStage(scene);
-    }
-    progress.fraction = progress.complete ? 1 : done / total;
-    return progress;
+    Progress progress = progressOf(scene, effort);
+    if (progress.task == told.task) progress.share = std::max(progress.share, told.share); // estimates vary
+    return told = progress;
 }
 
 } // namespace lucent::frame

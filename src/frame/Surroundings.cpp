@@ -127,6 +127,8 @@ Status Renderer::State::survey(const Moment& moment) {
     beyondFlat.flat.clear();
     beyondFlat.further = 0; // a flat mirror was the first
     if (surroundings.cubes.empty() && surroundings.flat.empty()) elsewhere.reset();
+    asidesAsked = asides.size();
+    asideShare = 0;
     if (asides.empty()) return Done{};
     if (!elsewhere) elsewhere = std::make_unique<State>(context, &supplies);
     return Done{};
@@ -263,6 +265,7 @@ Result<bool> Renderer::State::lookAround(const Moment& moment) {
     const Effort effort = isCoarse() ? Effort::Coarse : atOnce ? Effort::Final : Effort::Unseen;
     Result<Progress> progress =
         elsewhere->advance(*asideScene, asideRevision, isFlat ? size : aroundRadiance.desc().size, effort);
+    asideShare = progress && !progress->complete ? progress->share : 0;
     if (progress && progress->complete) {
         if (Status kept = keepAside(*asideScene, aside); !kept) progress = kept.error();
         asideScene.reset();

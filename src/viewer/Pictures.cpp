@@ -53,13 +53,18 @@ void Viewer::State::learnDownscale(double took) {
     if (downscale != before) settled = false; // it is told
 }
 
-// How long the rest of the picture will take, going by what there is.
-void Viewer::State::estimate(float share) {
+// How long what is done now will take, going by what it has taken.
+void Viewer::State::estimate(const frame::Progress& progress) {
+    constexpr float kLeastShare = 0.01f; // less foretells nothing
     drawingProgress.reset();
-    const double past = secondsNow() - phaseBegan;
-    if (past < kLong || share <= 0 || play.playing) return;
-    const double left = past * (1 - share) / share;
-    if (left + past > kLongLeft) drawingProgress = {share, left};
+    const double now = secondsNow(), past = now - phaseBegan;
+    if (work.task != progress.task || progress.share < work.share || work.began < phaseBegan)
+        work = {progress.task, now, progress.share};
+    if (past < kLong || progress.complete || play.playing) return;
+    const float done = progress.share - work.share;
+    std::optional<double> left;
+    if (done > kLeastShare) left = (now - work.began) * (1 - progress.share) / done;
+    if (past + left.value_or(0) > kLongLeft) drawingProgress = {nameOf(progress.task), progress.share, left};
 }
 
 // Works on the picture. A preview is always finished before the next begins, so that a slow machine shows
@@ -87,7 +92,7 @@ bool Viewer::State::advance() {
         settled = false;
         return false;
     }
-    if (!isPreview) estimate(progress->fraction);
+    if (!isPreview) estimate(*progress);
     const bool better = phase != Phase::Smooth || progress->samples > samples;
     samples = progress->samples;
     if (!progress->complete && (isPreview || !better)) return false;

@@ -103,8 +103,10 @@ std::string statsJson(const StatsInput& input) {
     json.key("canUndo").value(input.canUndo).key("canRedo").value(input.canRedo);
     json.key("downscale").value(input.downscale);
     if (input.progress) {
-        json.key("progress").beginObject().key("share").value(input.progress->share);
-        json.key("secondsLeft").value(input.progress->secondsLeft).end();
+        json.key("progress").beginObject().key("task").value(input.progress->task);
+        json.key("share").value(input.progress->share);
+        if (input.progress->secondsLeft) json.key("secondsLeft").value(*input.progress->secondsLeft);
+        json.end();
     }
     if (!input.bakeWork.empty()) {
         json.key("bake").beginObject().key("technique").value(input.bakeTechnique);

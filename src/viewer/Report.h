@@ -21,8 +21,9 @@ std::string changesJson(std::span<const Control> controls, const void* leftOut);
 
 /// Work that takes long.
 struct DrawingProgress {
-    float share = 0; ///< that is done, [0,1]
-    double secondsLeft = 0;
+    std::string_view task;             ///< what is done now, for people
+    float share = 0;                   ///< of it that is done, [0,1]
+    std::optional<double> secondsLeft; ///< none: nobody knows yet
 };
 
 struct StatsInput {

@@ -80,10 +80,16 @@ struct Viewer::State {
     std::uint64_t paintedRevision = 0;                  // of the camera that it is shown for
     ivec2 picturePixels{0};
     Phase phase = Phase::Done;
-    int samples = 0;                                // of each pixel of what is shown
-    int stage = 0;                                  // frame::Progress::stage of what is shown
-    int downscale = 1;                              // of previews, see frame::Renderer::advance()
-    double phaseBegan = 0;                          // s: of a preview, and then of what follows it
+    int samples = 0;       // of each pixel of what is shown
+    int stage = 0;         // frame::Progress::stage of what is shown
+    int downscale = 1;     // of previews, see frame::Renderer::advance()
+    double phaseBegan = 0; // s: of a preview, and then of what follows it
+    // What is done on the picture now: since when [s], and how much of it was done then.
+    struct {
+        frame::Task task = frame::Task::Settings;
+        double began = 0;
+        float share = 0;
+    } work;
     bool stopping = false;                          // no more work on this picture
     std::optional<DrawingProgress> drawingProgress; // of work that takes long
     bool stale = false, shown = false;              // the scene changed since; there is a picture to present
@@ -297,7 +303,7 @@ struct Viewer::State {
     void begin();
     int mostDownscale() const;
     void learnDownscale(double took);
-    void estimate(float share);
+    void estimate(const frame::Progress& progress);
     std::optional<scene::Camera> movedCamera() const;
     Status paint();
     // While time runs, a picture is as good as the next moment lets it be.

@@ -116,13 +116,13 @@ public:
     /// JSON: milliseconds, passes, draws, lights, bytes, complete, finished (complete, by all samples of its
     /// pixels), shown (there is a picture), canUndo, canRedo, open (CSS pixels
     /// from the upper left that neither panel nor numbers cover), downscale (pixels that one which was drawn
-    /// stands for, along a side), progress (share, secondsLeft: of work that takes long), bake (technique,
-    /// object, work: what setBakesElsewhere() leaves to others), pictures (shown so far, drawn or
-    /// reprojected), reprojected (what is shown is the last picture, seen by a camera that has moved since),
-    /// frames, revision; notDrawn: lines that say what the scene asks for, the picture lacks, and why; light:
-    /// [x, y] of the chosen one's dot or arrow; lamps: place and outside (an arrow at the border stands for
-    /// it) of all; panel: path -> [x, y, width, height] of each control's widget that can be seen in full.
-    /// CSS pixels.
+    /// stands for, along a side), progress (of work that takes long: task, share of that, secondsLeft where
+    /// it is known), bake (technique, object, work: what setBakesElsewhere() leaves to others), pictures
+    /// (shown so far, drawn or reprojected), reprojected (what is shown is the last picture, seen by a camera
+    /// that has moved since), frames, revision; notDrawn: lines that say what the scene asks for, the picture
+    /// lacks, and why; light: [x, y] of the chosen one's dot or arrow; lamps: place and outside (an arrow at
+    /// the border stands for it) of all; panel: path -> [x, y, width, height] of each control's widget that
+    /// can be seen in full. CSS pixels.
     std::string stats() const;
     /// JSON array: of each object that has subsurface scattering owner, profile; reach [mm] and whole (the
     /// share that leaves again) of red, green and blue; distances [mm] and values [1/mm²] of R_d; text, the

@@ -81,6 +81,37 @@ TEST_F(Frame, ACompletePictureIsNotDrawnAgain) {
     EXPECT_GT(context->device().drawCount(), draws);
 }
 
+TEST_F(Frame, ItsTasksFollowEachOtherAndTheirSharesGrow) {
+    addEnvironment(300);
+    scene.quality.maxError = 0.03f;
+    technique::addSettings(scene);
+    views::samplingOf(scene).pixelSamples = 3;
+    scene.objects.push_back({});
+    scene.objects.back().name = "ball";
+    scene.objects.back().shape = scene::Sphere{};
+    scene.objects.back().material.kind = scene::Mirror{};
+    Renderer renderer(*context);
+    std::vector<Task> tasks;
+    std::vector<float> shares;
+    for (int slices = 0;; ++slices) {
+        ASSERT_LT(slices, 10000);
+        const auto progress = renderer.advance(scene, 1, {40, 30});
+        ASSERT_TRUE(progress.ok());
+        if (progress->complete) break;
+        if (tasks.empty() || tasks.back() != progress->task) {
+            tasks.push_back(progress->task);
+            shares = {0};
+        }
+        EXPECT_GE(progress->share, shares.back()) << nameOf(progress->task);
+        EXPECT_LE(progress->share, 1) << nameOf(progress->task);
+        shares.push_back(progress->share);
+        EXPECT_EQ(progress->task == Task::Samples, progress->samples > 0);
+    }
+    std::erase(tasks, Task::Picture); // which is small enough for a slice
+    EXPECT_EQ(tasks, (std::vector{Task::Settings, Task::Surroundings, Task::Samples}));
+    EXPECT_GT(shares.back(), 0.4f);
+}
+
 TEST_F(Frame, AnEnvironmentIsSummedInStagesToTheSameMean) {
     addEnvironment(300);
     Renderer renderer(*context);
@@ -89,8 +120,8 @@ TEST_F(Frame, AnEnvironmentIsSummedInStagesToTheSameMean) {
     for (;; ++slices) {
         const auto progress = renderer.advance(scene, 1, {40, 30});
         ASSERT_TRUE(progress.ok());
-        EXPECT_GE(progress->fraction, last);
-        last = progress->fraction;
+        EXPECT_GE(progress->share, last);
+        last = progress->share;
         if (progress->complete) break;
         ASSERT_LT(slices, 1000);
     }
