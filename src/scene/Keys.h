@@ -137,8 +137,9 @@ auto dataOf(Variant& variant) {
     return std::visit([](auto& value) -> Void* { return &value; }, variant);
 }
 
-/// Why a key of the material is none of its kind, or "wave", "paint" or "displacement" none of the shape: " is no key of ...;
-/// must stand ...". Empty where it may stand. Such keys are refused in files, not bound and not written.
+/// Why a key of the material is none of its kind, or "wave", "paint" or "displacement" none of the shape: "
+/// is no key of ...; must stand ...". Empty where it may stand. Such keys are refused in files, not bound and
+/// not written.
 std::string whyIdle(const Object& object, std::string_view key);
 
 inline constexpr int kMaxPictureSide = 8192; ///< pixels, of `size`
