@@ -188,7 +188,11 @@ void Budget::beginKnob() {
     size_ = ivec2(0);
     isDrawing_ = false;
     reference_ = 0;
-    if (done()) renderer_.reset();
+    if (!done() || !renderer_) return;
+    if (renderer_->sceneryFor == of_.sceneryFor)
+        for (std::size_t i = 0; i < of_.members.size(); ++i)
+            of_.members[i].guest->takeLight(*renderer_->members[i].guest, of_.scenery);
+    renderer_.reset();
 }
 
 bool Budget::waits() const { return renderer_ && renderer_->running && !renderer_->submitted.empty(); }
@@ -261,6 +265,8 @@ Result<bool> Budget::draw(const scene::Scene& scene, const Turned& turned, Trial
     if (drawn_.count(trial) > 0) return true;
     if (!renderer_) {
         renderer_ = std::make_unique<Renderer::State>(of_.context, &of_.supplies);
+        renderer_->shownAspect = of_.aspect();
+        renderer_->keepsCubes = true; // they are the same in all that is compared
         for (std::size_t i = 0; i < of_.members.size(); ++i)
             renderer_->members[i].guest->shareBake(*of_.members[i].guest);
     }

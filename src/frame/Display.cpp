@@ -88,7 +88,7 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
                                       graph::TextureId target, bool linear, const views::Eye* from) {
     const bool scaled = kept.light && !linear;
     const gl::Program* program = displayProgram(linear, composed || averaged || scaled, scaled);
-    const views::Eye eye = views::makeEye(scene, float(size.x) / float(size.y));
+    const views::Eye eye = views::makeEye(scene, aspect());
     DisplayBlock block = displayOf(scene, eye);
     if (linear) {
         block.scale = vec4(1);
@@ -138,7 +138,7 @@ Status Renderer::State::recordBeside(graph::FrameGraph& graph, const scene::Scen
     const gl::Program* program = context.program("frame/beside", {});
     const graph::TextureId otherId = import(graph, other);
     const graph::TextureId target = importScreen(graph);
-    const DisplayBlock shown = displayOf(scene, views::makeEye(scene, float(size.x) / float(size.y)));
+    const DisplayBlock shown = displayOf(scene, views::makeEye(scene, aspect()));
     BesideBlock block;
     block.scale = shown.scale;
     block.shift = shown.shift;

@@ -58,6 +58,7 @@ Result<std::string> Renderer::explain(const scene::Scene& scene, ivec2 size) {
     s.shownKey.reset(); // explained as if nothing were there yet
     s.shadows.clear();
     ++s.scenery;
+    s.screen = size;
     s.start(scene, s.revision + 1, size, State::Effort::Final);
     for (bool still = false; !still;) {
         const Result<bool> advanced = s.waters.advance(scene);

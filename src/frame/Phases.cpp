@@ -50,8 +50,7 @@ int Renderer::State::pixelSamples(const scene::Scene& scene) const {
 views::Eye Renderer::State::eyeOf(const scene::Scene& scene) const {
     const int samples = pixelSamples(scene);
     const vec2 offset = views::pixelOffset(sample, samples);
-    views::Eye eye =
-        views::makeEye(scene, float(size.x) / float(size.y), 1e-3f, shift + 2.0f * offset / vec2(size));
+    views::Eye eye = views::makeEye(scene, aspect(), 1e-3f, shift + 2.0f * offset / vec2(size));
     eye.cut = cut;
     eye.second = second;
     eye.threshold = threshold + float(sample) / float(samples);

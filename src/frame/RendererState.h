@@ -158,11 +158,13 @@ struct Renderer::State {
     std::unique_ptr<State> elsewhere;         // draws them
     std::unique_ptr<scene::Scene> asideScene; // that it draws; null: none is begun
     std::uint64_t asideRevision = 0;
-    vec4 cut{0, 0, 0, 1}; // of such a one: Eye::cut
-    vec2 shift{0};        // Eye::shift
-    float threshold = 0;  // Eye::threshold of the first sample
-    bool second = false;  // Eye::second
-    ivec2 lightOf{0, 1};  // of such a one: sample of a pixel, and of how many, whose light samples it has
+    bool keepsCubes = false; // of one that draws for others: whatever settings they were drawn with
+    float shownAspect = 0;   // of one that draws for others: of the picture that its own stand for
+    vec4 cut{0, 0, 0, 1};    // of such a one: Eye::cut
+    vec2 shift{0};           // Eye::shift
+    float threshold = 0;     // Eye::threshold of the first sample
+    bool second = false;     // Eye::second
+    ivec2 lightOf{0, 1};     // of such a one: sample of a pixel, and of how many, whose light samples it has
     const views::Surroundings* given = nullptr; // of such a one: what its pictures know of their surroundings
     bool allAround = false;                     // of such a one: technique::Picture::allAround
     std::size_t probesLeft = 0;                 // cubes that were asked for and are too many
@@ -206,7 +208,7 @@ struct Renderer::State {
     technique::Guest* carrier = nullptr;  // that carried light in this sum
     double recordMs = 1;                  // that it took to record what is drawn for one of them
     double sliceMs = 0;                   // that the sum took
-    float restWorth = 1;                  // in light samples: what the rest took in the stage before
+    double lightMs = 1, restMs = 1;       // of a pixel: one of them, and the rest, of the stage before
     Progress told;                        // last
     double workMs = 0, planMs = 0;
     int drawsBefore = 0, passes = 0;
@@ -253,8 +255,10 @@ struct Renderer::State {
     }
     technique::Guest* baker(const scene::Scene& scene) const;
     float work(const Stage& of) const;
+    float restWorth() const;
     float shareOfStage(const scene::Scene& scene) const;
     Progress progressOf(const scene::Scene& scene, Effort effort) const;
+    float aspect() const { return shownAspect > 0 ? shownAspect : float(size.x) / float(size.y); }
     bool complete() const { return started && !planning && stage >= stages.size(); }
     // A preview is not drawn again: the picture after it is.
     bool settled(Effort effort) const;

@@ -25,7 +25,7 @@ void makeFor(graph::Texture& texture, gl::Context& context, const TextureDesc& d
 } // namespace
 
 views::Eye Renderer::State::middleEyeOf(const scene::Scene& scene) const {
-    return views::makeEye(scene, float(size.x) / float(size.y));
+    return views::makeEye(scene, aspect());
 }
 
 // Whether pictures may be seen from elsewhere before the next one is there. Reliefs alone are drawn as fast.

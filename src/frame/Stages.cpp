@@ -170,9 +170,16 @@ void Renderer::State::addSamples(const scene::Scene& scene) {
     }
 }
 
+// How many light samples take as long as what follows their sum.
+float Renderer::State::restWorth() const {
+    const double pixels = double(size.x) * size.y;
+    const double ofLight = next > 0 ? sliceMs / next : lightMs * pixels;
+    return float(restMs * pixels / std::max(ofLight, 1e-3));
+}
+
 // How long a stage takes, in directions.
 float Renderer::State::work(const Stage& of) const {
-    return float(of.baked ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions) + restWorth;
+    return float(of.baked ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions) + restWorth();
 }
 
 float Renderer::State::shareOfStage(const scene::Scene& scene) const {
@@ -183,8 +190,8 @@ float Renderer::State::shareOfStage(const scene::Scene& scene) const {
     if (running && running->work == Running::Work::Slice)
         done += running->graph.share() * float(std::max(1, running->end - next));
     else if (running)
-        done += running->graph.share() * restWorth;
-    return done / (float(lights.size()) + restWorth);
+        done += running->graph.share() * restWorth();
+    return done / (float(lights.size()) + restWorth());
 }
 
 Progress Renderer::State::progressOf(const scene::Scene& scene, Effort effort) const {
@@ -388,7 +395,9 @@ Status Renderer::State::follow() {
     workMs += done->ms;
     if (std::string error = context.takeError(); !error.empty()) return Error{error, Fault::Machine};
     if (done->work == Running::Work::Rest) {
-        restWorth = float(done->ms * double(lights.size()) / std::max(sliceMs, 1.0));
+        const double pixels = double(size.x) * size.y;
+        lightMs = sliceMs / (pixels * double(std::max<std::size_t>(1, lights.size())));
+        restMs = done->ms / pixels;
         return finishStage(done->moment);
     }
     if (done->work == Running::Work::Again) presentable = true;

@@ -112,10 +112,11 @@ Status Renderer::State::survey(const Moment& moment) {
     surveyed = true;
     asides.clear();
     asideScene.reset();
-    if (given) return Done{};
+    const bool isColor = moment.scene.view.show == scene::Aov::Color;
+    if (given || (keepsCubes && !isColor)) return Done{};
     views::Probes asked;
     const technique::Picture picture = pictureOf(moment);
-    if (moment.scene.view.show == scene::Aov::Color)
+    if (isColor)
         for (const technique::Guest* guest : needed(moment.scene))
             guest->lookAround(picture, asked);
     surroundings.bounds = {};
@@ -145,7 +146,7 @@ void Renderer::State::surveyCubes(const Moment& moment, std::vector<views::Probe
     }
     const bool draws = !asked.empty() && !isCoarse(); // a preview has the picture's cubes
     if (draws) {
-        SceneKey key = sceneKey(moment.scene);
+        SceneKey key = keepsCubes ? sceneryKey(moment.scene) : sceneKey(moment.scene);
         if (cubesFor != key) {
             cubesFor = std::move(key);
             surroundings.faces.assign(asked.size(), 0);

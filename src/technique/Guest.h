@@ -103,6 +103,11 @@ public:
     virtual std::string_view bakeName() const { return ""; }
     /// Takes what the guest of the same technique in another renderer has worked out.
     virtual void shareBake(const Guest&) {}
+    /// Takes the light that the guest of the same technique in another renderer, which is not needed any
+    /// more, has carried and keeps, instead of its own.
+    ///
+    /// @param scenery  Picture::scenery here of what that one drew
+    virtual void takeLight(Guest&, std::uint64_t /*scenery*/) {}
 
     /// Whether what it works out from the light samples serves all samples of a pixel, which then have the
     /// same ones.

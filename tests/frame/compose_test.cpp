@@ -568,6 +568,32 @@ TEST_F(Composed, CausticMapsOfTheEnvironmentStayWhileOnlyOtherSettingsChange) {
     EXPECT_EQ(kept.pixels, picture().pixels);
 }
 
+TEST_F(Composed, APictureTakesTheCausticMapsWithWhichItsSettingsWereChosen) {
+    addFloor();
+    addBall();
+    static_cast<caustics::Settings*>(scene.technique.at("caustics").data())->directions = 32;
+    views::samplingOf(scene).directions = 300;
+    views::samplingOf(scene).pixelSamples = 1;
+    Renderer chooses(*context);
+    chooses.setDefaultError(0.1f);
+    const auto draws = [&] { return context->device().drawCount(); };
+    int planned = draws();
+    for (bool complete = false; !complete;) {
+        const auto progress = chooses.advance(scene, 1, scene.size);
+        ASSERT_TRUE(progress.ok());
+        if (progress->task == Task::Settings) planned = draws();
+        complete = progress->complete;
+    }
+    const int after = draws() - planned;
+    const Image taken = *chooses.read(scene, scene::Aov::Color);
+    scene.technique = chooses.stats().technique;
+    ASSERT_LT(views::samplingOf(scene).directions, 200);
+    Renderer fresh(*context);
+    ASSERT_TRUE(fresh.finish(scene, 1, scene.size).ok());
+    EXPECT_LT(after, fresh.stats().draws / 2);
+    EXPECT_EQ(taken.pixels, fresh.read(scene, scene::Aov::Color)->pixels);
+}
+
 TEST_F(Composed, AnErrorChoosesNoMoreLayersThanChangeThePicture) {
     addBall();
     scene.quality.maxError = 0.01f;

@@ -87,6 +87,15 @@ public:
     bool carriesEnvironment(const scene::Scene& scene) const override {
         return caustics::carriesEnvironment(scene);
     }
+    void takeLight(technique::Guest& from, std::uint64_t scenery) override {
+        auto& other = static_cast<CausticsGuest&>(from);
+        if (!other.plan_) return;
+        clear();
+        key_ = std::exchange(other.key_, {});
+        key_->scenery = scenery;
+        plan_ = std::exchange(other.plan_, {});
+        kept_ = std::exchange(other.kept_, {});
+    }
 
     bool replaces(const technique::Picture& picture) const override {
         return picture.scene.view.show == Aov::CausticMap && !visible(picture.drawables).empty();
