@@ -52,7 +52,7 @@ vec4 environmentAt(vec3 direction) {
 #ifdef USE_AROUND
 #define AROUND lobe.around
 // A direction stands for a part of the lobe: looks need be no finer than a quarter of its width.
-#define TEXELS_A_LOOK max(2.0, 0.25 * alpha * sizeOfFace())
+#define TEXELS_A_LOOK max(lobe.around.texelsALook, 0.25 * alpha * sizeOfFace())
 #include "views/surroundings.glsl"
 #endif
 

@@ -18,7 +18,7 @@ uniform sampler2DArray uAroundSolid;
 
 const int kMostLooks = 256;
 #ifndef TEXELS_A_LOOK
-#define TEXELS_A_LOOK 2.0
+#define TEXELS_A_LOOK AROUND.texelsALook
 #endif
 const int kHalvings = 5;
 const float kSamePlane = 2.0; // texels from the one that shows a plane, within which it may be met: normals are the

@@ -13,4 +13,5 @@ struct Around {
     vec4 low, high; // world: of a box around all that there is
     int count;      // of cubes
     int further;    // mirrors that a ray is followed to at most
+    float texelsALook; // along a ray, as the cube's middle sees it
 };

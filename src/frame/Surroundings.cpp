@@ -112,6 +112,8 @@ Status Renderer::State::survey(const Moment& moment) {
     surveyed = true;
     asides.clear();
     asideScene.reset();
+    // Cubes are as fine as the whole picture.
+    surroundings.texelsALook = views::kTexelsALook * std::max(1.0f, float(screen.x) / float(size.x));
     const bool isColor = moment.scene.view.show == scene::Aov::Color;
     if (given || (keepsCubes && !isColor)) return Done{};
     views::Probes asked;

@@ -116,6 +116,7 @@ AroundBlock aroundBlock(const Surroundings* surroundings) {
     block.high = vec4(surroundings->bounds.high, 0);
     block.count = int(surroundings->cubes.size());
     block.further = surroundings->further;
+    block.texelsALook = surroundings->texelsALook;
     for (std::size_t i = 0; i < surroundings->cubes.size(); ++i) {
         const Probe& cube = surroundings->cubes[i];
         block.cubes[i] = {vec4(cube.place, cube.object), vec4(cube.reflectance, surroundings->faces[i])};

@@ -61,14 +61,18 @@ scene::Camera cameraOf(const Probe& probe, int face);
 /// The camera as a mirror shows it. Its picture is the mirror's with left and right exchanged.
 scene::Camera mirrored(const scene::Camera& camera, const FlatMirror& mirror);
 
+/// Of cubes, between looks along a ray; edges between them are found in halves.
+inline constexpr float kTexelsALook = 2;
+
 /// All of it as drawn. Who shades reads it by shaders/views/surroundings.glsl.
 struct Surroundings {
     std::vector<Probe> cubes;
     std::vector<int> faces; ///< of each cube: bits of those that show anything, and six higher of those that
                             ///< also show what the first objects in their pixels hide
     std::vector<FlatMirror> flat;
-    Bounds bounds;   ///< of all that is drawn
-    int further = 1; ///< mirrors that a ray from one is followed to
+    Bounds bounds;                    ///< of all that is drawn
+    int further = 1;                  ///< mirrors that a ray from one is followed to
+    float texelsALook = kTexelsALook; ///< how finely rays look at cubes
     graph::TextureHandle radiance = graph::TextureHandle::None; ///< of cubes, arrays: of the first objects,
                                                                 ///< then of what they hide
     graph::TextureHandle solid = graph::TextureHandle::None;
