@@ -541,7 +541,7 @@ export class LucentViewer extends HTMLElement {
     return more && (this.#seen || !this.#complete || this.#capturing); // nothing plays where nobody sees it
   }
   work() {
-    return this.#draws && this.#runtime.work(this.#handle);
+    return this.#draws ? this.#runtime.work(this.#handle) : {};
   }
   get #draws() {
     return this.#handle && this.#size.width > 0 && !this.#adopting && (this.#near || this.#settled.length > 0);

@@ -86,6 +86,7 @@ export class Runtime {
   }
 
   static #kBetween = 4; // ms from one look at work that waits for the GPU to the next,
+  static #kFrame = 16; // of one frame,
   static #kMostBetween = 100; // and after a frame until a page is hidden
 
   #kind;
@@ -93,7 +94,9 @@ export class Runtime {
   #canvas;
   #gl;
   #frame = 0;
-  #ticked = 0; // ms: when the last frame ended
+  #now = 0; // ms: of the last frame,
+  #ticked = 0; // and when it ended
+  #isEarly = false; // it was drawn before the browser's own
   #timer = 0; // of the next look at work, before the next frame
   #lost = false;
   #ended = null; // why the module does nothing any more
@@ -218,9 +221,13 @@ export class Runtime {
     return { more, drawn: this.call('viewer_draw_count', handle) !== before };
   }
 
-  /** Works on a viewer's picture between its frames. @return {boolean}  whether more is of use before the next one */
+  /**
+   * Works on a viewer's picture between its frames.
+   * @return {{more: boolean, waits: boolean}}  whether more is of use before the next one; whether a picture waits for it
+   */
   work(handle) {
-    return !this.#lost && this.call('viewer_work', handle) === 1;
+    const answer = this.#lost ? 0 : this.call('viewer_work', handle);
+    return { more: answer === 1, waits: answer === 2 };
   }
 
   /** The picture that was just drawn, on a canvas of its own. */
@@ -245,7 +252,10 @@ export class Runtime {
 
   #schedule() {
     if (this.#wanting.size && !this.#frame && !this.#lost)
-      this.#frame = requestAnimationFrame((now) => this.#tick(now));
+      this.#frame = requestAnimationFrame((now) => {
+        this.#isEarly = false;
+        this.#tick(now);
+      });
   }
 
   // Calls `turn` for each viewer that wants a frame. @return {boolean}  false when the module has ended: all know
@@ -261,21 +271,32 @@ export class Runtime {
 
   #tick(now) {
     this.#frame = 0;
-    const draw = (viewer) => viewer.render(now / 1000) || this.#wanting.delete(viewer);
+    this.#now = Math.max(now, this.#now); // frames are told when they began, which may be before an early one
+    const draw = (viewer) => viewer.render(this.#now / 1000) || this.#wanting.delete(viewer);
     if (!this.#forEachWanting(draw)) return;
     this.#schedule();
     this.#ticked = performance.now();
     this.#lookLater();
   }
 
-  // A picture takes many waits for the GPU, which seldom end with a frame.
+  // A picture takes many waits for the GPU, which seldom end with a frame. One that is there does not wait for the next
+  // frame either where it took longer than one: the GPU would have nothing to do. Hidden pages have no frames, and draw
+  // once at most.
   #lookLater() {
     clearTimeout(this.#timer);
     if (!this.#frame || performance.now() - this.#ticked > Runtime.#kMostBetween) return;
     this.#timer = setTimeout(() => {
-      let works = false;
-      const work = (viewer) => (works = viewer.work() || works);
-      if (this.#forEachWanting(work) && works) this.#lookLater();
+      let [works, shows] = [false, false];
+      const work = (viewer) => {
+        const { more, waits } = viewer.work();
+        [works, shows] = [works || more, shows || waits];
+      };
+      if (!this.#forEachWanting(work)) return;
+      if (shows && !this.#isEarly && performance.now() - this.#ticked > Runtime.#kFrame) {
+        this.#isEarly = true;
+        cancelAnimationFrame(this.#frame);
+        this.#tick(performance.now());
+      } else if (works) this.#lookLater();
     }, Runtime.#kBetween);
   }
 

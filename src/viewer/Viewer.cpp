@@ -177,12 +177,14 @@ bool Viewer::draw(double nowSeconds) {
     return s.working() || !s.settled || wait > 0 || s.play.playing;
 }
 
-bool Viewer::work() {
+Viewer::Between Viewer::work() {
     State& s = *state_;
-    if (s.pixels.x <= 0 || s.pixels.y <= 0 || s.unseen || !s.settled || !s.working()) return false;
+    if (s.pixels.x <= 0 || s.pixels.y <= 0) return Between::Nothing;
+    if (s.unseen) return Between::Picture;
+    if (!s.settled || !s.working()) return Between::Nothing;
     ImGui::SetCurrentContext(s.imgui);
     s.unseen = s.advance();
-    return !s.unseen && s.working();
+    return s.unseen ? Between::Picture : s.working() ? Between::More : Between::Nothing;
 }
 
 bool Viewer::stop() {

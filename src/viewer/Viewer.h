@@ -66,9 +66,11 @@ public:
 
     /// Draws if something changed or the picture is not complete. @return true when another call is wanted
     bool draw(double nowSeconds);
+    enum class Between { Nothing, More, Picture };
     /// Works on the picture between two calls of draw(), which shows what is there: what waited for the GPU
-    /// goes on at once. @return true when another call is of use before the next draw()
-    bool work();
+    /// goes on at once. @return whether another call is of use before the next draw(), or a picture waits for
+    /// that
+    Between work();
     /// Ends the work on the picture with what there is of it, until something changes. @return whether there
     /// was any work that has shown something
     bool stop();

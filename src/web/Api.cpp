@@ -252,7 +252,7 @@ void viewer_resize(int viewer, int width, int height, float scale) {
 void viewer_panel(int viewer, int visible) { viewerOf(viewer).setPanelVisible(visible != 0); }
 void viewer_dark(int viewer, int dark) { viewerOf(viewer).setDark(dark != 0); }
 int viewer_draw(int viewer, double seconds) { return viewerOf(viewer).draw(seconds); }
-int viewer_work(int viewer) { return viewerOf(viewer).work(); }
+int viewer_work(int viewer) { return int(viewerOf(viewer).work()); }
 int viewer_stop(int viewer) { return viewerOf(viewer).stop(); }
 int viewer_draw_count(int viewer) { return viewerOf(viewer).drawCount(); }
 

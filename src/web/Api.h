@@ -50,8 +50,8 @@ void viewer_resize(int viewer, int width, int height, float scale);
 void viewer_panel(int viewer, int visible);
 void viewer_dark(int viewer, int dark);
 int viewer_draw(int viewer, double seconds); ///< 1: another frame is wanted
-int viewer_work(int viewer);                 ///< 1: another call before the next frame is of use
-int viewer_stop(int viewer);                 ///< 1: there was work to stop
+int viewer_work(int viewer); ///< 1: another call before the next frame is of use; 2: a picture waits for it
+int viewer_stop(int viewer); ///< 1: there was work to stop
 int viewer_draw_count(int viewer);
 const char* viewer_failure(int viewer); ///< "" or why the picture could not be drawn
 /// JSON: {"width", "height", "at"}, the finished picture as linear values at an address of width x height x 4
