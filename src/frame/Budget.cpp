@@ -41,11 +41,14 @@ void setValue(Settings& settings, std::string_view id, double value) {
     setComponent(param, static_cast<std::byte*>(settings.data()) + param.offset, 0, value);
 }
 
+double valueOf(const Settings& settings, std::string_view id) {
+    const Param& param = paramOf(settings, id);
+    return getComponent(param, static_cast<const std::byte*>(settings.data()) + param.offset, 0);
+}
+
 // As the scene itself has it.
 double numberOf(const scene::Scene& scene, const KnobOf& of) {
-    const Settings& settings = scene.technique.at(std::string(of.table));
-    const Param& param = paramOf(settings, of.knob->id);
-    return getComponent(param, static_cast<const std::byte*>(settings.data()) + param.offset, 0);
+    return valueOf(scene.technique.at(std::string(of.table)), of.knob->id);
 }
 
 // The cheaper of two values of a knob.
@@ -105,10 +108,14 @@ float medianAngle(const Image& coarse, const Image& fine, const Image& layers) {
 
 } // namespace
 
-void turnDown(scene::Scene& scene) {
+void turnDown(scene::Scene& scene, bool hasFewPixels) {
     for (const KnobOf& of : technique::knobs(scene)) {
         Settings& settings = scene.technique.at(std::string(of.table));
-        setValue(settings, of.knob->id, cheaper(*of.knob, numberOf(scene, of), of.knob->coarse));
+        const Knob& knob = *of.knob;
+        const double number = cheaper(knob, numberOf(scene, of), hasFewPixels ? knob.coarsest : knob.coarse);
+        setValue(settings, knob.id, number);
+        if (!knob.tied.empty())
+            setValue(settings, knob.tied, std::min(valueOf(settings, knob.tied), knob.factor * number));
     }
 }
 

@@ -25,7 +25,7 @@
 namespace lucent::frame {
 
 /// Turns every knob down to what a preview has.
-void turnDown(scene::Scene& scene);
+void turnDown(scene::Scene& scene, bool hasFewPixels);
 
 class Budget {
 public:

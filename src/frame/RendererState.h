@@ -40,6 +40,7 @@ struct Renderer::State {
     static constexpr double kSliceMs = 40;
     static constexpr double kCompileMs = 10; // to begin with programs, where other work follows
     static constexpr int kFirstStage = 20;   // directions
+    static constexpr int kFewPixels = 64;    // of a preview, along its shorter side
     static constexpr int kStageFactor = 4;
 
     struct Stage {
@@ -253,6 +254,8 @@ struct Renderer::State {
         const bool isSmall = dragged && (!own || size != screen);
         return coarse || isSmall || (stage < stages.size() && stages[stage].coarse);
     }
+    // A preview of so few that the device is slow: it is as coarse as any.
+    bool hasFewPixels() const { return dragged && std::min(size.x, size.y) <= kFewPixels; }
     technique::Guest* baker(const scene::Scene& scene) const;
     float work(const Stage& of) const;
     float restWorth() const;

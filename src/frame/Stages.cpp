@@ -35,7 +35,7 @@ scene::Scene Renderer::State::chosen(const scene::Scene& scene) const {
     scene::Scene used = scene;
     budget.apply(used);
     if (!isCoarse()) return used;
-    turnDown(used);
+    turnDown(used, hasFewPixels());
     int& shadowSize = views::samplingOf(used).shadowSize; // finer shadows would not be seen in few pixels
     shadowSize = std::min(shadowSize, kShadowTexels * std::max(size.x, size.y));
     return used;
@@ -147,7 +147,8 @@ void Renderer::State::addStages(const scene::Scene& scene, Effort effort, bool p
     const bool hasPreview = isLit && !isThere && isShown && (coarsens || limited);
     // Nothing is kept for a first look, nor of what moves: each direction takes a slow device a shadow map of
     // all that casts one.
-    const int first = (isNew || runs) && context.caps().software ? kFewestDirections : kFirstStage;
+    const bool isHurried = isNew || runs || hasFewPixels();
+    const int first = isHurried && context.caps().software ? kFewestDirections : kFirstStage;
     if (hasPreview && !previewed) stages.push_back({std::min(directions, first), false, true});
     coarse = dragged && hasPreview;
     if (coarse) return;

@@ -50,6 +50,7 @@ struct Baker {
 struct Knob {
     std::string_view id;                ///< in the technique's table
     double coarse;                      ///< of a preview, unless the scene's own is cheaper
+    double coarsest = coarse;           ///< of a preview with few pixels
     bool costsLess = false;             ///< greater values cost less
     std::span<const double> steps = {}; ///< cheapest first; empty: only previews turn it
     double most = 0;         ///< each step is held against finer ones up to this, and the last may be chosen;

@@ -568,6 +568,23 @@ TEST_F(Composed, CausticMapsOfTheEnvironmentStayWhileOnlyOtherSettingsChange) {
     EXPECT_EQ(kept.pixels, picture().pixels);
 }
 
+TEST_F(Composed, PreviewsWithFewPixelsAreTheCoarsest) {
+    addFloor();
+    addBall();
+    for (const auto [downscale, grid, layers] : {std::array{4, 64, 4}, std::array{8, 32, 2}}) {
+        Renderer renderer(*context);
+        for (bool complete = false; !complete;) {
+            const auto progress = renderer.advance(scene, 1, {640, 480}, true, downscale);
+            ASSERT_TRUE(progress.ok());
+            complete = progress->complete;
+        }
+        const auto used = renderer.stats().technique;
+        EXPECT_EQ(used.at("caustics").as<caustics::Settings>().grid, grid);
+        EXPECT_EQ(used.at("caustics").as<caustics::Settings>().mapSize, 4 * grid);
+        EXPECT_EQ(used.at("refract").as<refract::Settings>().maxLayers, layers);
+    }
+}
+
 TEST_F(Composed, APictureTakesTheCausticMapsWithWhichItsSettingsWereChosen) {
     addFloor();
     addBall();

@@ -231,7 +231,13 @@ constexpr Aov kAovs[] = {Aov::CausticMap};
 constexpr Group kFirst[] = {Group::Mode, Group::Caustics, Group::Light, Group::View};
 constexpr double kGrids[] = {32, 64, 128, 256, 512};
 constexpr technique::Knob kKnobs[] = {
-    {.id = "grid", .coarse = 64, .steps = kGrids, .words = "rays a side", .tied = "mapSize", .factor = 4},
+    {.id = "grid",
+     .coarse = 64,
+     .coarsest = 32,
+     .steps = kGrids,
+     .words = "rays a side",
+     .tied = "mapSize",
+     .factor = 4},
     {.id = "refine", .coarse = 0},
     {.id = "environmentDirections", .coarse = 0, .acts = carriesEnvironment},
 };

@@ -292,6 +292,7 @@ constexpr double kLayers[] = {2, 4, 8, 16, views::kMostLayers};
 constexpr technique::Knob kKnobs[] = {
     {.id = "maxLayers",
      .coarse = 4,
+     .coarsest = 2,
      .steps = kLayers,
      .most = views::kMostLayers,
      .bends = true,
