@@ -255,7 +255,7 @@ struct Renderer::State {
         return coarse || isSmall || (stage < stages.size() && stages[stage].coarse);
     }
     // A preview of so few that the device is slow: it is as coarse as any.
-    bool hasFewPixels() const { return dragged && std::min(size.x, size.y) <= kFewPixels; }
+    bool hasFewPixels() const { return dragged && size != screen && std::min(size.x, size.y) <= kFewPixels; }
     technique::Guest* baker(const scene::Scene& scene) const;
     float work(const Stage& of) const;
     float restWorth() const;

@@ -31,11 +31,13 @@ TEST_F(Picture, WorkBetweenFramesIsShownByTheNext) {
     const int drawn = viewer->drawCount();
     const Image seen = window->read();
     const Deadline deadline;
-    while (viewer->work())
+    Viewer::Between found;
+    while ((found = viewer->work()) == Viewer::Between::More)
         ASSERT_FALSE(deadline.passed());
+    EXPECT_EQ(found, Viewer::Between::Picture);
     EXPECT_EQ(viewer->drawCount(), drawn);
     EXPECT_EQ(differences(seen, window->read()), 0);
-    EXPECT_FALSE(viewer->work()) << "what is not shown yet would be drawn over";
+    EXPECT_EQ(viewer->work(), Viewer::Between::Picture) << "what is not shown yet would be drawn over";
     viewer->draw(time += 0.02);
     EXPECT_EQ(viewer->drawCount(), drawn + 1);
     EXPECT_GT(differences(seen, window->read()), 0);
