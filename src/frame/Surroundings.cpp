@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kFaces = 6;
 constexpr int kLeastFace = 32, kMostFace = 512; // pixels a side
-constexpr int kLeastDirections = 64;            // of an environment: a quarter, for six faces
+constexpr int kLeastDirections = 16;            // of an environment: a quarter, for six faces
 constexpr float kLeastFlat = 1.0f / 4096;       // of the picture: what covers less is seen by the cube
 
 // A face shows a quarter of a turn: as many pixels as the picture has along its longer side hold twice the
