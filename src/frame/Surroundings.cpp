@@ -73,6 +73,11 @@ int facesWithAnything(scene::Scene scene, const views::Probe& cube) {
     return faces;
 }
 
+const gl::Program* keepingProgram(gl::Context& context, bool isCube) {
+    return context.program("views/around",
+                           isCube ? std::vector<std::string>{"WITH_SOLID"} : std::vector<std::string>{});
+}
+
 bool showsAnything(const scene::Scene& scene) {
     return std::any_of(scene.objects.begin(), scene.objects.end(),
                        [](const scene::Object& object) { return object.visible; });
@@ -133,6 +138,8 @@ Status Renderer::State::survey(const Moment& moment) {
     asidesAsked = asides.size();
     asideShare = 0;
     if (asides.empty()) return Done{};
+    for (const Aside& aside : asides) // they are made while the first is drawn
+        keepingProgram(context, aside.cube >= 0);
     if (!elsewhere) elsewhere = std::make_unique<State>(context, &supplies);
     return Done{};
 }
@@ -291,9 +298,7 @@ Status Renderer::State::keepAside(const scene::Scene& scene, const Aside& aside)
     const graph::Texture linear(context.device(), desc, "frame.aside");
     Result<Moment> moment = from.momentOf(scene);
     if (!moment) return moment.error();
-    const std::vector<std::string> defines =
-        isCube ? std::vector<std::string>{"WITH_SOLID"} : std::vector<std::string>{};
-    const gl::Program* program = context.program("views/around", defines);
+    const gl::Program* program = keepingProgram(context, isCube);
     Status kept = from.runGraph([&](graph::FrameGraph& graph) -> Status {
         const TextureId picture = import(graph, linear);
         if (Status s = from.recordDisplay(graph, scene, picture, true); !s) return s;
