@@ -159,13 +159,14 @@ struct Renderer::State {
     std::unique_ptr<State> elsewhere;         // draws them
     std::unique_ptr<scene::Scene> asideScene; // that it draws; null: none is begun
     std::uint64_t asideRevision = 0;
-    bool keepsCubes = false; // of one that draws for others: whatever settings they were drawn with
-    float shownAspect = 0;   // of one that draws for others: of the picture that its own stand for
-    vec4 cut{0, 0, 0, 1};    // of such a one: Eye::cut
-    vec2 shift{0};           // Eye::shift
-    float threshold = 0;     // Eye::threshold of the first sample
-    bool second = false;     // Eye::second
-    ivec2 lightOf{0, 1};     // of such a one: sample of a pixel, and of how many, whose light samples it has
+    bool keepsCubes =
+        false;             // of one that draws for others: cubes stay, whatever settings they were drawn with
+    float shownAspect = 0; // of such a one: width over height of the picture that its own stand for
+    vec4 cut{0, 0, 0, 1};  // of such a one: Eye::cut
+    vec2 shift{0};         // Eye::shift
+    float threshold = 0;   // Eye::threshold of the first sample
+    bool second = false;   // Eye::second
+    ivec2 lightOf{0, 1};   // of such a one: sample of a pixel, and of how many, whose light samples it has
     const views::Surroundings* given = nullptr; // of such a one: what its pictures know of their surroundings
     bool allAround = false;                     // of such a one: technique::Picture::allAround
     std::size_t probesLeft = 0;                 // cubes that were asked for and are too many
@@ -210,7 +211,7 @@ struct Renderer::State {
     double recordMs = 1;                  // that it took to record what is drawn for one of them
     double sliceMs = 0;                   // that the sum took
     double lightMs = 1, restMs = 1;       // of a pixel: one of them, and the rest, of the stage before
-    Progress told;                        // last
+    Progress told;                        // what advance() said last
     double workMs = 0, planMs = 0;
     int drawsBefore = 0, passes = 0;
     Stats stats;
@@ -254,7 +255,7 @@ struct Renderer::State {
         const bool isSmall = dragged && (!own || size != screen);
         return coarse || isSmall || (stage < stages.size() && stages[stage].coarse);
     }
-    // A preview of so few that the device is slow: it is as coarse as any.
+    // Whether a preview was lowered to so few that its knobs are turned down further: the device is slow.
     bool hasFewPixels() const { return dragged && size != screen && std::min(size.x, size.y) <= kFewPixels; }
     technique::Guest* baker(const scene::Scene& scene) const;
     float work(const Stage& of) const;
@@ -285,8 +286,8 @@ struct Renderer::State {
     Result<bool> lookAround(const Moment& moment);
     scene::Scene sceneFor(const Moment& moment, const Aside& aside) const;
     Status keepAside(const scene::Scene& scene, const Aside& aside);
-    SceneKey sceneKey(const scene::Scene& scene) const;
-    SceneKey sceneryKey(const scene::Scene& scene) const; // whatever it is drawn with
+    SceneKey sceneKey(scene::Scene scene) const;
+    SceneKey sceneryKey(scene::Scene scene) const; // whatever it is drawn with
     std::vector<std::string> aroundLines() const;
 
     // Phases.cpp

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <utility>
 
 namespace lucent::frame {
 
@@ -85,23 +86,19 @@ bool showsAnything(const scene::Scene& scene) {
 
 } // namespace
 
-Renderer::State::SceneKey Renderer::State::sceneryKey(const scene::Scene& scene) const {
-    scene::Scene bare = scene;
-    bare.technique.clear();
-    bare.quality = {};
-    return sceneKey(bare);
+Renderer::State::SceneKey Renderer::State::sceneryKey(scene::Scene scene) const {
+    scene.technique.clear();
+    scene.quality = {};
+    return sceneKey(std::move(scene));
 }
 
-Renderer::State::SceneKey Renderer::State::sceneKey(const scene::Scene& scene) const {
-    scene::Scene still = scene;
-    still.camera = {};
-    still.size = ivec2(1);
-    still.view = {};
-    still.title = still.caption = "";
-    SceneKey key{scene::toJson(still) + (scene.view.matt ? " matt" : ""),
-                 views::objectKeys(scene),
-                 {},
-                 waters.changes()};
+Renderer::State::SceneKey Renderer::State::sceneKey(scene::Scene scene) const {
+    SceneKey key{scene.view.matt ? " matt" : "", views::objectKeys(scene), {}, waters.changes()};
+    scene.camera = {};
+    scene.size = ivec2(1);
+    scene.view = {};
+    scene.title = scene.caption = "";
+    key.text = scene::toJson(scene) + key.text;
     for (const scene::Object& object : scene.objects) {
         for (const auto& map : object.material.maps())
             key.maps.push_back(map);
@@ -117,7 +114,7 @@ Status Renderer::State::survey(const Moment& moment) {
     surveyed = true;
     asides.clear();
     asideScene.reset();
-    // Cubes are as fine as the whole picture.
+    // Cubes are as fine as the whole picture: a preview with fewer pixels shows less of them.
     surroundings.texelsALook = views::kTexelsALook * std::max(1.0f, float(screen.x) / float(size.x));
     const bool isColor = moment.scene.view.show == scene::Aov::Color;
     if (given || (keepsCubes && !isColor)) return Done{};
