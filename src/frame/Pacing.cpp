@@ -9,9 +9,10 @@ namespace lucent::frame {
 
 namespace {
 
-constexpr std::size_t kMostInFlight = 2; // so that the GPU never waits for us, nor we long for it
-constexpr double kBatchMs = 80;          // until a hand that comes down is followed,
-constexpr double kDraggedMs = 20; // or one that moves: both in flight and a frame take a tenth of a second
+// So that the GPU never waits for us, nor we long for it; browsers tell late that it has done something.
+constexpr std::size_t kMostInFlight = 2, kMostDragged = 3;
+constexpr double kBatchMs = 80;   // until a hand that comes down is followed,
+constexpr double kDraggedMs = 20; // or one that moves: all in flight and a frame take a tenth of a second
 
 } // namespace
 
@@ -44,6 +45,8 @@ Status Renderer::State::work(double until) {
     return Done{};
 }
 
+std::size_t Renderer::State::mostInFlight() const { return dragged ? kMostDragged : kMostInFlight; }
+
 // @return whether all passes have run
 bool Renderer::State::runSome(double until) {
     if (atOnce) {
@@ -62,7 +65,7 @@ bool Renderer::State::runSome(double until) {
             if (!context.compile(until - nowMs()) || !submitted.empty()) return false;
             context.makeReady();
         }
-        if (submitted.size() == kMostInFlight || nowMs() > until) return false;
+        if (submitted.size() == mostInFlight() || nowMs() > until) return false;
         submit();
     }
 }
@@ -113,7 +116,7 @@ void Renderer::State::retire(double until) {
     std::vector<Batch::Part> parts;
     while (!submitted.empty()) {
         const double asked = nowMs();
-        const bool waits = expected == 0 && (running->isSubmitted || submitted.size() == kMostInFlight ||
+        const bool waits = expected == 0 && (running->isSubmitted || submitted.size() == mostInFlight() ||
                                              context.hasUnready());
         if (!submitted.front().fence.passed(waits ? until - asked : 0)) {
             looked = nowMs();

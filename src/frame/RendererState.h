@@ -274,6 +274,7 @@ struct Renderer::State {
                  const std::function<Status(Running&)>& record);
     Status work(double until);
     bool runSome(double until);
+    std::size_t mostInFlight() const;
     void submit();
     void retire(double until);
     void drop();
