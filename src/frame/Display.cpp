@@ -9,6 +9,7 @@ namespace lucent::frame {
 
 using graph::Format;
 using graph::TextureDesc;
+using graph::TextureId;
 using scene::Aov;
 
 namespace {
@@ -75,19 +76,18 @@ DisplayBlock displayOf(const scene::Scene& scene, const views::Eye& eye) {
 } // namespace
 
 // @param composes  where `through` or `mean` stands in for the sum
-const gl::Program* Renderer::State::displayProgram(bool linear, bool composes, bool scaled) const {
+const gl::Program* Renderer::State::displayProgram(bool linear, bool composes) const {
     std::vector<std::string> defines;
     if (linear) defines.push_back("LINEAR");
     if (composes) defines.push_back("COMPOSED");
-    if (scaled) defines.push_back("SCALED");
     return context.program("frame/display", defines);
 }
 
 // @param from  null: whence it was drawn
 Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene,
                                       graph::TextureId target, bool linear, const views::Eye* from) {
-    const bool scaled = kept.light && !linear;
-    const gl::Program* program = displayProgram(linear, composed || averaged || scaled, scaled);
+    const bool shows = kept.light && !linear; // what is kept
+    const gl::Program* program = displayProgram(linear, composed || averaged || shows);
     const views::Eye eye = views::makeEye(scene, aspect());
     DisplayBlock block = displayOf(scene, eye);
     if (linear) {
@@ -95,32 +95,48 @@ Status Renderer::State::recordDisplay(graph::FrameGraph& graph, const scene::Sce
         block.shift = vec4(0);
         block.isHeat = 0;
     }
-    if (scaled) {
-        block.texels = vec2(kept.light.desc().size) / vec2(screen);
-        block.isScalar = 0; // its channels are alike
-    }
+    if (shows) block.isScalar = 0; // its channels are alike
     const graph::TextureId surfaceId = import(graph, shownSurface);
     graph::TextureId shownId;
-    if (!scaled) {
+    if (!shows) {
         shownId = import(graph, finished());
     } else {
         const Result<graph::TextureId> seen = recordReprojected(graph, scene, from ? *from : kept.eye);
         if (!seen) return seen.error();
         shownId = *seen;
     }
+    const bool scales = shows && kept.light.desc().size != screen;
+    TextureId small;
     graph.addPass("frame.display", [&](graph::PassBuilder& pass) -> graph::Execute {
         pass.reason(linear ? "linear values for a file" : "exposure, clamp and sRGB curve for the display");
         pass.sample(surfaceId);
         pass.sample(shownId);
-        pass.write(target);
+        if (scales)
+            small = pass.createColor("frame.small", {.size = kept.light.desc().size, .linear = true});
+        else
+            pass.write(target);
         return [=](const graph::Resources& resources, graph::Commands& commands) {
             commands.draw({.program = program,
                            .block = block,
                            .textures = {{"uSurface", resources[surfaceId]}, {"uSum", resources[shownId]}}});
         };
     });
+    if (scales) recordScaled(graph, small, target);
     graph.keep(target);
     return Done{};
+}
+
+void Renderer::State::recordScaled(graph::FrameGraph& graph, TextureId small, TextureId target) {
+    const gl::Program* program = scaledProgram();
+    graph.addPass("frame.scaled", [&](graph::PassBuilder& pass) -> graph::Execute {
+        pass.reason("a preview of fewer pixels, smoothed between them");
+        pass.sample(small);
+        pass.write(target);
+        const ScaledBlock block{.pixels = vec2(screen)};
+        return [=](const graph::Resources& resources, graph::Commands& commands) {
+            commands.draw({.program = program, .block = block, .textures = {{"uShown", resources[small]}}});
+        };
+    });
 }
 
 void Renderer::State::takeOther(const Beside& beside) {

@@ -337,9 +337,11 @@ struct Renderer::State {
 
     std::vector<std::string> leftOut(const technique::Picture& picture) const;
     Result<Image> display(const scene::Scene& scene, bool linear);
-    const gl::Program* displayProgram(bool linear, bool composes, bool scaled = false) const;
+    const gl::Program* displayProgram(bool linear, bool composes) const;
+    const gl::Program* scaledProgram() const { return context.program("frame/scaled"); }
     Status recordDisplay(graph::FrameGraph& graph, const scene::Scene& scene, graph::TextureId target,
                          bool linear, const views::Eye* from = nullptr);
+    void recordScaled(graph::FrameGraph& graph, graph::TextureId small, graph::TextureId target);
     Status recordBeside(graph::FrameGraph& graph, const scene::Scene& scene, const Beside& beside);
     void takeOther(const Beside& beside);
     const graph::Texture& picture() const { return composed ? through : shown; }

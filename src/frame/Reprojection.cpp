@@ -44,6 +44,7 @@ Renderer::State::Reprojecting Renderer::State::reprojecting(const scene::Scene& 
 
 // How far what the picture shows lies from the eye. Its samples share that of the first.
 Status Renderer::State::recordDepth(const Passes& passes) {
+    if (own && size != screen) (void)scaledProgram(); // it is made meanwhile
     if (!isReprojected(passes.picture.scene)) {
         depth = graph::Texture();
         return Done{};

@@ -110,6 +110,21 @@ TEST_F(Reprojection, SoIsAWholePictureWhileTheNextIsDrawn) {
     EXPECT_LT(reprojected, 0.25 * before);
 }
 
+// Overexposed, all is black or white. What a display shows is smoothed: light would be white far beyond
+// outlines. With twice the pixels, shares of four texels are sixteenths.
+TEST_F(Reprojection, PreviewsAreSmoothedAsTheyAreShown) {
+    scene.objects.erase(scene.objects.begin());
+    scene.view.exposure = 12;
+    draw(true);
+    int between = 0;
+    for (const float value : shown().pixels) {
+        const float sixteenths = 16 * value;
+        EXPECT_NEAR(sixteenths, std::round(sixteenths), 16 * 1.01f / 255) << "a display has 255 steps";
+        between += value > 0.1f && value < 0.9f;
+    }
+    EXPECT_GT(between, 100);
+}
+
 // It moves with its surface, not with what is seen through it.
 TEST_F(Reprojection, GlassMovesWithItsSurface) {
     for (std::size_t i : {2, 3})
