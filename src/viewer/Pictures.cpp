@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kSlowPreview = 0.1,
                  kFastPreview = 0.025; // s: ten a second, and what a quarter of their pixels takes
-constexpr int kMostDownscale = 8;
+constexpr int kMostDownscale = 12;
 // Pixels that a preview has along its shorter side: one that is reprojected between pictures, and one that is
 // not.
-constexpr int kLeastSide = 96, kLeastAlone = 60;
+constexpr int kLeastSide = 96, kLeastAlone = 40;
 constexpr double kLong = 1, kLongLeft = 2; // s: that are past, and left, before time left is told
 
 } // namespace
@@ -45,12 +45,16 @@ int Viewer::State::mostDownscale() const {
 // Previews have fewer pixels until ten fit into a second.
 void Viewer::State::learnDownscale(double took) {
     const int before = downscale;
-    if (took > kSlowPreview)
+    // One that was late is no reason; the first of a size also makes what it is drawn into.
+    previewTook = (previewTook > 0 ? previewTook + took : took) / 2;
+    if (previewTook > kSlowPreview)
         downscale *= 2;
-    else if (took < kFastPreview)
+    else if (std::max(previewTook, took) < kFastPreview)
         downscale /= 2;
     downscale = std::clamp(downscale, 1, mostDownscale());
-    if (downscale != before) settled = false; // it is told
+    if (downscale == before) return;
+    previewTook = 0;
+    settled = false; // it is told
 }
 
 // How long what is done now will take, going by what it has taken.

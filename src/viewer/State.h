@@ -80,10 +80,11 @@ struct Viewer::State {
     std::uint64_t paintedRevision = 0;                  // of the camera that it is shown for
     ivec2 picturePixels{0};
     Phase phase = Phase::Done;
-    int samples = 0;       // of each pixel of what is shown
-    int stage = 0;         // frame::Progress::stage of what is shown
-    int downscale = 1;     // of previews, see frame::Renderer::advance()
-    double phaseBegan = 0; // s: of a preview, and then of what follows it
+    int samples = 0;        // of each pixel of what is shown
+    int stage = 0;          // frame::Progress::stage of what is shown
+    int downscale = 1;      // of previews, see frame::Renderer::advance()
+    double previewTook = 0; // s: smoothed over those with as many pixels; 0: there is none
+    double phaseBegan = 0;  // s: of a preview, and then of what follows it
     // What is done on the picture now: since when [s], and how much of it was done then.
     struct {
         frame::Task task = frame::Task::Settings;
