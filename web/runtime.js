@@ -85,8 +85,8 @@ export class Runtime {
     return runtime;
   }
 
-  static #kBetween = 4; // ms from one look at work that waits for the GPU to the next,
-  static #kFrame = 16; // of one frame,
+  static #kBetween = 2; // ms from one look at work that waits for the GPU to the next,
+  static #kLate = 24; // after a picture, when the next one has taken longer than a frame,
   static #kMostBetween = 100; // and after a frame until a page is hidden
 
   #kind;
@@ -94,9 +94,9 @@ export class Runtime {
   #canvas;
   #gl;
   #frame = 0;
-  #now = 0; // ms: of the last frame,
-  #ticked = 0; // and when it ended
-  #isEarly = false; // it was drawn before the browser's own
+  #now = 0; // ms: of the last picture,
+  #framed = 0; // when the browser's last frame ended
+  #drawn = 0; // and when there was a new picture last
   #timer = 0; // of the next look at work, before the next frame
   #lost = false;
   #ended = null; // why the module does nothing any more
@@ -218,7 +218,9 @@ export class Runtime {
     resize(this.#canvas, width, height);
     const before = this.call('viewer_draw_count', handle);
     const more = this.call('viewer_draw', handle, seconds) === 1;
-    return { more, drawn: this.call('viewer_draw_count', handle) !== before };
+    const drawn = this.call('viewer_draw_count', handle) !== before;
+    if (drawn) this.#drawn = performance.now();
+    return { more, drawn };
   }
 
   /**
@@ -253,8 +255,9 @@ export class Runtime {
   #schedule() {
     if (this.#wanting.size && !this.#frame && !this.#lost)
       this.#frame = requestAnimationFrame((now) => {
-        this.#isEarly = false;
         this.#tick(now);
+        this.#framed = performance.now();
+        this.#lookLater();
       });
   }
 
@@ -275,16 +278,13 @@ export class Runtime {
     const draw = (viewer) => viewer.render(this.#now / 1000) || this.#wanting.delete(viewer);
     if (!this.#forEachWanting(draw)) return;
     this.#schedule();
-    this.#ticked = performance.now();
-    this.#lookLater();
   }
 
-  // A picture takes many waits for the GPU, which seldom end with a frame. One that is there does not wait for the next
-  // frame either where it took longer than one: the GPU would have nothing to do. Hidden pages have no frames, and draw
-  // once at most.
+  // A picture takes many waits for the GPU, which seldom end with a frame. One that is there late does not wait for the
+  // next frame either: the GPU would have nothing to do. Hidden pages have no frames, and soon draw nothing.
   #lookLater() {
     clearTimeout(this.#timer);
-    if (!this.#frame || performance.now() - this.#ticked > Runtime.#kMostBetween) return;
+    if (!this.#frame || performance.now() - this.#framed > Runtime.#kMostBetween) return;
     this.#timer = setTimeout(() => {
       let [works, shows] = [false, false];
       const work = (viewer) => {
@@ -292,11 +292,12 @@ export class Runtime {
         [works, shows] = [works || more, shows || waits];
       };
       if (!this.#forEachWanting(work)) return;
-      if (shows && !this.#isEarly && performance.now() - this.#ticked > Runtime.#kFrame) {
-        this.#isEarly = true;
+      if (shows && performance.now() - this.#drawn > Runtime.#kLate) {
         cancelAnimationFrame(this.#frame);
         this.#tick(performance.now());
-      } else if (works) this.#lookLater();
+        works = true;
+      }
+      if (works || shows) this.#lookLater();
     }, Runtime.#kBetween);
   }
 
