@@ -8,8 +8,8 @@ namespace lucent::viewer {
 
 namespace {
 
-constexpr double kSlowPreview = 0.1,
-                 kFastPreview = 0.025; // s: ten a second, and what a quarter of their pixels takes
+// s: ten a second, with what a page does between them; and what a quarter of the pixels takes
+constexpr double kSlowPreview = 0.09, kFastPreview = 0.022;
 constexpr int kMostDownscale = 12;
 // Pixels that a preview has along its shorter side: one that is reprojected between pictures, and one that is
 // not.
