@@ -33,7 +33,8 @@ struct Progress {
     int samples = 0; ///< of the pixels, whose mean is shown; 0: no more than a preview
     int stage = 0;   ///< grows whenever what is shown becomes better
     Task task = Task::Settings;
-    float share = 0; ///< of the task's work that is done, about, [0,1]
+    float share = 0;          ///< of the task's work that is done, about, [0,1]
+    bool drawsProbes = false; ///< reflection probes, which pictures after it keep: these take less time
 };
 
 /// What the last complete picture cost.

@@ -282,7 +282,7 @@ struct Renderer::State {
     // Surroundings.cpp
     Status survey(const Moment& moment);
     void surveyCubes(const Moment& moment, std::vector<views::Probe> asked);
-    void makeCubes();
+    void makeCubes(int side);
     void surveyFlat(const Moment& moment, std::vector<views::FlatMirror> asked);
     Result<bool> lookAround(const Moment& moment);
     scene::Scene sceneFor(const Moment& moment, const Aside& aside) const;

@@ -200,7 +200,9 @@ Progress Renderer::State::progressOf(const scene::Scene& scene, Effort effort) c
                       .samples = samples,
                       .stage = int(stage),
                       .task = samples > 0 ? Task::Samples : Task::Picture,
-                      .share = 1};
+                      .share = 1,
+                      .drawsProbes = std::any_of(asides.begin(), asides.end(),
+                                                 [](const Aside& aside) { return aside.cube >= 0; })};
     if (progress.complete) return progress;
     const bool hasPlanned = told.task == Task::Settings && told.share > 0;
     if (planning || (hasPlanned && !surveyed)) { // what follows is not known yet

@@ -21,8 +21,10 @@ using graph::TextureId;
 namespace {
 
 constexpr int kFaces = 6;
-constexpr int kLeastFace = 32, kMostFace = 512; // pixels a side
+constexpr int kLeastFace = 32, kMostFace = 512; // pixels a side,
+constexpr int kPreviewFace = 64;                // and where there are previews alone
 constexpr int kLeastDirections = 16;            // of an environment: a quarter, for six faces
+constexpr const char* kCoarseKey = " coarse";   // of what is drawn for previews
 constexpr float kLeastFlat = 1.0f / 4096;       // of the picture: what covers less is seen by the cube
 
 // A face shows a quarter of a turn: as many pixels as the picture has along its longer side hold twice the
@@ -114,8 +116,6 @@ Status Renderer::State::survey(const Moment& moment) {
     surveyed = true;
     asides.clear();
     asideScene.reset();
-    // Cubes are as fine as the whole picture: a preview with fewer pixels shows less of them.
-    surroundings.texelsALook = views::kTexelsALook * std::max(1.0f, float(screen.x) / float(size.x));
     const bool isColor = moment.scene.view.show == scene::Aov::Color;
     if (given || (keepsCubes && !isColor)) return Done{};
     views::Probes asked;
@@ -144,23 +144,35 @@ Status Renderer::State::survey(const Moment& moment) {
 void Renderer::State::surveyCubes(const Moment& moment, std::vector<views::Probe> asked) {
     probesLeft = asked.size() - std::min(asked.size(), std::size_t(views::kMostCubes));
     asked.resize(asked.size() - probesLeft);
-    if (asked != surroundings.cubes) {
+    const bool moved = asked != surroundings.cubes;
+    if (moved) {
         surroundings.cubes = asked;
         surroundings.faces.assign(asked.size(), 0);
         facesShown.assign(asked.size(), 0);
         cubesFor.reset();
     }
-    const bool draws = !asked.empty() && !isCoarse(); // a preview has the picture's cubes
+    // A preview has the picture's cubes. What plays or is dragged before there are any has small ones, unless
+    // they would move with it.
+    const bool isFirst = isCoarse() && !cubesFor && !isNew && !moved;
+    const bool draws = !asked.empty() && (!isCoarse() || isFirst);
     if (draws) {
         SceneKey key = keepsCubes ? sceneryKey(moment.scene) : sceneKey(moment.scene);
+        if (isFirst) key.text += kCoarseKey;
         if (cubesFor != key) {
             cubesFor = std::move(key);
             surroundings.faces.assign(asked.size(), 0);
             for (std::size_t cube = 0; cube < asked.size(); ++cube)
-                facesShown[cube] = facesWithAnything(moment.scene, asked[cube]);
+                facesShown[cube] =
+                    facesWithAnything(moment.scene, asked[cube]) & (isFirst ? (1 << kFaces) - 1 : ~0);
         }
     }
-    makeCubes();
+    const int full = faceSize(screen, asked.size());
+    makeCubes(draws            ? (isFirst ? std::min(full, kPreviewFace) : full)
+              : aroundRadiance ? aroundRadiance.desc().size.x
+                               : full);
+    // A preview with fewer pixels shows less of them.
+    const float face = float(aroundRadiance.desc().size.x) / float(full);
+    surroundings.texelsALook = views::kTexelsALook * std::max(1.0f, face * float(screen.x) / float(size.x));
     if (!draws) return;
     for (std::size_t cube = 0; cube < asked.size(); ++cube)
         for (int face = 0; face < 2 * kFaces; ++face)
@@ -168,14 +180,13 @@ void Renderer::State::surveyCubes(const Moment& moment, std::vector<views::Probe
                 asides.push_back({.cube = int(cube), .face = face % kFaces, .second = face >= kFaces});
 }
 
-// Of the size for the faces that are shown.
-void Renderer::State::makeCubes() {
+// With so many pixels a side.
+void Renderer::State::makeCubes(int side) {
     const int count = int(surroundings.cubes.size());
     const bool hides =
         std::any_of(facesShown.begin(), facesShown.end(), [](int faces) { return faces >> kFaces; });
-    TextureDesc desc{.size = ivec2(faceSize(screen, surroundings.cubes.size())),
-                     .format = Format::RGBA16F,
-                     .layers = kFaces * count * (hides ? 2 : 1)};
+    TextureDesc desc{
+        .size = ivec2(side), .format = Format::RGBA16F, .layers = kFaces * count * (hides ? 2 : 1)};
     if (aroundRadiance && (count == 0 || aroundRadiance.desc() != desc)) {
         surroundings.faces.assign(surroundings.cubes.size(), 0);
         aroundRadiance = graph::Texture();
@@ -215,7 +226,7 @@ void Renderer::State::surveyFlat(const Moment& moment, std::vector<views::FlatMi
             flatFor.reset();
         }
         std::pair<SceneKey, mat4> key{sceneKey(moment.scene), moment.eye.clipFromWorld};
-        if (isCoarse()) key.first.text += " coarse";
+        if (isCoarse()) key.first.text += kCoarseKey;
         if (flatFor != key) flatDrawn = 0;
         flatFor = std::move(key);
         for (int i = 0; i < int(surroundings.flat.size()); ++i) // after the cubes: the last is drawn first

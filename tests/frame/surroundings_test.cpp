@@ -201,6 +201,34 @@ TEST_F(Surroundings, RaysThatLeaveGlassForWhatTheCameraDoesNotSeeMeetIt) {
     EXPECT_GT(differenceOf(picture(), exact).worse, 0.1);
 }
 
+// What plays has no other picture: the first preview is a quick one, the second looks around, and once.
+TEST_F(Surroundings, PreviewsLookAroundThemselvesWhereNoPictureHas) {
+    scene.camera = {.type = scene::Camera::Type::Perspective, .eye = {0, 0, 3}, .fov = 36};
+    addSky({0.1f, 0.1f, 0.2f});
+    add(scene::Sphere{1}, {0, 0, 0}).material.kind = scene::Clear{};
+    addGlowing(scene::Plane{{8, 8}}, {0, -1.3f, 0}, {0.9f, 0.5f, 0.2f});
+    addGlowing(scene::Box{{8, 8, 0.1f}}, {0, 0, 5}, {0.1f, 0.6f, 0.1f});
+    const Image exact = truth();
+    Renderer renderer(*context);
+    std::uint64_t revision = 0;
+    const auto preview = [&] { // with the pixels of the exact picture, and passes it took
+        ++revision;
+        for (;;) {
+            const Result<Progress> progress = renderer.advance(scene, revision, 2 * scene.size, true, 2);
+            EXPECT_TRUE(progress.ok());
+            if (!progress || progress->complete) break;
+        }
+        const Result<Image> shown = renderer.read(scene, scene::Aov::Color);
+        EXPECT_TRUE(shown.ok());
+        return std::pair(differenceOf(*shown, exact).worse, renderer.stats().passes);
+    };
+    const auto first = preview(), second = preview(), third = preview();
+    EXPECT_GT(first.first, 0.1);
+    EXPECT_LT(second.first, 0.05);
+    EXPECT_EQ(third.first, second.first);
+    EXPECT_LT(third.second, second.second - 5);
+}
+
 TEST_F(Surroundings, WhatAnObjectHidesFromTheMiddleIsSeenFromTheRim) {
     // From the middle of the mirror the ball hides all of the box; beside the middle of its image, none of
     // it.
