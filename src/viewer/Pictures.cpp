@@ -9,7 +9,7 @@ namespace lucent::viewer {
 namespace {
 
 // s: ten a second, with what a page does between them; and what a quarter of the pixels takes
-constexpr double kSlowPreview = 0.09, kFastPreview = 0.022;
+constexpr double kSlowPreview = 0.085, kFastPreview = 0.021;
 constexpr int kMostDownscale = 12;
 // Pixels that a preview has along its shorter side: one that is reprojected between pictures, and one that is
 // not.
@@ -33,6 +33,7 @@ void Viewer::State::begin() {
     stale = stopping = false;
     drawingProgress.reset();
     phase = Phase::Preview;
+    isTypical = true;
     downscale = std::min(downscale, mostDownscale());
     phaseBegan = secondsNow();
 }
@@ -45,8 +46,8 @@ int Viewer::State::mostDownscale() const {
 // Previews have fewer pixels until ten fit into a second.
 void Viewer::State::learnDownscale(double took) {
     const int before = downscale;
-    // One that was late is no reason; the first of a size also makes what it is drawn into.
-    previewTook = (previewTook > 0 ? previewTook + took : took) / 2;
+    // A few that were late are no reason; the first of a size also makes what it is drawn into.
+    previewTook = previewTook > 0 ? glm::mix(previewTook, took, 0.25) : took / 2;
     if (previewTook > kSlowPreview)
         downscale *= 2;
     else if (std::max(previewTook, took) < kFastPreview)
@@ -97,6 +98,7 @@ bool Viewer::State::advance() {
         return false;
     }
     if (!isPreview) estimate(*progress);
+    isTypical &= !progress->drawsProbes;
     const bool better = phase != Phase::Smooth || progress->samples > samples;
     samples = progress->samples;
     if (!progress->complete && (isPreview || !better)) return false;
@@ -105,7 +107,7 @@ bool Viewer::State::advance() {
     if (isPreview) {
         const bool whole = samples > 0 && downscale == 1; // nothing was coarse
         phase = whole ? Phase::Smooth : Phase::Refine;
-        learnDownscale(secondsNow() - phaseBegan);
+        if (isTypical) learnDownscale(secondsNow() - phaseBegan);
         phaseBegan = secondsNow();
         stage = 0;
     } else {

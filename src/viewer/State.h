@@ -84,6 +84,7 @@ struct Viewer::State {
     int stage = 0;          // frame::Progress::stage of what is shown
     int downscale = 1;      // of previews, see frame::Renderer::advance()
     double previewTook = 0; // s: smoothed over those with as many pixels; 0: there is none
+    bool isTypical = true;  // of a preview: nothing is drawn that later ones keep
     double phaseBegan = 0;  // s: of a preview, and then of what follows it
     // What is done on the picture now: since when [s], and how much of it was done then.
     struct {
