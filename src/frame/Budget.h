@@ -7,8 +7,10 @@
 /// many more of its own. What a technique does hangs on the pixels: it is tried on pictures of up to
 /// kMostSide, against all that there is or against the next value. Twice that change stands for the error:
 /// each step has four times as many samples, or twice as many rays a side, and halves the error at least
-/// where it falls with the square root of the samples and in proportion to the rays' distance. Where each
-/// sample of a pixel has light samples of its own, their mean errs less, which is counted.
+/// where it falls with the square root of the samples and in proportion to the rays' distance. The last
+/// step's is foretold where the two before it leave no doubt: the one that it would be held against costs the
+/// most. The environment's directions are few in these pictures, and the same. Where each sample of a pixel
+/// has light samples of its own, their mean errs less, which is counted.
 
 #include "base/Image.h"
 #include "frame/Renderer.h"
@@ -101,6 +103,7 @@ private:
     Result<std::optional<float>> errorOf(const scene::Scene& scene, const Turned& turned, Value tried,
                                          Value finer);
     Value finerThan(const Turned& turned, double number);
+    std::optional<float> foretold() const;
     float leftOf(const scene::Scene& scene, const Turned& turned) const;
     bool isWorthBaking(const scene::Scene& scene, const Turned& turned) const;
 
@@ -120,6 +123,7 @@ private:
     bool isDrawing_ = false;
     float shareOfTrial_ = 0;
     std::map<Trial, Image> drawn_;
+    std::vector<float> errors_;                       ///< of its steps up to now
     ivec2 size_{0};                                   ///< of trials
     std::optional<std::vector<std::size_t>> covered_; ///< pixels that show an object
     double reference_ = 0;                            ///< how many samples numbers are held against

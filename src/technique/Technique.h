@@ -54,7 +54,7 @@ struct Knob {
     bool costsLess = false;             ///< greater values cost less
     std::span<const double> steps = {}; ///< cheapest first; empty: only previews turn it
     double most = 0;         ///< each step is held against finer ones up to this, and the last may be chosen;
-                             ///< 0: each against the next, and the last is only drawn for that
+                             ///< 0: each against the next, and the last is never chosen
     bool showsOnFew = false; ///< its error is the same on a few hundred pixels of the picture
     bool bends = false;      ///< refracted rays must keep their directions too
     std::string_view words = "";                     ///< "rays a side"
