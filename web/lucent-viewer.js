@@ -37,57 +37,25 @@ import { isOfHtml, nearestName } from './names.js';
 import { PhotoBar } from './photos.js';
 import { question } from './question.js';
 import { LucentError, Runtime } from './runtime.js';
+import { Stage } from './stage.js';
 import { nextTask } from './task.js';
 import { TruthBar } from './truth.js';
 import { askUses } from './uses.js';
 import { camelCase, textOf, valueOf } from './values.js';
-import css from './viewer.css';
 import { Watch, WorkBar } from './workbar.js';
 
 const kMaxScale = 2; // device pixels a CSS pixel: more is not seen, but costs
 const kNear = '300px'; // around the window: within it viewers load and draw
 const kReleaseAfter = 4000; // ms off screen until the GPU memory goes back
-const kHintTime = 1600; // ms
 const kProfilesMs = 100; // between two calls for figures that take longer
 const kUp = 2; // of events of the pointer: see viewer_pointer in Api.h
-const kKeys =
-  'Arrow keys on a relief move the light or turn the environment, page up and page down raise or lower the light or ' +
-  'zoom, shift with arrow keys orbits the camera. Arrow keys in other scenes orbit the camera, page up and page down ' +
-  'zoom, shift with arrow keys turns the environment or moves the light, D lets a drop fall into water. Space plays or ' +
-  'pauses, L chooses the next lamp, 0 resets camera and light, question mark lists all keys, Escape leaves. In mode ' +
-  'paint brackets make the brush smaller and larger, 1 to 4 choose translucency, blur, glow and outgoing, X erases back ' +
-  'to how the object began, G fills.';
-
-const kStyle = new CSSStyleSheet();
-kStyle.replaceSync(css);
 const kDark = matchMedia('(prefers-color-scheme: dark)');
 const kCalm = matchMedia('(prefers-reduced-motion: reduce)');
-
-const kMarkup = `
-<div class="stage" part="stage">
-  <canvas tabindex="0" role="img" aria-describedby="keys"></canvas>
-  <img class="poster" part="poster" alt="">
-  <div class="zones"><div>New scene</div><div>Environment</div></div>
-  <input class="unseen" id="divider" type="range" min="0" max="1" step="0.01" hidden
-    aria-label="Divider: share of the picture left of it">
-  <button class="play" type="button" hidden></button>
-  <details class="undrawn" part="undrawn" hidden><summary></summary><ul></ul></details>
-  <div class="hint"></div>
-  <div class="status"></div>
-  <div class="bars"></div>
-</div>
-<div class="unseen" id="keys"></div>
-<div class="unseen" role="status"></div>`;
 
 export class LucentViewer extends HTMLElement {
   static observedAttributes = ['src', 'controls', 'poster', 'alt', 'truth'];
 
-  #root;
-  #canvas;
-  #poster;
-  #status;
-  #hint;
-  #divider; // what the keyboard moves the divider with
+  #stage = new Stage(this);
   #truth; // TruthBar
   #drawing = new WorkBar('drawing', 'Drawing', {
     label: 'Stop',
@@ -105,7 +73,6 @@ export class LucentViewer extends HTMLElement {
   #rmse; // that was said last
   #asked = false; // what becomes of what nobody paints
   #truthFetched = false; // the file was asked for since the scene was loaded
-  #voice; // what a screen reader says
   #twin;
   #runtime = null;
   #display = null; // the canvas's context
@@ -121,8 +88,6 @@ export class LucentViewer extends HTMLElement {
   #paintAsLoaded = ''; // see #paint()
   #near = false; // the element or its surroundings are on the screen
   #seen = false; // the element itself is
-  #play; // the button
-  #undrawn; // <details> that list what the scene asks for and the picture lacks
   #size = { width: 0, height: 0, scale: 1 };
   #controls = []; // descriptors with values
   #profilesLater;
@@ -139,19 +104,7 @@ export class LucentViewer extends HTMLElement {
 
   constructor() {
     super();
-    this.#root = this.attachShadow({ mode: 'open' });
-    this.#root.adoptedStyleSheets = [kStyle];
-    this.#root.innerHTML = kMarkup;
-    const find = (selector) => this.#root.querySelector(selector);
-    this.#canvas = find('canvas');
-    this.#poster = find('.poster');
-    this.#status = find('.status');
-    this.#hint = find('.hint');
-    this.#voice = find('[role=status]');
-    this.#play = find('.play');
-    this.#undrawn = find('.undrawn');
-    this.#play.addEventListener('click', () => (this.paused ? this.play() : this.pause()));
-    find('#keys').textContent = kKeys;
+    this.#stage.play.addEventListener('click', () => (this.paused ? this.play() : this.pause()));
     this.#twin = new Controls({
       set: (path, text) => this.#set(path, text),
       get: (path) => this.#runtime.text('viewer_get', this.#handle, path),
@@ -159,10 +112,10 @@ export class LucentViewer extends HTMLElement {
       act: (path) => this.act(path),
       focus: (path) => this.#apply('viewer_focus', path),
     });
-    this.#divider = find('#divider');
-    this.#divider.addEventListener('input', () => this.#set('divider', this.#divider.value));
-    this.#divider.addEventListener('focus', () => this.#apply('viewer_focus', 'divider'));
-    this.#divider.addEventListener('blur', () => this.#apply('viewer_focus', ''));
+    const { canvas, divider, zones } = this.#stage;
+    divider.addEventListener('input', () => this.#set('divider', divider.value));
+    divider.addEventListener('focus', () => this.#apply('viewer_focus', 'divider'));
+    divider.addEventListener('blur', () => this.#apply('viewer_focus', ''));
     this.#truth = new TruthBar({
       ask: () => this.#runtime.files('viewer_ask_truth', this.#handle),
       take: ({ pixels, width, height, noise }) =>
@@ -179,17 +132,17 @@ export class LucentViewer extends HTMLElement {
         this.#request();
       },
       fail: (error) => this.#fail(error),
-      say: (text) => this.#say(text),
+      say: (text) => this.#stage.say(text),
     });
-    find('.bars').append(this.#truth.element, this.#bake.element, this.#drawing.element, this.#loading.element);
-    new Gestures(this.#canvas, {
+    this.#stage.addBars(this.#truth.element, this.#bake.element, this.#drawing.element, this.#loading.element);
+    new Gestures(canvas, {
       pointer: (...event) => this.#pointer(...event),
       wheel: (...event) => this.#apply('viewer_wheel', ...event),
       pinch: (factor) => this.#apply('viewer_pinch', factor),
       key: (...event) => this.#apply('viewer_key', ...event),
-      hint: (touch) => this.#showHint(touch),
+      hint: (touch) => this.#stage.showHint(touch),
     });
-    acceptDrops(this, find('.zones'));
+    acceptDrops(this, zones);
   }
 
   connectedCallback() {
@@ -197,9 +150,9 @@ export class LucentViewer extends HTMLElement {
     attributes.observe(this, { attributes: true });
     const size = new ResizeObserver(([entry]) => this.#resized(entry));
     try {
-      size.observe(this.#canvas, { box: 'device-pixel-content-box' });
+      size.observe(this.#stage.canvas, { box: 'device-pixel-content-box' });
     } catch {
-      size.observe(this.#canvas); // Safari
+      size.observe(this.#stage.canvas); // Safari
     }
     const place = new IntersectionObserver(([entry]) => this.#moved(entry.isIntersecting), { rootMargin: kNear });
     place.observe(this);
@@ -223,8 +176,8 @@ export class LucentViewer extends HTMLElement {
   }
 
   attributeChangedCallback(name, _, value) {
-    if (name === 'alt') this.#canvas.ariaLabel = value ?? '';
-    if (name === 'poster') value === null ? this.#poster.removeAttribute('src') : (this.#poster.src = value);
+    if (name === 'alt') this.#stage.canvas.ariaLabel = value ?? '';
+    if (name === 'poster') value === null ? this.#stage.poster.removeAttribute('src') : (this.#stage.poster.src = value);
     if (name === 'controls') {
       this.#layout();
       if (this.loaded) this.#showUndrawn();
@@ -438,9 +391,9 @@ export class LucentViewer extends HTMLElement {
     this.#apply('viewer_bare', 1);
     await this.#whenFinished();
     const copy = document.createElement('canvas');
-    copy.width = this.#canvas.width;
-    copy.height = this.#canvas.height;
-    copy.getContext('2d').drawImage(this.#canvas, 0, 0);
+    copy.width = this.#stage.canvas.width;
+    copy.height = this.#stage.canvas.height;
+    copy.getContext('2d').drawImage(this.#stage.canvas, 0, 0);
     this.#capturing = false;
     this.#apply('viewer_bare', 0);
     this.#layout();
@@ -517,7 +470,7 @@ export class LucentViewer extends HTMLElement {
   async openFile(files, kind = 'scene') {
     const all = files instanceof Blob ? [files] : [...files];
     const task = ++this.#task;
-    this.#status.textContent = 'Loading…';
+    this.#stage.status = 'Loading…';
     try {
       if (kind === 'environment') return await this.#openEnvironment(task, all[0]);
       const start = (whole) => Runtime.shared(whole);
@@ -547,8 +500,8 @@ export class LucentViewer extends HTMLElement {
     return this.#handle && this.#size.width > 0 && !this.#adopting && (this.#near || this.#settled.length > 0);
   }
   contextLost() {
-    this.#poster.hidden = false;
-    this.#status.textContent = 'Waiting for the graphics card…';
+    this.#stage.poster.hidden = false;
+    this.#stage.status = 'Waiting for the graphics card…';
     this.#emit('contextlost');
   }
   contextRestored(message) {
@@ -593,10 +546,10 @@ export class LucentViewer extends HTMLElement {
 
   #bring(files) {
     return bringScene(files, {
-      ask: (pictures) => askUses(this.#root, pictures),
+      ask: (pictures) => askUses(this.#stage.root, pictures),
       solve: (light, photos) => {
-        this.#status.textContent = '';
-        this.#root.querySelector('.bars').append(this.#photos.element);
+        this.#stage.status = '';
+        this.#stage.addBars(this.#photos.element);
         return this.#photos.solve(light, photos);
       },
     });
@@ -605,7 +558,7 @@ export class LucentViewer extends HTMLElement {
   // @param scene  {path, files, sources} of a person's own; null: they went back
   async #openScene(task, scene) {
     if (task !== this.#task) return false;
-    if (!scene) this.#status.textContent = '';
+    if (!scene) this.#stage.status = '';
     if (!scene) return false;
     const seat = await this.#seat(task, needsWhole(scene.files.get(scene.path)));
     const load = () => loadFiles(seat, scene);
@@ -692,7 +645,7 @@ export class LucentViewer extends HTMLElement {
     if (this.#handle) this.#runtime.drop(this.#handle, this);
     this.#runtime = runtime;
     this.#handle = handle;
-    this.#display ??= this.#canvas.getContext(runtime.displayContext);
+    this.#display ??= this.#stage.canvas.getContext(runtime.displayContext);
     runtime.add(this);
     this.#themeChanged();
     this.#layout();
@@ -702,7 +655,7 @@ export class LucentViewer extends HTMLElement {
   // A material was chosen that the module of reliefs does not draw: the viewer goes on in the whole one.
   async #moveToWhole() {
     const task = ++this.#task;
-    this.#status.textContent = 'Loading…';
+    this.#stage.status = 'Loading…';
     try {
       const seat = await this.#seat(task, true);
       if (!seat) return;
@@ -724,7 +677,7 @@ export class LucentViewer extends HTMLElement {
     if (!this.src || this.src === this.#src) return;
     const task = (this.#leaving = ++this.#task);
     this.#src = this.src;
-    this.#status.textContent = 'Loading…';
+    this.#stage.status = 'Loading…';
     this.#fetching.abort();
     this.#loading.show(undefined);
     const mine = (this.#fetching = new AbortController());
@@ -758,18 +711,18 @@ export class LucentViewer extends HTMLElement {
 
   // The person ended a load: what was shown stays.
   #cancelled() {
-    this.#status.textContent = this.loaded ? '' : 'Loading was cancelled';
-    this.#say('Loading was cancelled');
+    this.#stage.status = this.loaded ? '' : 'Loading was cancelled';
+    this.#stage.say('Loading was cancelled');
   }
 
   // A new scene is there: its parameters become attributes, properties and controls.
   #takeScene(name, src, how) {
-    this.#status.textContent = 'Drawing…';
+    this.#stage.status = 'Drawing…';
     this.#complete = false;
     this.#shown = src;
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#defineProperties();
-    this.#root.querySelector('.question')?.remove();
+    this.#stage.closeQuestion();
     const given = this.#controls.filter(({ attribute }) => attribute && this.hasAttribute(attribute));
     for (const control of given) this.#setFromAttribute(control);
     if (given.length > 0) this.#controls = this.#runtime.json('viewer_controls', this.#handle);
@@ -796,9 +749,9 @@ export class LucentViewer extends HTMLElement {
   // In the picture, and for those who do not see it.
   #tell(message) {
     if (this.#handle) this.#apply('viewer_message', message);
-    const covered = !this.#handle || (this.poster && !this.#poster.hidden);
-    this.#status.textContent = covered ? message : '';
-    this.#say(message);
+    const covered = !this.#handle || (this.poster && !this.#stage.poster.hidden);
+    this.#stage.status = covered ? message : '';
+    this.#stage.say(message);
   }
 
   #destroy() {
@@ -931,7 +884,9 @@ export class LucentViewer extends HTMLElement {
     if (changed.some(({ path }) => path === 'mode')) this.#askBeforePaint();
     this.#emit('edit');
     for (const control of changed) this.#emit('change', { path: control.path, value: valueOf(control, control.value) });
-    if (changed.length && this.#root.activeElement === this.#canvas) this.#sayLater(changed[0]);
+    if (!changed.length || !this.#stage.hasFocus) return;
+    const [{ label, value, unit }] = changed;
+    this.#stage.sayLater(`${label} ${value} ${unit}`);
   }
 
   // The first stroke decides what becomes of the rest of an object.
@@ -951,27 +906,16 @@ export class LucentViewer extends HTMLElement {
         ['They become opaque: light goes inside only where I paint', opaque],
       ],
     );
-    this.#root.querySelector('.stage').append(dialog);
+    this.#stage.ask(dialog);
   }
 
   #showPlay() {
-    const label = this.paused ? 'Play' : 'Pause';
-    this.#play.hidden = !this.moves;
-    if (this.#play.ariaLabel !== label) Object.assign(this.#play, { ariaLabel: label, title: label });
-    this.#play.classList.toggle('playing', !this.paused);
+    this.#stage.showPlay(this.moves, this.paused);
   }
 
   // Beside the other controls; stats() says it to whoever shows a picture without them.
   #showUndrawn() {
-    const { notDrawn } = this.stats();
-    const [title, list] = this.#undrawn.children;
-    this.#undrawn.hidden = this.controls === null || !notDrawn.length;
-    title.textContent = `Not drawn (${notDrawn.length})`;
-    const lines = [...list.children].map((item) => item.textContent);
-    if (lines.join('\n') === notDrawn.join('\n')) return;
-    list.replaceChildren(
-      ...notDrawn.map((textContent) => Object.assign(document.createElement('li'), { textContent })),
-    );
+    this.#stage.showUndrawn(this.stats().notDrawn, this.controls !== null);
   }
 
   // ---- the truth ----
@@ -981,8 +925,8 @@ export class LucentViewer extends HTMLElement {
     if (!this.loaded) return;
     const comparison = this.comparison();
     const { mode, divider, truth } = comparison;
-    this.#divider.hidden = mode === 'off' || (truth === 'none' && mode !== 'methods' && mode !== 'materials');
-    this.#divider.value = divider;
+    this.#stage.divider.hidden = mode === 'off' || (truth === 'none' && mode !== 'methods' && mode !== 'materials');
+    this.#stage.divider.value = divider;
     if (mode !== 'off' && truth === 'none' && this.truth && !this.#truthFetched && !this.#truth.busy) {
       this.#truthFetched = true;
       this.#truth.fetch(new URL(this.truth, document.baseURI), this.truthNoise);
@@ -994,7 +938,7 @@ export class LucentViewer extends HTMLElement {
     const { rmse, right } = this.comparison();
     const said = [rmse, right?.rmse].filter((one) => one !== undefined).map((one) => one.toPrecision(2));
     if (said.length && said.join() !== this.#rmse)
-      this.#say(`Root mean square error ${said.join(' on the left, on the right ')}`);
+      this.#stage.say(`Root mean square error ${said.join(' on the left, on the right ')}`);
     this.#rmse = said.join();
   }
 
@@ -1010,13 +954,13 @@ export class LucentViewer extends HTMLElement {
   #takePicture(drawn) {
     const { complete, finished, shown, progress, bake, open } = this.stats();
     this.#bake.update(bake);
-    if (drawn) this.#placeBars(open);
+    if (drawn) this.#stage.placeBars(open);
     if (drawn && (complete || !this.#capturing)) this.#runtime.show(this.#display);
     this.#complete = complete;
     this.#drawing.show(progress);
     if (drawn && shown) {
-      this.#poster.hidden = true;
-      this.#status.textContent = '';
+      this.#stage.poster.hidden = true;
+      this.#stage.status = '';
     }
     if (complete) {
       this.#sayNumbers();
@@ -1025,12 +969,6 @@ export class LucentViewer extends HTMLElement {
     if (finished) this.#settled.splice(0).forEach((resolve) => resolve());
     if (drawn) this.#emit('frame', { complete });
     return shown;
-  }
-
-  // Where neither panel nor numbers are.
-  #placeBars([width, height]) {
-    const bars = this.#root.querySelector('.bars');
-    Object.assign(bars.style, { bottom: `calc(100% - ${height - 12}px)`, maxWidth: `${width - 24}px` });
   }
 
   #whenFinished() {
@@ -1088,7 +1026,7 @@ export class LucentViewer extends HTMLElement {
     const twin = this.#twin.element;
     twin.classList.toggle('shown', below);
     if (!wanted) twin.remove();
-    else if (!twin.parentNode) this.#root.append(twin); // moved within the page it would lose the focus
+    else if (!twin.parentNode) this.#stage.root.append(twin); // moved within the page it would lose the focus
     this.#apply('viewer_panel', wanted && !below ? 1 : 0);
   }
 
@@ -1109,25 +1047,6 @@ export class LucentViewer extends HTMLElement {
   #sighted(seen) {
     this.#seen = seen;
     if (seen) this.#request();
-  }
-
-  // ---- talking to the person ----
-
-  #showHint(touch) {
-    this.#hint.textContent = touch ? 'Tap to interact, or use two fingers' : 'Click to interact; Esc to leave';
-    this.#hint.classList.add('shown');
-    clearTimeout(this.#timers.hint);
-    this.#timers.hint = setTimeout(() => this.#hint.classList.remove('shown'), kHintTime);
-  }
-
-  #say(text) {
-    this.#voice.textContent = text;
-  }
-
-  // One word after a gesture, not a hundred during it.
-  #sayLater({ label, value, unit }) {
-    clearTimeout(this.#timers.voice);
-    this.#timers.voice = setTimeout(() => this.#say(`${label} ${value} ${unit}`), 400);
   }
 
   #emit(type, detail) {
