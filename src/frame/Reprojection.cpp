@@ -44,7 +44,10 @@ Renderer::State::Reprojecting Renderer::State::reprojecting(const scene::Scene& 
 
 // How far what the picture shows lies from the eye. Its samples share that of the first.
 Status Renderer::State::recordDepth(const Passes& passes) {
-    if (own && size != screen) (void)scaledProgram(); // it is made meanwhile
+    if (own && size != screen) { // they are made meanwhile
+        (void)displayProgram(false, true);
+        (void)scaledProgram();
+    }
     if (!isReprojected(passes.picture.scene)) {
         depth = graph::Texture();
         return Done{};

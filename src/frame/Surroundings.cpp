@@ -151,28 +151,31 @@ void Renderer::State::surveyCubes(const Moment& moment, std::vector<views::Probe
         facesShown.assign(asked.size(), 0);
         cubesFor.reset();
     }
-    // A preview has the picture's cubes. What plays or is dragged before there are any has small ones, unless
-    // they would move with it.
-    const bool isFirst = isCoarse() && !cubesFor && !isNew && !moved;
-    const bool draws = !asked.empty() && (!isCoarse() || isFirst);
+    // A preview has the picture's cubes. What plays or is dragged before there are any has small ones,
+    // without what others hide, unless they would move with it.
+    const bool isSmall = isCoarse() && !cubesFor && !isNew && !moved;
+    const bool draws = !asked.empty() && (!isCoarse() || isSmall);
     if (draws) {
         SceneKey key = keepsCubes ? sceneryKey(moment.scene) : sceneKey(moment.scene);
-        if (isFirst) key.text += kCoarseKey;
+        if (isSmall) key.text += kCoarseKey;
         if (cubesFor != key) {
             cubesFor = std::move(key);
             surroundings.faces.assign(asked.size(), 0);
+            const int which = isSmall ? (1 << kFaces) - 1 : ~0;
             for (std::size_t cube = 0; cube < asked.size(); ++cube)
-                facesShown[cube] =
-                    facesWithAnything(moment.scene, asked[cube]) & (isFirst ? (1 << kFaces) - 1 : ~0);
+                facesShown[cube] = facesWithAnything(moment.scene, asked[cube]) & which;
         }
     }
     const int full = faceSize(screen, asked.size());
-    makeCubes(draws            ? (isFirst ? std::min(full, kPreviewFace) : full)
-              : aroundRadiance ? aroundRadiance.desc().size.x
-                               : full);
+    int side = full;
+    if (isSmall)
+        side = std::min(full, kPreviewFace);
+    else if (!draws && aroundRadiance)
+        side = aroundRadiance.desc().size.x;
+    makeCubes(side);
     // A preview with fewer pixels shows less of them.
-    const float face = float(aroundRadiance.desc().size.x) / float(full);
-    surroundings.texelsALook = views::kTexelsALook * std::max(1.0f, face * float(screen.x) / float(size.x));
+    const float finer = float(side) / float(full) * float(screen.x) / float(size.x);
+    surroundings.texelsALook = views::kTexelsALook * std::max(1.0f, finer);
     if (!draws) return;
     for (std::size_t cube = 0; cube < asked.size(); ++cube)
         for (int face = 0; face < 2 * kFaces; ++face)
