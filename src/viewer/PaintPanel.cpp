@@ -27,6 +27,16 @@ std::optional<PaintPlace> Viewer::State::paintPlaceAt(vec2 position) {
     return picking->at(position);
 }
 
+// In mode paint, what first strokes need. @return whether it is there
+bool Viewer::State::preparePaint() {
+    constexpr double kSeconds = 0.008; // of a frame
+    if (!painting() || !shown) return true;
+    const auto isOver = [until = secondsNow() + kSeconds] { return secondsNow() > until; };
+    return std::all_of(scene->objects.begin(), scene->objects.end(), [&](const scene::Object& object) {
+        return !isPaintable(object) || painter.prepare(object, isOver);
+    });
+}
+
 void Viewer::State::painted() {
     const bool known = picking && pickingOf == revision;
     changed();

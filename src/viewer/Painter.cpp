@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 namespace lucent::viewer {
 
@@ -241,6 +242,33 @@ void Painter::clear() { easels_.clear(); }
 int Painter::count(const scene::Object& object) const {
     const auto found = easels_.find(object.name);
     return found == easels_.end() ? 0 : int(found->second.canvas.strokes().size());
+}
+
+bool Painter::prepare(const scene::Object& object, const std::function<bool()>& isOver) {
+    using Atlas = std::shared_ptr<const scene::Atlas>;
+    const int side = object.painting ? object.painting->side() : scene::kUsualPaintSide;
+    const std::pair source(scene::meshOf(object), side);
+    if (std::exchange(preparing_, source.first) != source.first) {
+        atlas_.reset();
+        surface_.reset();
+    }
+    const Atlas* atlas = object.kept.find<Atlas>(source);
+    while (!atlas) {
+        if (!atlas_) atlas_ = std::make_unique<scene::AtlasMaking>(source.first, scene::Charting{side});
+        if (isOver()) return false;
+        const auto made = atlas_->advance();
+        if (!made) continue;
+        if (!*made) return true; // the first stroke says why
+        atlas = &object.kept.keep(source, **made);
+    }
+    while (!object.kept.find<scene::PaintSurfaceMaking::Made>(*atlas)) {
+        if (!surface_) surface_ = std::make_unique<scene::PaintSurfaceMaking>(*atlas);
+        if (isOver()) return false;
+        if (auto made = surface_->advance()) object.kept.keep(*atlas, std::move(*made));
+    }
+    atlas_.reset();
+    surface_.reset();
+    return true;
 }
 
 // The object's canvas; a new one where its shape has changed, with the strokes of the old one.

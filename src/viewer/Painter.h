@@ -3,11 +3,13 @@
 /// scene.
 
 #include "base/Param.h"
+#include "scene/Atlas.h"
 #include "scene/Canvas.h"
 #include "scene/Scene.h"
 #include "viewer/Interaction.h"
 #include "viewer/Panel.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -97,6 +99,10 @@ public:
 
     /// Strokes that are done on an object since it was loaded, without one that is open.
     int count(const scene::Object& object) const;
+    /// Makes what the first stroke on an object needs, piece by piece until `isOver`: a page is not kept.
+    ///
+    /// @return whether it is there
+    bool prepare(const scene::Object& object, const std::function<bool()>& isOver);
     /// A stroke begins. @return Error where the object does not fit into an atlas
     ///
     /// @param unpainted  what is done with the rest of an object without paint
@@ -118,7 +124,10 @@ private:
     Result<Easel*> easelOf(scene::Object& object);
     static scene::Brush asOfEasel(scene::Brush brush, const scene::Object& object, const Easel& easel);
     static void show(scene::Object& object, const Easel& easel);
-    std::map<std::string, Easel> easels_; // by the object's name
+    std::map<std::string, Easel> easels_;          // by the object's name
+    std::shared_ptr<const scene::Mesh> preparing_; // of the object that is prepared
+    std::unique_ptr<scene::AtlasMaking> atlas_;
+    std::unique_ptr<scene::PaintSurfaceMaking> surface_;
 };
 
 } // namespace lucent::viewer

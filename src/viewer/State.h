@@ -248,6 +248,7 @@ struct Viewer::State {
     void endStroke();
     void noteUndrawn(const scene::Stroke& stroke);
     void painted();
+    bool preparePaint();
     Status addStrokes(std::size_t object, std::span<const scene::Stroke> strokes);
     void fillWith(const scene::Brush& brush);
     std::span<const Action> actions() const;

@@ -174,7 +174,8 @@ bool Viewer::draw(double nowSeconds) {
         ++s.drawCount;
         if (isNew || (moves && s.renderer->isReprojected())) ++s.pictureCount;
     }
-    return s.working() || !s.settled || wait > 0 || s.play.playing;
+    const bool isPrepared = s.preparePaint();
+    return s.working() || !s.settled || wait > 0 || s.play.playing || !isPrepared;
 }
 
 Viewer::Between Viewer::work() {

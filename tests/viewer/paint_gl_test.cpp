@@ -1,4 +1,6 @@
 // Painting by hand and by script: the same texels, taken back and saved.
+#include "scene/Atlas.h"
+#include "scene/Canvas.h"
 #include "scene/Load.h"
 #include "scene/Painting.h"
 #include "tests/viewer/Page.h"
@@ -70,6 +72,17 @@ TEST_F(Paint, ADragPaintsWhereItGoesOnWhatWasOpaque) {
     }
     EXPECT_GT(opaque, painting.leaving->pixels.size() / 4 / 3); // most of what charts cover, half of the map
     EXPECT_GT(translucent, 100u);
+}
+
+// In pieces while the picture is shown: a stroke that made it would keep the page.
+TEST_F(Paint, WhatAFirstStrokeNeedsIsThereBeforeIt) {
+    load(kBall);
+    choose(*viewer, "mode", "paint");
+    settle();
+    const std::pair source(scene::meshOf(ball(*viewer)), scene::kUsualPaintSide);
+    const auto* atlas = ball(*viewer).kept.find<std::shared_ptr<const scene::Atlas>>(source);
+    ASSERT_NE(atlas, nullptr);
+    EXPECT_NE(ball(*viewer).kept.find<scene::PaintSurfaceMaking::Made>(*atlas), nullptr);
 }
 
 TEST_F(Paint, TheScriptOfAHandPaintsTheSameTexels) {
