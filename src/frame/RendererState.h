@@ -159,14 +159,13 @@ struct Renderer::State {
     std::unique_ptr<State> elsewhere;         // draws them
     std::unique_ptr<scene::Scene> asideScene; // that it draws; null: none is begun
     std::uint64_t asideRevision = 0;
-    bool keepsCubes =
-        false;             // of one that draws for others: cubes stay, whatever settings they were drawn with
-    float shownAspect = 0; // of such a one: width over height of the picture that its own stand for
-    vec4 cut{0, 0, 0, 1};  // of such a one: Eye::cut
-    vec2 shift{0};         // Eye::shift
-    float threshold = 0;   // Eye::threshold of the first sample
-    bool second = false;   // Eye::second
-    ivec2 lightOf{0, 1};   // of such a one: sample of a pixel, and of how many, whose light samples it has
+    bool keepsCubes = false; // of one that draws for others: whatever settings cubes were drawn with
+    float shownAspect = 0;   // of such a one: width over height of the picture that its own stand for
+    vec4 cut{0, 0, 0, 1};    // of such a one: Eye::cut
+    vec2 shift{0};           // Eye::shift
+    float threshold = 0;     // Eye::threshold of the first sample
+    bool second = false;     // Eye::second
+    ivec2 lightOf{0, 1};     // of such a one: sample of a pixel, and of how many, whose light samples it has
     const views::Surroundings* given = nullptr; // of such a one: what its pictures know of their surroundings
     bool allAround = false;                     // of such a one: technique::Picture::allAround
     std::size_t probesLeft = 0;                 // cubes that were asked for and are too many

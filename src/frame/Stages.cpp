@@ -329,10 +329,9 @@ bool Renderer::State::canPreview() {
 // Takes objects to the GPU for one slice of time. @return whether all are there
 Result<bool> Renderer::State::takeObjects(const scene::Scene& scene) {
     const double begins = nowMs();
-    // What is uploaded waits for all that the GPU has to do, and in a browser the page with it.
-    const auto isBusy = [&] { return !submitted.empty() && !submitted.back().fence.passed(0); };
     while (!atOnce && taken < int(scene.objects.size())) {
-        if (isBusy()) return false;
+        // What is uploaded waits for all that the GPU has to do, and in a browser the page with it.
+        if (!submitted.empty() && !submitted.back().fence.passed(0)) return false;
         if (!images.takePart(scene.objects[std::size_t(taken)])) {
             const Result<views::Drawable::Ptr> one = views::drawableOf(scene, taken++, images, &waters);
             if (!one) return one.error();

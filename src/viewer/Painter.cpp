@@ -237,7 +237,10 @@ std::optional<PaintPlace> Picking::at(vec2 pixel) const {
     return found;
 }
 
-void Painter::clear() { easels_.clear(); }
+void Painter::clear() {
+    easels_.clear();
+    preparing_.clear();
+}
 
 int Painter::count(const scene::Object& object) const {
     const auto found = easels_.find(object.name);
@@ -248,26 +251,25 @@ bool Painter::prepare(const scene::Object& object, const std::function<bool()>& 
     using Atlas = std::shared_ptr<const scene::Atlas>;
     const int side = object.painting ? object.painting->side() : scene::kUsualPaintSide;
     const std::pair source(scene::meshOf(object), side);
-    if (std::exchange(preparing_, source.first) != source.first) {
-        atlas_.reset();
-        surface_.reset();
-    }
+    Preparing& own = preparing_[object.name];
+    if (own.source != source) own = {source};
     const Atlas* atlas = object.kept.find<Atlas>(source);
-    while (!atlas) {
-        if (!atlas_) atlas_ = std::make_unique<scene::AtlasMaking>(source.first, scene::Charting{side});
+    while (!own.isDone && !atlas) {
         if (isOver()) return false;
-        const auto made = atlas_->advance();
+        if (!own.atlas) own.atlas = std::make_unique<scene::AtlasMaking>(source.first, scene::Charting{side});
+        const auto made = own.atlas->advance();
         if (!made) continue;
-        if (!*made) return true; // the first stroke says why
-        atlas = &object.kept.keep(source, **made);
+        if (*made)
+            atlas = &object.kept.keep(source, **made);
+        else
+            own.isDone = true; // the first stroke says why
     }
-    while (!object.kept.find<scene::PaintSurfaceMaking::Made>(*atlas)) {
-        if (!surface_) surface_ = std::make_unique<scene::PaintSurfaceMaking>(*atlas);
+    while (!own.isDone && !object.kept.find<scene::PaintSurfaceMaking::Made>(*atlas)) {
         if (isOver()) return false;
-        if (auto made = surface_->advance()) object.kept.keep(*atlas, std::move(*made));
+        if (!own.surface) own.surface = std::make_unique<scene::PaintSurfaceMaking>(*atlas);
+        if (auto made = own.surface->advance()) object.kept.keep(*atlas, std::move(*made));
     }
-    atlas_.reset();
-    surface_.reset();
+    own = {source, nullptr, nullptr, true};
     return true;
 }
 

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lucent::viewer {
@@ -121,13 +122,17 @@ private:
         float scale; ///< of the object for which its radii are
         scene::Canvas canvas;
     };
+    struct Preparing {
+        std::pair<std::shared_ptr<const scene::Mesh>, int> source{}; ///< mesh and texels a side
+        std::unique_ptr<scene::AtlasMaking> atlas{};
+        std::unique_ptr<scene::PaintSurfaceMaking> surface{};
+        bool isDone = false; ///< or cannot be done
+    };
     Result<Easel*> easelOf(scene::Object& object);
     static scene::Brush asOfEasel(scene::Brush brush, const scene::Object& object, const Easel& easel);
     static void show(scene::Object& object, const Easel& easel);
-    std::map<std::string, Easel> easels_;          // by the object's name
-    std::shared_ptr<const scene::Mesh> preparing_; // of the object that is prepared
-    std::unique_ptr<scene::AtlasMaking> atlas_;
-    std::unique_ptr<scene::PaintSurfaceMaking> surface_;
+    std::map<std::string, Easel> easels_;        // by the object's name,
+    std::map<std::string, Preparing> preparing_; // as these
 };
 
 } // namespace lucent::viewer

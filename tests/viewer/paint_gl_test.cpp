@@ -75,14 +75,21 @@ TEST_F(Paint, ADragPaintsWhereItGoesOnWhatWasOpaque) {
 }
 
 // In pieces while the picture is shown: a stroke that made it would keep the page.
-TEST_F(Paint, WhatAFirstStrokeNeedsIsThereBeforeIt) {
-    load(kBall);
+TEST_F(Paint, WhatFirstStrokesNeedIsThereBeforeThem) {
+    std::string two = kBall; // balls, behind each other
+    two.insert(two.rfind(R"({"name": "wall")"),
+               R"({"name": "other", "shape": {"type": "torus", "major": 0.2, "minor": 0.1},
+               "material": {"preset": "marble"}, "transform": {"translate": [0, 0, -0.2]}}, )");
+    load(two.c_str());
     choose(*viewer, "mode", "paint");
     settle();
-    const std::pair source(scene::meshOf(ball(*viewer)), scene::kUsualPaintSide);
-    const auto* atlas = ball(*viewer).kept.find<std::shared_ptr<const scene::Atlas>>(source);
-    ASSERT_NE(atlas, nullptr);
-    EXPECT_NE(ball(*viewer).kept.find<scene::PaintSurfaceMaking::Made>(*atlas), nullptr);
+    for (int i = 0; i < 2; ++i) {
+        const scene::Object& object = viewer->scene()->objects[std::size_t(i)];
+        const std::pair source(scene::meshOf(object), scene::kUsualPaintSide);
+        const auto* atlas = object.kept.find<std::shared_ptr<const scene::Atlas>>(source);
+        ASSERT_NE(atlas, nullptr) << object.name;
+        EXPECT_NE(object.kept.find<scene::PaintSurfaceMaking::Made>(*atlas), nullptr) << object.name;
+    }
 }
 
 TEST_F(Paint, TheScriptOfAHandPaintsTheSameTexels) {
