@@ -82,7 +82,7 @@ struct Reprojection : support::GlTest {
         look(8);
         const scene::Camera moved = scene.camera;
         if (!coarse) { // the next picture has begun
-            const Result<Progress> begun = renderer->advance(scene, ++revision, size, true, 2);
+            const Result<Progress> begun = renderer->advance(scene, ++revision, size, true);
             EXPECT_TRUE(begun.ok() && !begun->complete);
         }
         const Image reprojected = shown(&moved);
@@ -103,7 +103,7 @@ TEST_F(Reprojection, APreviewIsSeenByACameraThatHasMovedOn) {
 
 TEST_F(Reprojection, SoIsAWholePictureWhileTheNextIsDrawn) {
     if (!context->caps().software) GTEST_SKIP() << "this GPU draws the next one at once";
-    size = {768, 512}; // takes more than one slice of work
+    size = {1536, 1024}; // takes several slices of work
     window.reset();
     window.emplace(size);
     const auto [reprojected, before] = differences(false);
