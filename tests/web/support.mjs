@@ -40,10 +40,10 @@ export async function openStage() {
   return { browser, address: server.address, close };
 }
 
-// Runs in the page before its own scripts: notes contexts, frames and violations of the policy; encode() gives the
+// Runs in the page before its own scripts: notes contexts, frames, those that are still to come, and violations of the policy; encode() gives the
 // pixels of a picture.
 function watch() {
-  const seen = (window.seen = { contexts: [], frames: 0, violations: [] });
+  const seen = (window.seen = { contexts: [], frames: 0, wanted: new Set(), violations: [] });
   for (const kind of [self.OffscreenCanvas, HTMLCanvasElement].filter(Boolean)) {
     const getContext = kind.prototype.getContext;
     kind.prototype.getContext = function (type, ...rest) {
@@ -52,8 +52,20 @@ function watch() {
       return context;
     };
   }
-  const ask = window.requestAnimationFrame.bind(window);
-  window.requestAnimationFrame = (callback) => (seen.frames++, ask(callback));
+  const [ask, cancel] = [window.requestAnimationFrame.bind(window), window.cancelAnimationFrame.bind(window)];
+  window.requestAnimationFrame = (callback) => {
+    const number = ask((now) => {
+      seen.wanted.delete(number);
+      callback(now);
+    });
+    seen.frames++;
+    seen.wanted.add(number);
+    return number;
+  };
+  window.cancelAnimationFrame = (number) => {
+    seen.wanted.delete(number);
+    cancel(number);
+  };
   window.encode = (source) => {
     const { width, height } = source;
     const sheet = Object.assign(document.createElement('canvas'), { width, height }).getContext('2d');
@@ -123,14 +135,15 @@ export async function complete(page, selector = 'lucent-viewer') {
     await quiet(page);
 }
 
-/** Waits until the page has asked for no animation frame for a while. */
+/** Waits until the page has asked for no animation frame for a while, and none is still to come: a busy machine may let
+ * one wait longer than that. */
 export async function quiet(page, rest = 200) {
   await page.evaluate(async (milliseconds) => {
     let before;
     do {
       before = window.seen.frames;
       await new Promise((done) => setTimeout(done, milliseconds));
-    } while (window.seen.frames !== before);
+    } while (window.seen.frames !== before || window.seen.wanted.size);
   }, rest);
 }
 
