@@ -4,7 +4,7 @@ import { isSet } from './bring.js';
 const kSide = 96; // CSS pixels of a thumbnail
 const kGrey = 8; // of 255: what JPEG may part the channels of a grey picture by
 const kUses = {
-  height: 'Heights',
+  height: 'Heights: bright is high',
   normal: 'Normals',
   albedo: 'Colour (albedo)',
   alpha: 'Alpha',
@@ -31,8 +31,10 @@ async function thumbnailOf({ bytes }) {
   return canvas;
 }
 
-/** What a picture that nobody knows may be for, by its pixels: grey ones heights, others colours. */
+/** What a picture that nobody knows may be for: alone the heights, else by its pixels: grey ones heights, others colours. */
 function guess(canvas, taken) {
+  if (taken.length === 1) return 'height';
+  if (canvas.className === 'unknown') return 'none';
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   let spread = 0;
   for (let at = 0; at < data.length; at += 4) {
@@ -49,8 +51,7 @@ async function rowOf(picture, taken) {
   const select = document.createElement('select');
   select.append(...Object.entries(kUses).map(([value, text]) => new Option(text, value)));
   const thumbnail = await thumbnailOf(picture);
-  const isKnown = picture.use || thumbnail.className === 'unknown';
-  select.value = (isKnown ? picture.use : guess(thumbnail, taken)) || 'none';
+  select.value = picture.use || guess(thumbnail, taken);
   taken.push(select.value);
   label.append(Object.assign(document.createElement('span'), { textContent: picture.name }), select);
   row.append(thumbnail, label);

@@ -365,16 +365,21 @@ std::string textOf(const Model& model) {
 
 std::vector<std::optional<MapUse>> usesOf(std::span<const Output> pictures) {
     std::vector<std::optional<MapUse>> uses;
+    bool hasColors = false;
     for (const Output& picture : pictures) {
         std::optional<MapUse>& use = uses.emplace_back(mapUseOf(picture.path));
         if (use) continue;
         const Result<Image> image = decodeImage(picture.bytes, picture.path, Encoding::Linear);
-        if (image && holdsNormals(*image)) use = MapUse::Normals; // of others the scene says what is wrong
+        if (!image) continue; // the scene says what is wrong
+        if (holdsNormals(*image))
+            use = MapUse::Normals;
+        else
+            hasColors = hasColors || holdsColors(*image);
     }
     const bool told = std::any_of(uses.begin(), uses.end(), [](const std::optional<MapUse>& use) {
         return use == MapUse::Heights || use == MapUse::Normals;
     });
-    if (!told && std::count(uses.begin(), uses.end(), std::nullopt) == 1)
+    if (!told && !hasColors && std::count(uses.begin(), uses.end(), std::nullopt) == 1)
         *std::find(uses.begin(), uses.end(), std::nullopt) = MapUse::Heights;
     return uses;
 }

@@ -28,7 +28,8 @@ struct MapFile {
 };
 
 /// What each of some pictures is for: as its name says, else normals where it holds them. Where that leaves
-/// one picture and no heights, it is the heights; nothing stands for those that a person must be asked about.
+/// one picture and no heights, it is the heights unless it holds colours; nothing stands for those that a
+/// person must be asked about.
 std::vector<std::optional<MapUse>> usesOf(std::span<const Output> pictures);
 
 /// A relief, 1 m along its longer side, seen from straight above and raked by a lamp at the upper left.

@@ -77,6 +77,17 @@ bool holdsNormals(const Image& image) {
     return 64 * unit >= 63 * texels && sum.z >= std::cos(glm::radians(30.0)) * glm::length(sum);
 }
 
+bool holdsColors(const Image& image) {
+    if (image.channels < 3) return false;
+    constexpr float kGrey = 8.0f / 255;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const auto [least, most] = std::minmax({image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]});
+            if (most - least > kGrey) return true;
+        }
+    return false;
+}
+
 bool greenPointsDown(const Image& normals) {
     const auto slopes = [&](int x, int y) {
         const dvec3 n = normalAt(normals, x, y);

@@ -30,6 +30,10 @@ std::string titleOf(std::string_view path);
 /// of +z).
 bool holdsNormals(const Image& image);
 
+/// Whether red, green and blue of a pixel are further apart than in a grey picture that JPEG has stored (8 of
+/// 255): such a picture shows colours, and what is bright in it need not be high.
+bool holdsColors(const Image& image);
+
 /// Whether the normals' green grows downwards in the picture (DirectX's way) rather than upwards.
 ///
 /// Slopes p along x and q upwards belong to a surface when dp/dy = dq/dx: what of the two signs of q leaves

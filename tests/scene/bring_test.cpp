@@ -101,7 +101,15 @@ TEST(MapUse, WhatNamesDoNotSayIsAskedOnlyWhereSomethingIsLeftOpen) {
     };
     const Image plain = grey({8, 8}, [](int x, int) { return float(x) / 8; });
     using Uses = std::vector<std::optional<MapUse>>;
+    Image photo(8, 8, 3), storedGrey(8, 8, 3);
+    photo.at(5, 3)[0] = storedGrey.at(5, 3)[0] = 6.0f / 255; // as JPEG parts the channels of a grey pixel
+    photo.at(7, 7)[2] = 1;
     EXPECT_EQ(uses({{"coin.png", plain}}), Uses{MapUse::Heights});
+    EXPECT_EQ(uses({{"coin.png", storedGrey}}), Uses{MapUse::Heights});
+    EXPECT_EQ(uses({{"photo.png", photo}}), Uses{std::nullopt});
+    EXPECT_EQ(uses({{"photo_height.png", photo}}), Uses{MapUse::Heights});
+    EXPECT_EQ(uses({{"photo.png", photo}, {"photo_normal.png", photo}}),
+              (Uses{std::nullopt, MapUse::Normals}));
     EXPECT_EQ(uses({{"bricks.png", hillNormals(32)}}), Uses{MapUse::Normals});
     EXPECT_EQ(uses({{"coin.png", plain}, {"coin_albedo.png", plain}}),
               (Uses{MapUse::Heights, MapUse::Albedo}));

@@ -224,6 +224,13 @@ test('pictures whose names do not say what they are for are asked about', async 
   assert.deepEqual({ title, files }, { title: 'a', files: ['a.json', 'a.png', 'b.png'] });
   assert.equal(await page.locator('lucent-viewer dialog').count(), 0);
 
+  await drop(page, { 'photo.png': colorPng(8, 8, (x, y, channel) => [200, 100, 50][channel]) });
+  await dialog.waitFor();
+  assert.equal(await dialog.getByLabel('photo.png').inputValue(), 'height');
+  await page.keyboard.press('Escape');
+  await dialog.waitFor({ state: 'detached' });
+  assert.equal((await stateOf(page)).title, 'a');
+
   await drop(page, { 'c.png': kSlope, 'd.png': kSlope });
   await page.locator('lucent-viewer dialog').waitFor();
   await page.keyboard.press('Escape');
