@@ -7,11 +7,16 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <string>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace lucent::test {
@@ -73,13 +78,26 @@ protected:
 
     /// Runs "lucent ARGUMENTS" in the folder.
     Outcome run(const std::string& arguments) const {
-        const std::string command = "cd '" + folder_.string() + "' && '" LUCENT_PROGRAM "' " + arguments +
-                                    " >'" + path(".out") + "' 2>'" + path(".err") + "'";
-        const int status = std::system(command.c_str());
-        Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(".out"), text(".err")};
-        std::filesystem::remove(path(".out"));
-        std::filesystem::remove(path(".err"));
-        return outcome;
+        return outcomeOf(std::system(commandFor(arguments).c_str()));
+    }
+
+    /// The same, stopped by SIGINT once it catches that and `isTime`, or after half a minute. Its code is -1
+    /// where it did not end by itself.
+    Outcome runStopped(
+        const std::string& arguments, const std::function<bool()>& isTime = [] { return true; }) const {
+        const std::string command = commandFor(arguments);
+        const pid_t program = fork();
+        if (program == 0) {
+            alarm(60); // outlives exec: a program that does not stop is stopped all the same
+            execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+            _exit(127);
+        }
+        for (int i = 0; i < 300 && !(catchesInterrupts(program) && isTime()); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        kill(program, SIGINT);
+        int status = 0;
+        waitpid(program, &status, 0);
+        return outcomeOf(status);
     }
 
     /// The command must end with code 1 and exactly this message, and leave no new file.
@@ -100,6 +118,25 @@ protected:
     }
 
 private:
+    std::string commandFor(const std::string& arguments) const {
+        return "cd '" + folder_.string() + "' && exec '" LUCENT_PROGRAM "' " + arguments + " >'" +
+               path(".out") + "' 2>'" + path(".err") + "'";
+    }
+    Outcome outcomeOf(int status) const {
+        Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(".out"), text(".err")};
+        std::filesystem::remove(path(".out"));
+        std::filesystem::remove(path(".err"));
+        return outcome;
+    }
+    // As the kernel tells of a process: proc(5), SigCgt.
+    static bool catchesInterrupts(pid_t program) {
+        std::ifstream status("/proc/" + std::to_string(program) + "/status");
+        for (std::string line; std::getline(status, line);)
+            if (line.starts_with("SigCgt:"))
+                return std::strtoull(line.c_str() + 7, nullptr, 16) >> (SIGINT - 1) & 1;
+        return false;
+    }
+
     std::filesystem::path folder_;
 };
 

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <limits>
-#include <thread>
-#include <unistd.h>
 
 namespace lucent::test {
 namespace {
@@ -189,21 +186,9 @@ TEST_F(Program, StoppingTheTruthLeavesNoFile) {
     writeBump("bump.pfm");
     // Thousands of directions and a large picture: minutes of work.
     writeScene("\"bump.pfm\"", R"("depth": 0.1)", R"("environment": { "source": "sky" })");
-    const std::string scene = path("scene.json"), out = path("out.pfm"), err = path("err");
-    const pid_t program = fork();
-    if (program == 0) {
-        alarm(60); // outlives exec: a program that does not stop is stopped all the same
-        if (std::freopen(err.c_str(), "w", stderr))
-            execl(LUCENT_PROGRAM, "lucent", "truth", scene.c_str(), "-o", out.c_str(), "--size", "2048x2048",
-                  nullptr);
-        _exit(127);
-    }
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-    kill(program, SIGINT);
-    int status = 0;
-    waitpid(program, &status, 0);
-    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
-    EXPECT_EQ(text("err"), "lucent: truth: stopped before the picture was complete\n");
+    const Outcome outcome = runStopped("truth scene.json -o out.pfm --size 2048x2048");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.err, "lucent: truth: stopped before the picture was complete\n");
     EXPECT_FALSE(exists("out.pfm"));
 }
 

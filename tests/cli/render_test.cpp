@@ -2,10 +2,7 @@
 
 #include "scene/readers/Readers.h"
 
-#include <chrono>
 #include <cmath>
-#include <csignal>
-#include <thread>
 
 namespace lucent::test {
 namespace {
@@ -137,22 +134,11 @@ TEST_F(Render, ASequenceHasNumberedPicturesAndTheirTimes) {
 
 TEST_F(Render, AStoppedSequenceLeavesWholePicturesOnly) {
     writeMovingScene();
-    const pid_t program = fork();
-    if (program == 0) {
-        alarm(60); // outlives exec: a program that does not stop is stopped all the same
-        if (chdir(path(".").c_str()) == 0 && std::freopen("err", "w", stderr))
-            execl(LUCENT_PROGRAM, "lucent", "render", "moving.json", "-o", "out.pfm", "--frames", "9999",
-                  nullptr);
-        _exit(127);
-    }
-    for (int i = 0; i < 300 && !exists("out-0002.pfm"); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    kill(program, SIGINT);
-    int status = 0;
-    waitpid(program, &status, 0);
-    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
-    EXPECT_NE(text("err").find(" of 9999 pictures"), std::string::npos) << text("err");
-    const std::size_t pictures = fileCount() - 4; // bump, two scenes, err
+    const Outcome outcome =
+        runStopped("render moving.json -o out.pfm --frames 9999", [&] { return exists("out-0002.pfm"); });
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find(" of 9999 pictures"), std::string::npos) << outcome.err;
+    const std::size_t pictures = fileCount() - 3; // bump and two scenes
     for (std::size_t i = 1; i <= pictures; ++i) {
         char name[32];
         std::snprintf(name, sizeof name, "out-%04zu.pfm", i);

@@ -1,9 +1,7 @@
 #include "tests/cli/Program.h"
 
 #include <algorithm>
-#include <csignal>
 #include <sstream>
-#include <thread>
 
 namespace lucent::test {
 namespace {
@@ -238,22 +236,10 @@ TEST_F(Truth, WrongOptionsAreRefused) {
 }
 
 TEST_F(Truth, StoppingATileLeavesNoFile) {
-    const std::string scene = path("scene.json"), out = path("out.tile"), err = path("err");
-    const std::size_t before = fileCount() + 1; // err
-    const pid_t program = fork();
-    if (program == 0) {
-        alarm(60);
-        if (std::freopen(err.c_str(), "w", stderr))
-            execl(LUCENT_PROGRAM, "lucent", "truth", scene.c_str(), "-o", out.c_str(), "--size", "2048x2048",
-                  "--tile", "1/2", nullptr);
-        _exit(127);
-    }
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-    kill(program, SIGINT);
-    int status = 0;
-    waitpid(program, &status, 0);
-    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
-    EXPECT_EQ(text("err"), "lucent: truth: stopped before the picture was complete\n");
+    const std::size_t before = fileCount();
+    const Outcome outcome = runStopped("truth scene.json -o out.tile --size 2048x2048 --tile 1/2");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.err, "lucent: truth: stopped before the picture was complete\n");
     EXPECT_EQ(fileCount(), before);
 }
 
