@@ -16,33 +16,18 @@
  */
 import { reflect } from './attributes.js';
 import { BakeBar } from './bake.js';
-import { acceptDrops, bringScene, openPicture } from './bring.js';
+import { acceptDrops } from './bring.js';
 import { Controls } from './controls.js';
-import {
-  encodeExr,
-  Fetching,
-  fetchScene,
-  filesOfScene,
-  freeName,
-  loadFiles,
-  loadZip,
-  namesIn,
-  needsWhole,
-  openScene,
-  sceneAmong,
-  sourcesOf,
-} from './files.js';
+import { encodeExr, filesOfScene, loadZip, namesIn } from './files.js';
 import { Gestures } from './gestures.js';
+import { Loader } from './loader.js';
 import { isOfHtml, nearestName } from './names.js';
-import { PhotoBar } from './photos.js';
 import { question } from './question.js';
 import { LucentError, Runtime } from './runtime.js';
 import { Stage } from './stage.js';
-import { nextTask } from './task.js';
 import { TruthBar } from './truth.js';
-import { askUses } from './uses.js';
 import { camelCase, textOf, valueOf } from './values.js';
-import { Watch, WorkBar } from './workbar.js';
+import { WorkBar } from './workbar.js';
 
 const kMaxScale = 2; // device pixels a CSS pixel: more is not seen, but costs
 const kNear = '300px'; // around the window: within it viewers load and draw
@@ -62,29 +47,20 @@ export class LucentViewer extends HTMLElement {
     title: 'Keep the picture as it is now',
     act: () => this.stop(),
   });
-  #loading = new WorkBar('loading', 'Loading', {
-    label: 'Cancel',
-    title: 'Keep what was shown before',
-    act: () => this.#fetching.abort(),
-  });
-  #fetching = new AbortController(); // of what is being fetched
-  #photos = new PhotoBar();
   #bake; // BakeBar
   #rmse; // that was said last
   #asked = false; // what becomes of what nobody paints
   #truthFetched = false; // the file was asked for since the scene was loaded
   #twin;
-  #runtime = null;
+  #loader = new Loader(this, this.#stage, {
+    attached: () => this.#attach(),
+    take: (name, how) => this.#takeScene(name, how),
+    restore: (changes) => Object.entries(changes).forEach(([path, text]) => this.#set(path, String(text))),
+    fail: (error) => this.#fail(error),
+    tell: (message) => this.#tell(message),
+    request: () => this.#request(),
+  });
   #display = null; // the canvas's context
-  #handle = 0; // the module's viewer, 0: none yet
-  #task = 0; // number of the newest load: older ones give up
-  #leaving = null; // that of a load of another scene, for which the one that is shown is not refined any more
-  #src = null; // what is loaded or on its way
-  #shown = null; // what is loaded
-  #adopting = false; // the module has a scene whose parameters are still to come
-  #brought = null; // {path, files} of the scene that is shown, where it is made of a person's files
-  #sources = new Map(); // by name what was read for each file of the scene: see collect() in files.js
-  #openedFiles = new Set(); // names of files that the person opened into the scene
   #paintAsLoaded = ''; // see #paint()
   #near = false; // the element or its surroundings are on the screen
   #seen = false; // the element itself is
@@ -134,7 +110,7 @@ export class LucentViewer extends HTMLElement {
       fail: (error) => this.#fail(error),
       say: (text) => this.#stage.say(text),
     });
-    this.#stage.addBars(this.#truth.element, this.#bake.element, this.#drawing.element, this.#loading.element);
+    this.#stage.addBars(this.#truth.element, this.#bake.element, this.#drawing.element, this.#loader.bar);
     new Gestures(canvas, {
       pointer: (...event) => this.#pointer(...event),
       wheel: (...event) => this.#apply('viewer_wheel', ...event),
@@ -163,7 +139,7 @@ export class LucentViewer extends HTMLElement {
     kCalm.addEventListener('change', this.#calmChanged);
     if (this.loading === 'lazy') return;
     if (!this.src) Runtime.shared().catch(() => {}); // whoever loads hears of errors
-    this.#loadSource();
+    this.#loader.loadSource();
   }
 
   // Also called when the element is only moved within the page, hence the second look.
@@ -187,8 +163,8 @@ export class LucentViewer extends HTMLElement {
       this.#compareChanged();
     }
     if (name !== 'src') return;
-    this.#src = null;
-    if (this.isConnected && (this.#near || this.loading !== 'lazy')) this.#loadSource();
+    this.#loader.sourceChanged();
+    if (this.isConnected && (this.#near || this.loading !== 'lazy')) this.#loader.loadSource();
   }
 
   /** True once a scene is there: only then have parameters values. */
@@ -211,14 +187,14 @@ export class LucentViewer extends HTMLElement {
    */
   get sceneFiles() {
     if (!this.loaded) throw new LucentError('scene', 'sceneFiles: no scene is shown; one must be loaded');
-    return filesOfScene(this.#runtime, this.sceneJson, this.#sources);
+    return filesOfScene(this.#runtime, this.sceneJson, this.#loader.sources);
   }
   /** What is shown and no link can carry, as its changes do: 'scene' or 'files' that the person opened, 'paint'. */
   get beyondLink() {
     if (!this.loaded) return [];
-    const files = this.#openedFiles;
+    const files = this.#loader.openedFiles;
     const used = files.size ? namesIn(this.#runtime, 'scene.json', new TextEncoder().encode(this.sceneJson)) : [];
-    const found = this.#brought ? ['scene'] : [];
+    const found = this.#loader.brought ? ['scene'] : [];
     if (used.some((name) => files.has(name))) found.push('files');
     if (this.#paint() !== this.#paintAsLoaded) found.push('paint');
     return found;
@@ -455,8 +431,8 @@ export class LucentViewer extends HTMLElement {
    * and `files`, the bytes of it and of all that it names by name (Map).
    */
   get ownScene() {
-    if (!this.#brought) return null;
-    const { path, files } = this.#brought;
+    if (!this.#loader.brought) return null;
+    const { path, files } = this.#loader.brought;
     return { path, files: new Map(files).set(path, new TextEncoder().encode(this.sceneJson)) };
   }
 
@@ -467,18 +443,8 @@ export class LucentViewer extends HTMLElement {
    * @param kind   'scene' or 'environment'
    * @return {Promise<boolean>}  whether it is shown
    */
-  async openFile(files, kind = 'scene') {
-    const all = files instanceof Blob ? [files] : [...files];
-    const task = ++this.#task;
-    this.#stage.status = 'Loading…';
-    try {
-      if (kind === 'environment') return await this.#openEnvironment(task, all[0]);
-      const start = (whole) => Runtime.shared(whole);
-      return await this.#openScene(task, await (sceneAmong(all) ? openScene(start, all) : this.#bring(all)));
-    } catch (error) {
-      if (task === this.#task) this.#fail(error);
-      return false;
-    }
+  openFile(files, kind = 'scene') {
+    return this.#loader.openFiles(files instanceof Blob ? [files] : [...files], kind);
   }
 
   // ---- called by the runtime ----
@@ -490,14 +456,14 @@ export class LucentViewer extends HTMLElement {
     const { more, drawn } = this.#runtime.draw(this.#handle, width, height, seconds);
     this.#sync();
     const shown = this.#takePicture(drawn);
-    if (shown && this.#leaving === this.#task && !this.#settled.length) return false; // what comes is worth more
+    if (shown && this.#loader.isLeaving && !this.#settled.length) return false; // what comes is worth more
     return more && (this.#seen || !this.#complete || this.#capturing); // nothing plays where nobody sees it
   }
   work() {
     return this.#draws ? this.#runtime.work(this.#handle) : {};
   }
   get #draws() {
-    return this.#handle && this.#size.width > 0 && !this.#adopting && (this.#near || this.#settled.length > 0);
+    return this.#handle && this.#size.width > 0 && !this.#loader.isAdopting && (this.#near || this.#settled.length > 0);
   }
   contextLost() {
     this.#stage.poster.hidden = false;
@@ -511,129 +477,28 @@ export class LucentViewer extends HTMLElement {
 
   /** @param handle  of the viewer in whose call the module ended */
   moduleEnded(error, handle) {
-    const isLoaded = this.loaded && this.#src === this.#shown;
-    const isInnocent = handle !== this.#handle && (handle !== 0 || isLoaded);
-    const own = this.#brought;
+    const loadAgain = this.#loader.moduleEnded(handle);
     this.#forget();
     this.#settled.splice(0).forEach((resolve) => resolve());
     this.#fail(error);
-    if (!isInnocent) return;
-    if (own) this.#openScene(++this.#task, own).catch((reason) => this.#fail(reason));
-    else this.#loadSource();
+    loadAgain();
   }
 
-  // ---- loading ----
+  // ---- loading
 
-  // A viewer of a module that draws what is loaded: the element's own where it does, else a fresh one. Null where the load
-  // is no longer wanted: the element was removed, or loads something else.
-  async #seat(task, whole) {
-    if (this.#handle && (this.#runtime.isWhole || !whole)) return this.#own();
-    const runtime = await Runtime.shared(whole);
-    if (task !== this.#task) return null;
-    const seat = { runtime, handle: runtime.call('viewer_create') };
-    await nextTask(); // the first viewer of a page draws the glyphs of the panel's font
-    if (task !== this.#task) {
-      runtime.drop(seat.handle);
-      return null;
-    }
-    if (!this.#handle) this.#moveTo(seat);
-    return seat;
+  get #runtime() {
+    return this.#loader.runtime;
+  }
+  get #handle() {
+    return this.#loader.handle;
   }
 
-  #own() {
-    return { runtime: this.#runtime, handle: this.#handle };
-  }
-
-  #bring(files) {
-    return bringScene(files, {
-      ask: (pictures) => askUses(this.#stage.root, pictures),
-      solve: (light, photos) => {
-        this.#stage.status = '';
-        this.#stage.addBars(this.#photos.element);
-        return this.#photos.solve(light, photos);
-      },
-    });
-  }
-
-  // @param scene  {path, files, sources} of a person's own; null: they went back
-  async #openScene(task, scene) {
-    if (task !== this.#task) return false;
-    if (!scene) this.#stage.status = '';
-    if (!scene) return false;
-    const seat = await this.#seat(task, needsWhole(scene.files.get(scene.path)));
-    const load = () => loadFiles(seat, scene);
-    const isShown = seat !== null && (await this.#load(seat, task, { name: scene.path, own: scene }, load));
-    if (scene.residual && this.#brought === scene) await this.#photos.showResidual(scene);
-    if (isShown && scene.environment) await this.#openEnvironment(task, scene.environment);
-    if (isShown && scene.left?.length) this.#tell(`left out: ${scene.left.join('; ')}`);
-    return isShown;
-  }
-
-  async #openEnvironment(task, file) {
-    const { name: given, bytes } = await openPicture(file);
-    const name = freeName(given, this.#sources);
-    const seat = await this.#seat(task, false);
-    if (!seat) return false;
-    const { path, files } = this.#brought ?? {};
-    const own = this.#brought && { path, files: new Map(files).set(name, bytes) };
-    return this.#load(seat, task, { name, own, opened: true }, () => {
-      const message = seat.runtime.text('viewer_open_environment', seat.handle, name, bytes);
-      if (message) throw new LucentError('file', message);
-      return sourcesOf([[name, bytes]]);
-    });
-  }
-
-  // The scene that was showing stays, with its viewer, until the new one is there.
-  // @param load  gives the sources of what it loads: all of a scene, or those of a file that comes into it
-  // @param how  name; own: {path, files} of a person's files, null: none; opened: by the person; moved: it was shown
-  //             before, by the other module
-  async #load(seat, task, { name, own = null, opened = own !== null, moved = false }, load) {
-    const moves = seat.runtime !== this.#runtime;
-    const before = moves ? 0 : this.#sceneNumber();
-    const src = this.#src;
-    let sources;
-    let isThere = false;
-    try {
-      sources = await load();
-      isThere = task === this.#task;
-    } finally {
-      if (moves && !isThere) seat.runtime.drop(seat.handle);
-    }
-    if (!isThere) return false;
-    this.#adopting = true;
-    await nextTask(); // the module has taken the scene; what the page makes of it takes as long again
-    this.#adopting = false;
-    if (moves && task !== this.#task) seat.runtime.drop(seat.handle);
-    if (moves ? task !== this.#task : !this.#handle) return false;
-    if (moves) this.#moveTo(seat);
-    if (own && own.path !== this.#brought?.path) {
-      this.truth = '';
-      this.alt = seat.runtime.text('viewer_title', seat.handle);
-    }
-    this.#brought = own;
-    this.#photos.clear();
-    const into = this.#sceneNumber() === before;
-    this.#takeSources(sources, into);
-    this.#takeScene(name, src, { opened, moved, into });
-    return true;
-  }
-
-  #sceneNumber() {
-    return this.#runtime.call('viewer_scene_number', this.#handle);
-  }
-
-  // @param into  they came into the scene that was shown
-  #takeSources(sources, into) {
-    if (!into) {
-      this.#sources = sources;
-      this.#openedFiles.clear();
-      this.#paintAsLoaded = this.#paint();
-      return;
-    }
-    for (const [name, source] of sources) {
-      this.#sources.set(name, source);
-      this.#openedFiles.add(name);
-    }
+  // To another viewer of the module, or of another module.
+  #attach() {
+    this.#display ??= this.#stage.canvas.getContext(this.#runtime.displayContext);
+    this.#themeChanged();
+    this.#layout();
+    this.#resizeViewer();
   }
 
   // What is painted on all objects, as text.
@@ -641,85 +506,11 @@ export class LucentViewer extends HTMLElement {
     return JSON.stringify(JSON.parse(this.sceneJson).objects.map(({ paint }) => paint));
   }
 
-  #moveTo({ runtime, handle }) {
-    if (this.#handle) this.#runtime.drop(this.#handle, this);
-    this.#runtime = runtime;
-    this.#handle = handle;
-    this.#display ??= this.#stage.canvas.getContext(runtime.displayContext);
-    runtime.add(this);
-    this.#themeChanged();
-    this.#layout();
-    this.#resizeViewer();
-  }
-
-  // A material was chosen that the module of reliefs does not draw: the viewer goes on in the whole one.
-  async #moveToWhole() {
-    const task = ++this.#task;
-    this.#stage.status = 'Loading…';
-    try {
-      const seat = await this.#seat(task, true);
-      if (!seat) return;
-      const { changes } = this;
-      const hadFiles = this.#openedFiles.size > 0;
-      const path = this.#brought?.path ?? 'scene.json';
-      const packed = [...this.#runtime.files('viewer_pack', this.#handle)];
-      const scene = { path, files: new Map(packed.map(([name, bytes]) => [name === 'scene.json' ? path : name, bytes])) };
-      await this.#load(seat, task, { name: this.src, own: this.#brought && scene, moved: true }, () => loadFiles(seat, scene));
-      if (hadFiles) this.#openedFiles = new Set(this.#sources.keys()); // which have other names now
-      for (const [path, text] of Object.entries(changes)) this.#set(path, String(text));
-    } catch (error) {
-      if (task === this.#task) this.#fail(error);
-    }
-  }
-
-  /** @param again  whether to try once more where another viewer ended the module */
-  async #loadSource(again = true) {
-    if (!this.src || this.src === this.#src) return;
-    const task = (this.#leaving = ++this.#task);
-    this.#src = this.src;
-    this.#stage.status = 'Loading…';
-    this.#fetching.abort();
-    this.#loading.show(undefined);
-    const mine = (this.#fetching = new AbortController());
-    const watch = new Watch(this.#loading);
-    try {
-      const allowed = this.allow.split(/\s+/).filter(Boolean);
-      const scene = await fetchScene(
-        (whole) => Runtime.shared(whole),
-        new URL(this.src, document.baseURI),
-        allowed.map((address) => new URL(address, document.baseURI)),
-        new Fetching((share) => watch.tell(share), mine.signal),
-      );
-      if (task === this.#task) this.#loading.show(undefined);
-      const seat = await this.#seat(task, scene.whole);
-      if (seat) await this.#load(seat, task, { name: this.src }, () => loadFiles(seat, scene));
-    } catch (error) {
-      if (task !== this.#task) return;
-      this.#loading.show(undefined);
-      if (mine.signal.aborted) return this.#cancelled();
-      this.#fail(error);
-      if (error.code !== 'abort' || !again || this.#handle) return;
-      this.#src = null;
-      this.#loadSource(false);
-    } finally {
-      if (this.#leaving === task) {
-        this.#leaving = null;
-        this.#request();
-      }
-    }
-  }
-
-  // The person ended a load: what was shown stays.
-  #cancelled() {
-    this.#stage.status = this.loaded ? '' : 'Loading was cancelled';
-    this.#stage.say('Loading was cancelled');
-  }
-
   // A new scene is there: its parameters become attributes, properties and controls.
-  #takeScene(name, src, how) {
+  #takeScene(name, how) {
     this.#stage.status = 'Drawing…';
     this.#complete = false;
-    this.#shown = src;
+    if (!how.into) this.#paintAsLoaded = this.#paint();
     this.#controls = this.#runtime.json('viewer_controls', this.#handle);
     this.#defineProperties();
     this.#stage.closeQuestion();
@@ -755,22 +546,17 @@ export class LucentViewer extends HTMLElement {
   }
 
   #destroy() {
-    const { runtime, handle } = this.#own();
+    const { runtime, handle } = this.#loader;
     this.#forget();
     if (handle) runtime.drop(handle, this);
   }
 
   // As before the first load.
   #forget() {
-    this.#task++;
-    this.#fetching.abort();
-    this.#loading.show(undefined);
-    this.#photos.cancel();
+    this.#loader.forget();
     this.#truth.cancel();
     this.#bake.update(undefined);
-    this.#src = this.#shown = this.#brought = null;
     this.#controls = [];
-    this.#handle = 0;
     clearTimeout(this.#timers.release);
   }
 
@@ -868,7 +654,7 @@ export class LucentViewer extends HTMLElement {
 
   // Takes over what changed in the module, by whatever road.
   #sync() {
-    if (!this.loaded || this.#adopting) return;
+    if (!this.loaded || this.#loader.isAdopting) return;
     const revision = this.#runtime.call('viewer_revision', this.#handle);
     if (revision === this.#revision) return;
     this.#revision = revision;
@@ -877,7 +663,7 @@ export class LucentViewer extends HTMLElement {
     this.#twin.update(this.#controls);
     this.#showProfiles();
     const changed = this.#controls.filter((control) => control.value !== before.get(control.path));
-    if (!this.#runtime.isWhole && !this.#runtime.call('viewer_draws_all', this.#handle)) this.#moveToWhole();
+    if (!this.#runtime.isWhole && !this.#runtime.call('viewer_draws_all', this.#handle)) this.#loader.moveToWhole();
     this.#compareChanged();
     this.#showPlay();
     this.#showUndrawn();
@@ -1034,7 +820,7 @@ export class LucentViewer extends HTMLElement {
     this.#near = near;
     clearTimeout(this.#timers.release);
     if (near) {
-      this.#loadSource();
+      this.#loader.loadSource();
       this.#request();
     } else {
       this.#timers.release = setTimeout(
