@@ -178,9 +178,10 @@ float Renderer::State::restWorth() const {
     return float(restMs * pixels / std::max(ofLight, 1e-3));
 }
 
-// How long a stage takes, in directions.
+// How long a stage takes, in directions; where lamps alone shine each takes as long as the others.
 float Renderer::State::work(const Stage& of) const {
-    return float(of.baked ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions) + restWorth();
+    const int directions = of.baked ? 2 * kStageFactor * kStageFactor * kFirstStage : of.directions;
+    return float(std::max(1, directions)) + restWorth();
 }
 
 float Renderer::State::shareOfStage(const scene::Scene& scene) const {
@@ -537,7 +538,8 @@ Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64
         }
     }
     Progress progress = progressOf(scene, effort);
-    if (progress.task == told.task) progress.share = std::max(progress.share, told.share); // estimates vary
+    if (progress.task == told.task && !told.complete)          // which a preview may have been
+        progress.share = std::max(progress.share, told.share); // estimates vary
     return told = progress;
 }
 

@@ -64,11 +64,18 @@ void Viewer::State::estimate(const frame::Progress& progress) {
     drawingProgress.reset();
     const double now = secondsNow(), past = now - phaseBegan;
     if (work.task != progress.task || progress.share < work.share || work.began < phaseBegan)
-        work = {progress.task, now, progress.share};
+        work = {progress.task, now, progress.share, progress.share, now};
+    if (progress.share > work.share) {
+        work.share = progress.share;
+        work.grown = now;
+    }
     if (past < kLong || progress.complete || play.playing) return;
-    const float done = progress.share - work.share;
+    const float done = work.share - work.first;
     std::optional<double> left;
-    if (done > kLeastShare) left = (now - work.began) * (1 - progress.share) / done;
+    if (done > kLeastShare) {
+        const double perDone = (1 - work.share) / done, since = now - work.grown;
+        left = std::max((work.grown - work.began) * perDone - since, since * perDone);
+    }
     if (past + left.value_or(0) > kLongLeft) drawingProgress = {nameOf(progress.task), progress.share, left};
 }
 

@@ -112,6 +112,27 @@ TEST_F(Frame, ItsTasksFollowEachOtherAndTheirSharesGrow) {
     EXPECT_GT(shares.back(), 0.4f);
 }
 
+TEST_F(Frame, AfterAWholePreviewTheSharesOfItsSamplesBegin) {
+    scene.lights.push_back(scene::PointLight{});
+    technique::addSettings(scene);
+    views::samplingOf(scene).pixelSamples = 256;
+    Renderer renderer(*context);
+    for (int slices = 0; !renderer.advance(scene, 1, {40, 30}, true)->complete; ++slices)
+        ASSERT_LT(slices, 1000);
+    std::vector<float> shares;
+    for (int slices = 0;; ++slices) {
+        ASSERT_LT(slices, 10000);
+        const auto progress = renderer.advance(scene, 1, {40, 30});
+        ASSERT_TRUE(progress.ok());
+        if (progress->complete) break;
+        EXPECT_EQ(progress->task, Task::Samples);
+        shares.push_back(progress->share);
+    }
+    ASSERT_GT(shares.size(), 1u);
+    EXPECT_LT(shares.front(), 0.5f);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+}
+
 TEST_F(Frame, AnEnvironmentIsSummedInStagesToTheSameMean) {
     addEnvironment(300);
     Renderer renderer(*context);
