@@ -4,6 +4,7 @@ import { after, before, test } from 'node:test';
 import { colorPng, glassTriangle, greyPng } from './scenes.mjs';
 import {
   brightness,
+  clickOnce,
   complete,
   difference,
   eventOf,
@@ -361,12 +362,10 @@ test('photographs with their lights become normals and colours, and the residual
 
 test('photographs that are being solved can be given up, and the scene before stays', async () => {
   const page = await open();
+  const cancelled = clickOnce(page, '.photos', /Solving photographs: \d+ %/);
   await drop(page, dome(1024));
-  const cancel = page.locator('lucent-viewer .photos > button');
-  await cancel.waitFor();
-  assert.match(await page.textContent('lucent-viewer .photos'), /Solving photographs: \d+ %/);
-  await cancel.click();
-  await cancel.waitFor({ state: 'hidden' });
+  await cancelled;
+  await page.locator('lucent-viewer .photos > button').waitFor({ state: 'hidden' });
   assert.equal((await stateOf(page)).title, await page.evaluate(() => document.querySelector('lucent-viewer').sceneTitle));
   assert.equal((await stateOf(page)).path, undefined);
   await page.leave();

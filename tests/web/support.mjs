@@ -161,6 +161,27 @@ export async function eventOf(page, type, act, selector = 'lucent-viewer') {
   return page.evaluate(() => window.awaited);
 }
 
+/** Clicks the first button of a viewer's bar once that says `text`, in the same task: a hand from outside the page may come
+ * when all is done. */
+export const clickOnce = (page, bar, text, selector = 'lucent-viewer') =>
+  page.evaluate(
+    ([one, part, source]) =>
+      new Promise((done) => {
+        const { shadowRoot } = document.querySelector(one);
+        const look = () => {
+          const element = shadowRoot.querySelector(part);
+          if (!element || element.hidden || !new RegExp(source).test(element.textContent)) return;
+          observer.disconnect();
+          element.querySelector('button').click();
+          done();
+        };
+        const observer = new MutationObserver(look);
+        observer.observe(shadowRoot, { attributes: true, characterData: true, childList: true, subtree: true });
+        look();
+      }),
+    [selector, bar, text.source],
+  );
+
 /**
  * The finished picture of a viewer without its panel.
  * @return {{width: number, height: number, pixels: Uint8Array}}  RGBA, row 0 at the top

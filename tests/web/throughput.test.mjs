@@ -1,7 +1,7 @@
 /** Mode throughput: what a worker precomputes of an object, its parts and its atlas. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { complete, difference, openStage, openViewers, pictureOf, valueOf } from './support.mjs';
+import { clickOnce, complete, difference, openStage, openViewers, pictureOf, valueOf } from './support.mjs';
 
 let stage;
 before(async () => (stage = await openStage()));
@@ -48,7 +48,7 @@ test('a worker precomputes with a bar while the object is drawn without; a pictu
 
 test('it can be ended and begun again', async () => {
   const page = await open();
-  await button(page).click();
+  await clickOnce(page, '.bar.bake', /Precomputing block/);
   assert.match(await bar(page).textContent(), /block is drawn without precomputed light/);
   await complete(page);
   assert.equal(await button(page).textContent(), 'Precompute');
