@@ -294,7 +294,8 @@ TEST_F(CompareView, MaterialsShowsOtherSurfacesRightOfTheDivider) {
     move({700, 390});
     settle();
     const auto middle = [&] { // above the cards, beside the handle
-        const float* shown = window->read().at(180, 150);
+        const Image picture = window->read();
+        const float* shown = picture.at(180, 150);
         return vec3(shown[0], shown[1], shown[2]);
     };
     const vec3 bright = middle();
