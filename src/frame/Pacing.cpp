@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kMostInFlight = 2, kMostDragged = 3;
 constexpr double kBatchMs = 80;   // until a hand that comes down is followed,
 constexpr double kDraggedMs = 20; // or one that moves: all in flight and a frame take a tenth of a second
+constexpr int kFewest = 1 << 12, kFirst = 1 << 15; // pixels: of any pass, of one that was never drawn
 
 } // namespace
 
@@ -70,20 +71,24 @@ bool Renderer::State::runSome(double until) {
     }
 }
 
+// A GPU draws any pass in no time, until it has shown that it does not.
+Renderer::State::Cost Renderer::State::costOf(const std::string& pass) const {
+    const auto known = costs.find(pass);
+    if (known != costs.end()) return known->second;
+    return {context.caps().software ? kDraggedMs / kFirst : 1e-6, kFirst};
+}
+
+// How much of the time that its passes take together is over, about, [0,1].
+float Renderer::State::shareOfRunning() const {
+    return running->graph.share([this](const std::string& pass) { return costOf(pass).perPixel; });
+}
+
 // Gives the GPU what takes as long as a batch may, or one portion of a pass that was never drawn.
 void Renderer::State::submit() {
-    constexpr int kFewest = 1 << 12, kFirst = 1 << 15; // pixels: of any pass, of one that was never drawn
     const double longest = dragged ? kDraggedMs : kBatchMs;
-    // A GPU draws any pass in no time, until it has shown that it does not.
-    const bool isSlow = context.caps().software;
-    const Cost guess{isSlow ? kDraggedMs / kFirst : 1e-6, kFirst};
-    const auto costOf = [&](const std::string& pass) {
-        const auto known = costs.find(pass);
-        return known == costs.end() ? guess : known->second;
-    };
     const auto most = [&](const std::string& pass) {
         const Cost cost = costOf(pass);
-        const int step = isSlow ? 2 * cost.pixels : std::numeric_limits<int>::max();
+        const int step = context.caps().software ? 2 * cost.pixels : std::numeric_limits<int>::max();
         return std::max(kFewest, int(std::min(double(step), longest / cost.perPixel)));
     };
     const double begun = nowMs();
@@ -96,7 +101,7 @@ void Renderer::State::submit() {
         if (!portion) break;
         const int pixels = std::max(portion->pixels, kFewest);
         parts.push_back({portion->pass, pixels});
-        const auto [known, isFirst] = costs.try_emplace(portion->pass, guess);
+        const auto [known, isFirst] = costs.try_emplace(portion->pass, costOf(portion->pass));
         hasFirst |= isFirst;
         Cost& cost = known->second;
         cost.pixels = std::max(pixels, kFirst);

@@ -210,6 +210,8 @@ struct Renderer::State {
     double recordMs = 1;                  // that it took to record what is drawn for one of them
     double sliceMs = 0;                   // that the sum took
     double lightMs = 1, restMs = 1;       // of a pixel: one of them, and the rest, of the stage before
+    double stageBegan = 0;                // ms: when its first pass did
+    double wholeMs = 0;                   // that the last sample of the pixels took; 0: there is none
     Progress told;                        // what advance() said last
     double workMs = 0, planMs = 0;
     int drawsBefore = 0, passes = 0;
@@ -274,6 +276,8 @@ struct Renderer::State {
     Status work(double until);
     bool runSome(double until);
     std::size_t mostInFlight() const;
+    Cost costOf(const std::string& pass) const;
+    float shareOfRunning() const;
     void submit();
     void retire(double until);
     void drop();

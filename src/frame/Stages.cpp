@@ -104,6 +104,7 @@ void Renderer::State::start(const scene::Scene& asked, std::uint64_t newRevision
     objects = std::move(standing);
     makeTargets();
     sample = samples = 0;
+    wholeMs = 0;
     told = {};
     whole = false;
     surfaceDrawn = surfaceShown = shownKey == surfaceKeyOf(scene); // light alone may have changed
@@ -190,10 +191,14 @@ float Renderer::State::shareOfStage(const scene::Scene& scene) const {
     if (!hasLights) return 0;
     float done = float(next);
     if (running && running->work == Running::Work::Slice)
-        done += running->graph.share() * float(std::max(1, running->end - next));
+        done += shareOfRunning() * float(std::max(1, running->end - next));
     else if (running)
-        done += running->graph.share() * restWorth();
-    return done / (float(lights.size()) + restWorth());
+        done += shareOfRunning() * restWorth();
+    const float share = done / (float(lights.size()) + restWorth());
+    // What light is worth beside the rest is misjudged where the stage before drew what stays, such as
+    // caustics.
+    const bool isKnown = stages[stage].sample > 0 && wholeMs > 0;
+    return isKnown ? std::min(share, float((nowMs() - stageBegan) / wholeMs)) : share;
 }
 
 Progress Renderer::State::progressOf(const scene::Scene& scene, Effort effort) const {
@@ -384,6 +389,7 @@ Status Renderer::State::slice(const scene::Scene& scene) {
     made->end = geometric ? int(lights.size()) : sliceEnd();
     if ((made->end < int(lights.size()) || next > 0) && !scratch)
         scratch = graph::Texture(context.device(), sum.desc(), "frame.scratch");
+    if (next == 0) stageBegan = begins; // what is made once does not count
     const int count = std::max(1, made->end - next);
     Status begun = begin(std::move(made), Running::Work::Slice, [this](Running& slice) {
         return recordSlice(slice.graph, slice.picture, slice.end);
@@ -441,6 +447,7 @@ Status Renderer::State::finishStage(const Moment& moment) {
     isNew = false;
     stats.lights = int(lights.size());
     whole = !stages[stage].coarse;
+    if (whole) wholeMs = nowMs() - stageBegan;
     if (sample == 0) averaged = false;
     eyeShown = middleEyeOf(moment.scene);
     if (size == screen)

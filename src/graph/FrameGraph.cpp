@@ -304,14 +304,14 @@ std::optional<FrameGraph::Portion> FrameGraph::step(TexturePool& pool,
     while (next_ < passes_.size() && !passes_[next_].live)
         ++next_;
     if (next_ == passes_.size()) return std::nullopt;
-    const Pass& pass = passes_[next_];
+    Pass& pass = passes_[next_];
     const bool begins = !draws_;
     if (begins) {
         acquire(pass, pool);
         Recorder recorder;
         pass.execute(PassResources(*this, pass, pool), recorder);
         draws_ = std::move(recorder.draws);
-        drawsOfPass_ = draws_->size();
+        pass.draws = std::max<std::size_t>(1, draws_->size());
         row_ = 0;
     }
     PassTarget target = targetOf(pass, pool);
@@ -345,16 +345,21 @@ std::optional<FrameGraph::Portion> FrameGraph::step(TexturePool& pool,
     return Portion{pass.name, rows * size.x};
 }
 
-float FrameGraph::share() const {
-    if (next_ >= passes_.size()) return 1;
-    const Pass& pass = passes_[next_];
-    float begun = 0;
-    if (draws_ && !pass.targets.empty()) {
+float FrameGraph::share(const std::function<double(const std::string&)>& cost) const {
+    double done = 0, all = 0;
+    for (std::size_t i = 0; i < passes_.size(); ++i) {
+        const Pass& pass = passes_[i];
+        if (!pass.live) continue;
         const Target& target = pass.targets.front();
-        const int rows = resources_[std::size_t(target.texture)].desc.sizeOf(target.level).y;
-        begun = (float(drawsOfPass_ - draws_->size()) + float(row_) / float(rows)) / float(drawsOfPass_);
+        const ivec2 size = resources_[std::size_t(target.texture)].desc.sizeOf(target.level);
+        const double ofDraw = cost(pass.name) * size.x * size.y, draws = double(pass.draws);
+        all += draws * ofDraw;
+        if (i < next_)
+            done += draws * ofDraw;
+        else if (i == next_ && draws_)
+            done += (draws - double(draws_->size()) + double(row_) / size.y) * ofDraw;
     }
-    return (float(next_) + begun) / float(passes_.size());
+    return next_ < passes_.size() && all > 0 ? float(done / all) : 1;
 }
 
 void FrameGraph::abandon(TexturePool& pool) {

@@ -120,8 +120,10 @@ public:
     /// @param most  pixels that may be drawn at once, by the name of their pass
     /// @return      nothing when all passes have run
     std::optional<Portion> step(TexturePool& pool, const std::function<int(const std::string&)>& most);
-    /// How much of the passes step() has run, [0,1]: by their number, and by rows in the one that has begun.
-    float share() const;
+    /// How much of what the passes take step() has run, [0,1]: of the one that has begun by draws and rows.
+    ///
+    /// @param cost  of a pixel, by the name of its pass, in any unit
+    float share(const std::function<double(const std::string&)>& cost) const;
     /// Gives back the textures of passes that have not run to their end.
     void abandon(TexturePool& pool);
 
@@ -154,6 +156,7 @@ private:
         Query* query = nullptr;
         Execute execute;
         bool live = false;
+        std::size_t draws = 1; ///< known once it begins
     };
     class PassResources;
     bool isDepth(const Target& target) const;
@@ -174,7 +177,6 @@ private:
     std::size_t next_ = 0;                   ///< pass
     std::optional<std::vector<Draw>> draws_; ///< of a pass that has begun, those that are left
     int row_ = 0;                            ///< of the first of them
-    std::size_t drawsOfPass_ = 0;            ///< with those that have run
 };
 
 } // namespace lucent::graph

@@ -60,19 +60,22 @@ void Viewer::State::learnDownscale(double took) {
 
 // How long what is done now will take, going by what it has taken.
 void Viewer::State::estimate(const frame::Progress& progress) {
-    constexpr float kLeastShare = 0.01f; // less foretells nothing
+    // Less foretells nothing. Samples of the pixels take as long as each other.
+    const float leastShare = progress.task == frame::Task::Samples ? 0.01f : 0.05f;
     drawingProgress.reset();
     const double now = secondsNow(), past = now - phaseBegan;
     if (work.task != progress.task || progress.share < work.share || work.began < phaseBegan)
-        work = {progress.task, now, progress.share, progress.share, now};
+        work = {.task = progress.task, .began = now, .first = {}, .share = progress.share, .grown = now};
     if (progress.share > work.share) {
+        if (!work.first) work.began = now; // what is made once comes before the first part
+        if (!work.first) work.first = progress.share;
         work.share = progress.share;
         work.grown = now;
     }
     if (past < kLong || progress.complete || play.playing) return;
-    const float done = work.share - work.first;
+    const float done = work.share - work.first.value_or(work.share);
     std::optional<double> left;
-    if (done > kLeastShare) {
+    if (done > leastShare) {
         const double perDone = (1 - work.share) / done, since = now - work.grown;
         left = std::max((work.grown - work.began) * perDone - since, since * perDone);
     }

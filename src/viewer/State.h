@@ -86,11 +86,13 @@ struct Viewer::State {
     double previewTook = 0; // s: smoothed over those with as many pixels; 0: there is none
     bool isTypical = true;  // of a preview: nothing is drawn that later ones keep
     double phaseBegan = 0;  // s: of a preview, and then of what follows it
-    // What is done on the picture now: since when [s], how much of it was done then, how much is, since when.
+    // What is done on the picture now: since when [s], how much of it was done then, how much is, and since
+    // when.
     struct {
         frame::Task task = frame::Task::Settings;
         double began = 0;
-        float first = 0, share = 0;
+        std::optional<float> first; // none: nothing was done since
+        float share = 0;
         double grown = 0;
     } work;
     bool stopping = false;                          // no more work on this picture

@@ -463,11 +463,12 @@ TEST_F(FrameGraphTest, StepsRunDrawsOneByOneAndRowsOfThoseThatFillTheirTarget) {
     graph.keep(kept);
     ASSERT_TRUE(graph.compile().ok());
     std::vector<int> pixels;
-    std::vector<float> shares{graph.share()};
+    const auto same = [](const std::string&) { return 1.0; };
+    std::vector<float> shares{graph.share(same)};
     while (const auto portion = graph.step(pool, [](const std::string&) { return 35; })) { // three rows
         EXPECT_EQ(portion->pass, "mixed");
         pixels.push_back(portion->pixels);
-        shares.push_back(graph.share());
+        shares.push_back(graph.share(same));
     }
     const std::vector<float> expected{0, 1 / 3.f, (1 + 3 / 7.f) / 3, (1 + 6 / 7.f) / 3, 2 / 3.f, 1};
     ASSERT_EQ(shares.size(), expected.size());
@@ -487,7 +488,9 @@ TEST_F(FrameGraphTest, StepsEndWhereExecuteEndsAndHoldNoTexture) {
     addFinal({addMaker("b", {a})});
     ASSERT_TRUE(graph.compile().ok());
     const auto all = [](const std::string&) { return 1 << 20; };
+    const auto cost = [](const std::string& pass) { return pass == "a" ? 6.0 : 1.0; };
     ASSERT_TRUE(graph.step(pool, all).has_value());
+    EXPECT_FLOAT_EQ(graph.share(cost), 6 / 8.f) << "of three passes that are as large";
     graph.abandon(pool);
     EXPECT_FALSE(graph.step(pool, all).has_value());
     pool.trim();
