@@ -14,14 +14,17 @@ struct Frame : support::GlTest {
         scene.environment->map = white;
         views::samplingOf(scene).directions = lights;
     }
-    // Slice by slice.
-    void complete(Renderer& renderer, std::uint64_t revision) {
-        for (int slices = 0;; ++slices) {
-            const Result<Progress> progress = renderer.advance(scene, revision, {40, 30});
-            ASSERT_TRUE(progress.ok()) << progress.error().message;
-            if (progress->complete) return;
-            ASSERT_LT(slices, 1000);
+    // Slice by slice. @return what was said of each before the last
+    std::vector<Progress> complete(Renderer& renderer, std::uint64_t revision, bool isPreview = false) {
+        std::vector<Progress> said;
+        while (said.size() < 10000) {
+            const Result<Progress> progress = renderer.advance(scene, revision, {40, 30}, isPreview);
+            EXPECT_TRUE(progress.ok()) << progress.error().message;
+            if (!progress || progress->complete) return said;
+            said.push_back(*progress);
         }
+        ADD_FAILURE() << "the picture does not come to its end";
+        return said;
     }
     // "views.surface relief.light frame.display": the passes of explain(), in order.
     std::string passes() {
@@ -93,19 +96,15 @@ TEST_F(Frame, ItsTasksFollowEachOtherAndTheirSharesGrow) {
     Renderer renderer(*context);
     std::vector<Task> tasks;
     std::vector<float> shares;
-    for (int slices = 0;; ++slices) {
-        ASSERT_LT(slices, 10000);
-        const auto progress = renderer.advance(scene, 1, {40, 30});
-        ASSERT_TRUE(progress.ok());
-        if (progress->complete) break;
-        if (tasks.empty() || tasks.back() != progress->task) {
-            tasks.push_back(progress->task);
+    for (const Progress& progress : complete(renderer, 1)) {
+        if (tasks.empty() || tasks.back() != progress.task) {
+            tasks.push_back(progress.task);
             shares = {0};
         }
-        EXPECT_GE(progress->share, shares.back()) << nameOf(progress->task);
-        EXPECT_LE(progress->share, 1) << nameOf(progress->task);
-        shares.push_back(progress->share);
-        EXPECT_EQ(progress->task == Task::Samples, progress->samples > 0);
+        EXPECT_GE(progress.share, shares.back()) << nameOf(progress.task);
+        EXPECT_LE(progress.share, 1) << nameOf(progress.task);
+        shares.push_back(progress.share);
+        EXPECT_EQ(progress.task == Task::Samples, progress.samples > 0);
     }
     std::erase(tasks, Task::Picture); // which is small enough for a slice
     EXPECT_EQ(tasks, (std::vector{Task::Settings, Task::Surroundings, Task::Samples}));
@@ -117,16 +116,11 @@ TEST_F(Frame, AfterAWholePreviewTheSharesOfItsSamplesBegin) {
     technique::addSettings(scene);
     views::samplingOf(scene).pixelSamples = 256;
     Renderer renderer(*context);
-    for (int slices = 0; !renderer.advance(scene, 1, {40, 30}, true)->complete; ++slices)
-        ASSERT_LT(slices, 1000);
+    complete(renderer, 1, true);
     std::vector<float> shares;
-    for (int slices = 0;; ++slices) {
-        ASSERT_LT(slices, 10000);
-        const auto progress = renderer.advance(scene, 1, {40, 30});
-        ASSERT_TRUE(progress.ok());
-        if (progress->complete) break;
-        EXPECT_EQ(progress->task, Task::Samples);
-        shares.push_back(progress->share);
+    for (const Progress& progress : complete(renderer, 1)) {
+        EXPECT_EQ(progress.task, Task::Samples);
+        shares.push_back(progress.share);
     }
     ASSERT_GT(shares.size(), 1u);
     EXPECT_LT(shares.front(), 0.5f);
@@ -136,18 +130,12 @@ TEST_F(Frame, AfterAWholePreviewTheSharesOfItsSamplesBegin) {
 TEST_F(Frame, AnEnvironmentIsSummedInStagesToTheSameMean) {
     addEnvironment(300);
     Renderer renderer(*context);
-    int slices = 0;
-    float last = -1;
-    for (;; ++slices) {
-        const auto progress = renderer.advance(scene, 1, {40, 30});
-        ASSERT_TRUE(progress.ok());
-        EXPECT_GE(progress->share, last);
-        last = progress->share;
-        if (progress->complete) break;
-        ASSERT_LT(slices, 1000);
-    }
-    EXPECT_EQ(last, 1);
-    EXPECT_GE(slices, 2); // 20, 80 and 300 directions
+    const std::vector<Progress> said = complete(renderer, 1);
+    EXPECT_TRUE(std::is_sorted(said.begin(), said.end(), [](const Progress& one, const Progress& other) {
+        return one.share < other.share;
+    }));
+    EXPECT_EQ(renderer.advance(scene, 1, {40, 30})->share, 1);
+    EXPECT_GE(said.size(), 2u); // 20, 80 and 300 directions
     const int all = renderer.stats().lights;
     EXPECT_NEAR(all, 300, 30);
     // However the sum was sliced, the picture is that of all directions at once.
