@@ -12,7 +12,7 @@ const kUses = {
   none: 'Nothing: leave out',
 };
 const kMarkup = `
-<h2 id="uses-title">What is each picture for?</h2>
+<h2 id="uses-title"></h2>
 <ul></ul>
 <p role="alert"></p>
 <div class="choices"><button type="submit">Open</button><button type="button">Cancel</button></div>`;
@@ -77,6 +77,8 @@ export async function askUses(root, pictures) {
   dialog.setAttribute('aria-labelledby', 'uses-title');
   form.method = 'dialog';
   form.innerHTML = kMarkup;
+  const which = pictures.length > 1 ? 'each' : 'this';
+  form.querySelector('h2').textContent = `What is ${which} picture for?`;
   form.querySelector('ul').append(...(await rowsOf(pictures)));
   dialog.append(form);
   root.append(dialog);

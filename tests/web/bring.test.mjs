@@ -227,6 +227,7 @@ test('pictures whose names do not say what they are for are asked about', async 
 
   await drop(page, { 'photo.png': colorPng(8, 8, (x, y, channel) => [200, 100, 50][channel]) });
   await dialog.waitFor();
+  assert.equal(await dialog.getByRole('heading').textContent(), 'What is this picture for?');
   assert.equal(await dialog.getByLabel('photo.png').inputValue(), 'height');
   await page.keyboard.press('Escape');
   await dialog.waitFor({ state: 'detached' });
