@@ -195,8 +195,7 @@ float Renderer::State::shareOfStage(const scene::Scene& scene) const {
     else if (running)
         done += shareOfRunning() * restWorth();
     const float share = done / (float(lights.size()) + restWorth());
-    // What light is worth beside the rest is misjudged where the stage before drew what stays, such as
-    // caustics.
+    // Light and rest are misjudged where the stage before drew what stays, such as caustics.
     const bool isKnown = stages[stage].sample > 0 && wholeMs > 0;
     return isKnown ? std::min(share, float((nowMs() - stageBegan) / wholeMs)) : share;
 }
@@ -545,8 +544,8 @@ Result<Progress> Renderer::State::advance(const scene::Scene& asked, std::uint64
         }
     }
     Progress progress = progressOf(scene, effort);
-    if (progress.task == told.task && !told.complete)          // which a preview may have been
-        progress.share = std::max(progress.share, told.share); // estimates vary
+    // Estimates vary. A preview that was whole has said all of the task.
+    if (progress.task == told.task && !told.complete) progress.share = std::max(progress.share, told.share);
     return told = progress;
 }
 

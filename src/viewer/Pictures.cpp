@@ -67,8 +67,10 @@ void Viewer::State::estimate(const frame::Progress& progress) {
     if (work.task != progress.task || progress.share < work.share || work.began < phaseBegan)
         work = {.task = progress.task, .began = now, .first = {}, .share = progress.share, .grown = now};
     if (progress.share > work.share) {
-        if (!work.first) work.began = now; // what is made once comes before the first part
-        if (!work.first) work.first = progress.share;
+        if (!work.first) { // what is made once comes before the first part
+            work.first = progress.share;
+            work.began = now;
+        }
         work.share = progress.share;
         work.grown = now;
     }

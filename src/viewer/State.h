@@ -86,8 +86,7 @@ struct Viewer::State {
     double previewTook = 0; // s: smoothed over those with as many pixels; 0: there is none
     bool isTypical = true;  // of a preview: nothing is drawn that later ones keep
     double phaseBegan = 0;  // s: of a preview, and then of what follows it
-    // What is done on the picture now: since when [s], how much of it was done then, how much is, and since
-    // when.
+    // What is done on the picture now: since when [s], how much was done then, how much is, and since when.
     struct {
         frame::Task task = frame::Task::Settings;
         double began = 0;

@@ -40,8 +40,8 @@ export async function openStage() {
   return { browser, address: server.address, close };
 }
 
-// Runs in the page before its own scripts: notes contexts, frames, those that are still to come, and violations of the policy; encode() gives the
-// pixels of a picture.
+// Runs in the page before its own scripts: notes contexts, frames, those that are still to come, and violations of the
+// policy; encode() gives the pixels of a picture.
 function watch() {
   const seen = (window.seen = { contexts: [], frames: 0, wanted: new Set(), violations: [] });
   for (const kind of [self.OffscreenCanvas, HTMLCanvasElement].filter(Boolean)) {
